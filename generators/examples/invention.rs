@@ -1,5 +1,5 @@
-//! Draws inventions and prints them: `cargo run --example invention -- SEED [COUNT]`. With `--census`, prints instead
-//! how many draws each condition rejects.
+//! Draws inventions and prints them: `cargo run --example invention -- SEED [COUNT]`. With `--census`, prints the
+//! number of draws that each condition rejects instead.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 

@@ -1,6 +1,6 @@
-//! Writes the game of a kernel file, in a scene or with its type names, and a composed board for each demand, which
-//! nobody has won yet: `cargo run -p infinite-arcade-generators --example kernel -- FILE.toml FOLDER [SEED] [--variants]
-//! [--form=NAME] [--scene=NAME]`.
+//! Writes the game of a kernel file and levels of its course, in a scene or with the kernel's type names:
+//! `cargo run -p infinite-arcade-generators --example kernel -- FILE.toml FOLDER [SEED] [--variants] [--form=NAME]
+//! [--scene=NAME]`.
 
 use base::Seed;
 use engine::{Analysis, Game};

@@ -1,5 +1,5 @@
 //! Generates pushing puzzles that meet a target, and writes each game with its levels to its own folder. For puzzles
-//! among strays, prints how often a careful player wins them, by the number of actions between two looks.
+//! among strays, prints a careful player's win rates by the number of actions between two looks.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-generators --example puzzles -- OUT LEVELS PUSHES ACTIONS SIDE [RULES]...
@@ -15,7 +15,7 @@ use infinite_arcade_generators::levels::{
 use std::fs;
 use std::path::Path;
 
-/// The last commitment is longer than any level.
+/// The numbers of actions between two looks. The last number exceeds the length of any level.
 const COMMITMENTS: [usize; 6] = [1, 2, 5, 10, 20, 1000];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

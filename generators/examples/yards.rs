@@ -1,5 +1,5 @@
-//! Generates yards that meet a target, writes each game with its levels to its own folder, and prints how often a
-//! careful player wins them, by the number of actions between two looks.
+//! Generates yards that meet a target, and writes each game with its levels to its own folder. Prints a careful
+//! player's win rates by the number of actions between two looks.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-generators --example yards -- OUT LEVELS LEAST MOST SIDE [RULES]...
@@ -14,7 +14,7 @@ use infinite_arcade_generators::levels::YardConfig;
 use std::fs;
 use std::path::Path;
 
-/// The last commitment is longer than any level.
+/// The numbers of actions between two looks. The last number exceeds the length of any level.
 const COMMITMENTS: [usize; 6] = [1, 2, 5, 10, 20, 1000];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

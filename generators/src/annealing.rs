@@ -1,4 +1,4 @@
-//! Simulated annealing: a few chains of candidates, each of which accepts fewer and fewer steps for the worse as the
+//! Simulated annealing: a few chains of candidates. Each chain accepts fewer and fewer steps to worse candidates as the
 //! search proceeds.
 
 use crate::{Evaluation, Search, Variation};
@@ -6,24 +6,24 @@ use base::{Sampler, Seed};
 use std::cmp::Ordering;
 use std::collections::VecDeque;
 
-/// The number of seeds that a chain tries for a starting candidate before it gives up its turn.
+/// The number of seeds that a chain tries for a starting candidate before the chain skips its turn.
 const STARTS: usize = 16;
 
 /// The parameters of a search by annealing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnnealingConfig {
-    /// The total number of candidates to evaluate; the temperature schedule covers all of them.
+    /// The total number of candidates to evaluate. The temperature schedule covers all of them.
     pub evaluations: usize,
     /// The number of independent chains.
     pub chains: usize,
-    /// The decrease in objective, relative to the present candidate, that is accepted with probability 1/e at the
+    /// The decrease in objective, relative to the current candidate, that is accepted with probability 1/e at the
     /// start.
     pub warmest: f64,
-    /// The decrease that is accepted with probability 1/e at the end; greater than 0.
+    /// The decrease in objective that is accepted with probability 1/e at the end; greater than 0.
     pub coldest: f64,
-    /// The number of candidates to start each chain with; the chain continues from the best of them.
+    /// The number of starting candidates per chain. The chain continues from the best of them.
     pub starts: usize,
-    /// The number of consecutive candidates without an improvement since the chain's start, after which the chain
+    /// The number of consecutive candidates without an improvement over the best of the chain, after which the chain
     /// restarts.
     pub patience: usize,
 }
@@ -40,14 +40,14 @@ impl AnnealingConfig {
 /// Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983, "Optimization by simulated annealing") with an
 /// ask-and-tell interface for batches.
 ///
-/// Each of a few chains holds a present candidate and proposes neighbours of it. Among infeasible candidates only
-/// feasibility counts, among feasible ones only the objective, and a feasible candidate is never replaced by an
-/// infeasible one. The temperature falls geometrically with the number of evaluations reported; no clock is read. The
-/// neighbours of one batch are processed in order, each compared with the present candidate at that point. A chain that
-/// has stagnated restarts.
+/// Each chain holds a current candidate and proposes neighbours of it. Among infeasible candidates only feasibility
+/// counts, and among feasible ones only the objective. A feasible candidate is never replaced by an infeasible one. The
+/// temperature falls geometrically with the number of reported evaluations, and no clock is read. The neighbours of a
+/// batch are processed in order, and each is compared with the current candidate at that point. A chain that has
+/// stagnated restarts.
 ///
-/// Memory: two candidates per chain, and the best one. [`Search::ask`] returns nothing once it has proposed all
-/// candidates.
+/// Memory: two candidates per chain, and the best candidate. [`Search::ask`] returns an empty batch once it has
+/// proposed all candidates.
 #[derive(Debug)]
 pub struct Annealing<V: Variation> {
     variation: V,
@@ -56,7 +56,7 @@ pub struct Annealing<V: Variation> {
     chains: Vec<Chain<V::Candidate>>,
     /// The index of the chain whose turn is next.
     turn: usize,
-    /// The chains of the candidates that were proposed and not yet evaluated, in order.
+    /// The chains of the proposed candidates that have not been evaluated yet, in order.
     pending: VecDeque<usize>,
     asked: usize,
     told: usize,
@@ -67,19 +67,19 @@ pub struct Annealing<V: Variation> {
 
 #[derive(Debug)]
 struct Chain<C> {
-    /// Draws neighbours, and decides whether candidates are accepted.
+    /// A sampler that draws neighbours, and decides whether candidates are accepted.
     sampler: Sampler,
     present: Option<(C, Evaluation)>,
     /// The number of starting candidates still to be proposed.
     starts: usize,
     /// The best evaluation since the chain started.
     peak: Option<Evaluation>,
-    /// The number of candidates since `peak`.
+    /// The number of candidates since `peak` was set.
     stale: usize,
 }
 
 impl<V: Variation> Annealing<V> {
-    /// Creates a search.
+    /// Creates a search with the given variation and parameters.
     pub fn new(variation: V, config: AnnealingConfig, seed: Seed) -> Annealing<V> {
         let chain = |at: u64| Chain {
             sampler: seed.child("chain", at).sampler(),
@@ -174,7 +174,7 @@ impl<V: Variation> Search for Annealing<V> {
 }
 
 impl<C> Chain<C> {
-    /// Moves to the candidate, or stays at the present one.
+    /// Moves to the given candidate, or stays at the current candidate.
     fn take(&mut self, candidate: C, evaluation: Evaluation, temperature: f64, config: &AnnealingConfig) {
         if self.peak.as_ref().is_none_or(|peak| compare(&evaluation, peak) == Ordering::Greater) {
             self.peak = Some(evaluation.clone());
@@ -198,8 +198,8 @@ impl<C> Chain<C> {
     }
 }
 
-/// Compares feasible candidates by objective and infeasible ones by feasibility; every feasible one ranks above every
-/// infeasible one.
+/// Compares feasible candidates by objective, and infeasible candidates by feasibility. Every feasible candidate ranks
+/// above every infeasible one.
 fn compare(one: &Evaluation, two: &Evaluation) -> Ordering {
     let key = |evaluation: &Evaluation| {
         let feasible = evaluation.is_feasible();

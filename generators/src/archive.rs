@@ -1,4 +1,4 @@
-//! A grid of elites: the best candidate of each cell, where a candidate's measures determine its cell.
+//! A grid of elites, with the best candidate of each cell. A candidate's measures determine its cell.
 
 use crate::Evaluation;
 use std::collections::BTreeMap;
@@ -7,18 +7,18 @@ use std::iter::repeat;
 /// A candidate with its evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluated<C> {
-    /// The candidate.
+    /// The candidate itself.
     pub candidate: C,
     /// The candidate's evaluation.
     pub evaluation: Evaluation,
 }
 
-/// One measure as an axis of the grid: a range cut into bins of equal width.
+/// One measure as an axis of the grid: a range that is divided into bins of equal width.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// The name of the measure in reports.
     pub name: String,
-    /// The range that the bins divide, as (from, to). Values outside count as the first or the last bin.
+    /// The range that the bins divide, as (from, to). Values outside the range belong to the first or the last bin.
     pub range: (f64, f64),
     /// The number of bins.
     pub bins: usize,
@@ -35,7 +35,7 @@ impl Axis {
         self.bins.max(1)
     }
 
-    /// Returns the bin of a value. NaN counts as the lowest.
+    /// Returns the bin of a value. NaN belongs to the lowest bin.
     pub fn bin(&self, value: f64) -> usize {
         let share = (value - self.range.0) / (self.range.1 - self.range.0);
         // The cast saturates at 0 and takes NaN to 0.
@@ -48,7 +48,7 @@ impl Axis {
 pub enum AddStatus {
     /// The candidate is the first one in its cell.
     New,
-    /// The candidate replaced a worse one.
+    /// The candidate replaced a worse candidate.
     Improved,
     /// The archive does not keep the candidate.
     Rejected,
@@ -58,29 +58,29 @@ pub enum AddStatus {
 /// search spaces by mapping elites", 2015). Each cell also has a pocket of infeasible candidates that are close to
 /// feasible (Khalifa et al., "Talakat: Bullet Hell Generation through Constrained Map-Elites", 2018).
 ///
-/// Cells are numbered row-major, the last axis fastest; every iteration uses this order.
+/// Cells are numbered in row-major order, with the last axis varying fastest. Every iteration uses this order.
 #[derive(Clone, Debug)]
 pub struct Archive<C> {
     axes: Vec<Axis>,
     /// The maximum number of infeasible candidates in a cell.
     pocket_size: usize,
     elites: BTreeMap<usize, Evaluated<C>>,
-    /// The infeasible candidates by cell, from least to most infeasible; among equals, the youngest comes first. No
-    /// pocket is empty.
+    /// The infeasible candidates by cell, from least to most infeasible. Among equally infeasible candidates, the
+    /// youngest comes first. No pocket is empty.
     pockets: BTreeMap<usize, Vec<Evaluated<C>>>,
 }
 
 impl<C> Archive<C> {
-    /// Creates an empty archive that keeps up to `pocket_size` infeasible candidates in each cell. Its axes are the
-    /// measures of the evaluations, in their order.
+    /// Creates an empty archive that keeps up to `pocket_size` infeasible candidates per cell. The axes are the
+    /// measures of the evaluations, in the same order.
     pub fn new(axes: Vec<Axis>, pocket_size: usize) -> Archive<C> {
         Archive { axes, pocket_size, elites: BTreeMap::new(), pockets: BTreeMap::new() }
     }
 
-    /// Adds a candidate if it is good enough. A feasible one becomes the elite of its cell if its objective is higher
-    /// than the elite's. An infeasible one goes to the pocket and evicts the worst one if the pocket is full; among
-    /// equals, it evicts the oldest one, so that candidates of equal feasibility can still drift. Cost: O(log cells +
-    /// pocket).
+    /// Adds a candidate if it is good enough. Cost: O(log cells + pocket). A feasible candidate becomes the elite of
+    /// its cell if its objective is higher than the elite's. An infeasible candidate goes to the pocket, and evicts the
+    /// worst candidate if the pocket is full. Among equally infeasible candidates, the oldest is evicted, so that
+    /// candidates of equal feasibility can still drift.
     pub fn add(&mut self, candidate: C, evaluation: Evaluation) -> AddStatus {
         let cell = self.cell(&evaluation.measures);
         let judged = Evaluated { candidate, evaluation };
@@ -114,8 +114,8 @@ impl<C> Archive<C> {
     }
 
     /// Removes the elite of a cell because a closer look found it infeasible after all, and moves it to the pocket. The
-    /// cell is then free for another elite. Does nothing if `feasibility` is at least 1, the value of a feasible
-    /// candidate.
+    /// cell is then free for a new elite. The call has no effect if `feasibility` is at least 1, which is the value of
+    /// a feasible candidate.
     pub fn demote(&mut self, cell: usize, feasibility: f64) {
         if feasibility < 1.0
             && let Some(mut judged) = self.elites.remove(&cell)
@@ -125,7 +125,7 @@ impl<C> Archive<C> {
         }
     }
 
-    /// The axes.
+    /// Returns the axes of the grid.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
     }
@@ -135,8 +135,8 @@ impl<C> Archive<C> {
         self.axes.iter().map(Axis::len).product()
     }
 
-    /// Returns the cell for a list of measures. A missing measure counts as the lowest value; a measure without an axis
-    /// is ignored.
+    /// Returns the cell for a list of measures. A missing measure counts as the lowest value, and a measure without an
+    /// axis is ignored.
     pub fn cell(&self, measures: &[f64]) -> usize {
         let bins = self.axes.iter().zip(measures.iter().chain(repeat(&f64::NAN)));
         bins.fold(0, |cell, (axis, &measure)| cell * axis.len() + axis.bin(measure))
@@ -191,13 +191,13 @@ impl<C> Archive<C> {
         self.elites.len() as f64 / self.cells() as f64
     }
 
-    /// Returns the sum of the objectives of all elites; an empty cell counts as the worst objective, 0.
+    /// Returns the sum of the objectives of all elites. An empty cell counts as 0, the worst objective.
     pub fn qd_score(&self) -> f64 {
         // `sum` would return -0.0 for an empty archive.
         self.elites.values().fold(0.0, |sum, elite| sum + elite.evaluation.objective)
     }
 
-    /// Returns the elite with the highest objective; among equals, the one in the first cell.
+    /// Returns the elite with the highest objective. Among equally good elites, returns the one in the first cell.
     pub fn best(&self) -> Option<&Evaluated<C>> {
         self.elites.values().reduce(|best, elite| {
             if elite.evaluation.objective > best.evaluation.objective { elite } else { best }

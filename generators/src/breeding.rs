@@ -1,13 +1,13 @@
-//! Creation and breeding of candidates for populations and archives, without proposing any candidate twice.
+//! Creation and breeding of candidates for populations and archives. No candidate is proposed twice.
 
 use crate::Variation;
 use base::{Digest, Sampler, Seed};
 use std::collections::BTreeSet;
 
-/// The number of attempts to get an unseen candidate before the proposal is given up.
+/// The maximum number of attempts at an unseen candidate for one proposal.
 const TRIES: usize = 8;
 
-/// The key function: candidates with the same key count as the same.
+/// The key function. Candidates with the same key count as the same candidate.
 type Key<'a, C> = Box<dyn Fn(&C) -> Digest + Send + 'a>;
 
 /// Makes candidates that have not been proposed before.
@@ -17,7 +17,7 @@ pub(crate) struct Breeding<'a, V: Variation> {
     seed: Seed,
     /// The probability of crossing two parents.
     crossing: f64,
-    /// The number of proposals so far; each one draws from a seed of its own.
+    /// The number of proposals so far. Each proposal draws from its own seed.
     drawn: u64,
     /// The keys of all proposed candidates.
     seen: BTreeSet<Digest>,
@@ -34,7 +34,7 @@ impl<'a, V: Variation> Breeding<'a, V> {
         self.seed.child("proposal", self.drawn).sampler()
     }
 
-    /// Creates a new candidate from scratch; `None` if none of several seeds leads to an unseen candidate.
+    /// Creates a new candidate from scratch; `None` if several seeds lead to no unseen candidate.
     pub(crate) fn create(&mut self) -> Option<V::Candidate> {
         (0..TRIES).find_map(|_| {
             self.drawn += 1;
@@ -44,7 +44,7 @@ impl<'a, V: Variation> Breeding<'a, V> {
     }
 
     /// Breeds a new candidate from one or two parents. Two parents are crossed, and the child is then mutated half of
-    /// the time; a child of one parent is only mutated. A child that is already known is mutated further; returns
+    /// the time. A child of one parent is only mutated. A child that is already known is mutated further. Returns
     /// `None` if the child stays known.
     pub(crate) fn breed(
         &mut self,
@@ -69,7 +69,7 @@ impl<'a, V: Variation> Breeding<'a, V> {
         None
     }
 
-    /// Records a candidate; returns `true` if it was new.
+    /// Records a candidate. Returns `true` if the candidate was new.
     pub(crate) fn note(&mut self, candidate: &V::Candidate) -> bool {
         self.seen.insert((self.key)(candidate))
     }

@@ -3,7 +3,7 @@
 use crate::GenerateError;
 use base::Seed;
 
-/// A generator, which makes an object from a seed: the same seed gives the same object on every machine.
+/// A generator, which makes an object from a seed. The same seed gives the same object on every machine.
 pub trait Generator: Sync {
     /// The type of the result.
     type Output;
@@ -11,6 +11,6 @@ pub trait Generator: Sync {
     /// Generates the output for a seed.
     ///
     /// # Errors
-    /// Returns an error if the seed or the configuration gives no result.
+    /// Returns an error if the seed or the configuration leads to no result.
     fn generate(&self, seed: Seed) -> Result<Self::Output, GenerateError>;
 }

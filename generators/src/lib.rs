@@ -1,6 +1,6 @@
 //! Generators of levels and games: pure functions of a configuration and a seed.
 //!
-//! Generators never judge their own output: the crate `infinite-arcade-forge` evaluates the candidates.
+//! Generators never judge their own output. The crate `infinite-arcade-forge` evaluates the candidates.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod annealing;

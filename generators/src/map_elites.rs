@@ -27,13 +27,13 @@ base::with_defaults! {
     }
 }
 
-/// Constrained MAP-Elites: fills an [`Archive`], which is its result (Khalifa et al., "Talakat: Bullet Hell Generation through
-/// Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with Interactive Constrained
-/// MAP-Elites", 2019).
+/// Constrained MAP-Elites, which fills an [`Archive`] as its result (Khalifa et al., "Talakat: Bullet Hell Generation
+/// through Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with
+/// Interactive Constrained MAP-Elites", 2019).
 ///
-/// Parents and mates are elites, drawn uniformly from the filled cells. A fraction of the parents are infeasible,
-/// preferably from the pockets of empty cells next to filled ones, where the frontier can advance. No candidate is
-/// proposed twice.
+/// Parents and mates are elites, drawn uniformly from the filled cells. A fraction of the parents are infeasible. They
+/// are preferably taken from the pockets of empty cells next to filled cells, where the frontier can advance. No
+/// candidate is proposed twice.
 ///
 /// ```
 /// # use base as infinite_arcade_base;
@@ -82,8 +82,8 @@ pub struct MapElites<'a, V: Variation> {
 }
 
 impl<'a, V: Variation> MapElites<'a, V> {
-    /// Creates a search. Candidates with equal keys count as the same; the axes are the measures of the evaluations, in
-    /// their order.
+    /// Creates a search. Candidates with equal keys count as the same candidate. The axes are the measures of the
+    /// evaluations, in the same order.
     pub fn new(
         variation: &'a V,
         key: impl Fn(&V::Candidate) -> Digest + Send + 'a,
@@ -139,7 +139,7 @@ impl<'a, V: Variation> MapElites<'a, V> {
 impl<V: Variation> Search for MapElites<'_, V> {
     type Candidate = V::Candidate;
 
-    /// Returns fewer than `count` candidates only if the variation yields nothing new; a later call may return more.
+    /// Returns fewer than `count` candidates only if the variation yields nothing new. A later call may return more.
     /// Cost per candidate in addition to its variation: O(pockets × axes).
     fn ask(&mut self, count: usize) -> Vec<V::Candidate> {
         (0..count).filter_map(|_| self.propose()).collect()
@@ -154,14 +154,14 @@ impl<V: Variation> Search for MapElites<'_, V> {
     }
 }
 
-/// Draws an elite from an archive that has one.
+/// Draws an elite from an archive with at least one elite.
 fn elite<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated<C> {
     let at = sampler.below(archive.elites().len());
     archive.elites().nth(at).expect("an index below the length").1
 }
 
-/// Draws an infeasible candidate from an archive that has one: from an empty cell next to a filled one if possible,
-/// otherwise from any pocket.
+/// Draws an infeasible candidate from an archive with at least one. It comes from an empty cell next to a filled cell
+/// if possible, and otherwise from any pocket.
 fn infeasible<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated<C> {
     let is_filled = |cell: usize| archive.elite(cell).is_some();
     let at_frontier = |(cell, _): &(usize, &[Evaluated<C>])| {

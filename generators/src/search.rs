@@ -1,7 +1,7 @@
-//! Ask-and-tell search: a search proposes candidates, the caller evaluates them, and the search learns from the
+//! Ask-and-tell search. A search proposes candidates, the caller evaluates them, and the search learns from the
 //! results.
 //!
-//! A search is independent of the candidates and of their evaluation: the same three algorithms generate levels, rules,
+//! A search is independent of the candidates and of their evaluation. The same three algorithms generate levels, rules,
 //! or anything else that has a [`Variation`]. The interface follows Fontaine et al., "pyribs: A Bare-Bones Python
 //! Library for Quality Diversity Optimization" (2023).
 
@@ -12,24 +12,24 @@ pub trait Search {
     /// The type of the candidates.
     type Candidate;
 
-    /// Returns up to `count` candidates to evaluate next. They do not depend on the evaluator, or on the number of
-    /// threads.
+    /// Returns up to `count` candidates to evaluate next. The candidates do not depend on the evaluator, or on the
+    /// number of threads.
     fn ask(&mut self, count: usize) -> Vec<Self::Candidate>;
 
-    /// Records the evaluations of all candidates that were proposed, in the same order.
+    /// Records the evaluations of all proposed candidates, in the same order.
     fn tell(&mut self, evaluated: Vec<(Self::Candidate, Evaluation)>);
 }
 
 /// The evaluation of a candidate, as numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluation {
-    /// The degree to which the candidate meets the constraints, from 0.0 to 1.0: the mean of graded constraints. The
+    /// The degree to which the candidate meets the constraints, from 0.0 to 1.0, as the mean of graded constraints. The
     /// candidate is feasible only at 1.0.
     pub feasibility: f64,
     /// The quality of the candidate, from 0.0 to 1.0, which is compared only among feasible candidates.
     pub objective: f64,
-    /// The characteristics of the candidate, in the order of the measures that the judges declare: the axes of an
-    /// archive.
+    /// The characteristics of the candidate, in the order of the measures that the judges declare. They are the axes of
+    /// an archive.
     pub measures: Vec<f64>,
 }
 
@@ -46,13 +46,13 @@ pub trait Variation: Sync {
     /// The type of the candidates.
     type Candidate: Clone + Send + Sync;
 
-    /// Creates a candidate from scratch; `None` if that fails with the seed.
+    /// Creates a candidate from scratch; `None` if the creation fails with the seed.
     fn create(&self, seed: Seed) -> Option<Self::Candidate>;
 
     /// Returns a candidate that differs slightly from `parent`.
     fn mutate(&self, parent: &Self::Candidate, sampler: &mut Sampler) -> Self::Candidate;
 
-    /// Returns a candidate that combines parts of two others.
+    /// Returns a candidate that combines parts of two given candidates.
     fn cross(&self, one: &Self::Candidate, two: &Self::Candidate, sampler: &mut Sampler) -> Self::Candidate;
 }
 

@@ -44,7 +44,7 @@ fn main() {
     distributions(lists);
 }
 
-/// Prints each of our games with its nearest neighbours.
+/// Prints each corpus game with its nearest neighbours.
 fn neighbours(own: &[Formed], public: &[Formed]) {
     told("| game | nearest in the corpus | distance | nearest public game | distance |");
     told("|---|---|---|---|---|");

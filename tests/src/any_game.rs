@@ -9,7 +9,7 @@ use engine::syntax::{
 };
 use engine::{EFFECTS, ParameterKind, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS, effect_parameters};
 
-/// A game and a level for it, as texts. Most load strictly, and the others load as in the reference.
+/// A game and a level for it, as texts. Most such games load strictly, and all others load as in the reference.
 #[derive(Clone, Debug)]
 pub struct AnyGame {
     /// The text of the game.
@@ -52,7 +52,7 @@ struct Author<'c, 'b> {
     choices: &'c mut Choices<'b>,
     /// The types that have sprites, each with its effective class.
     leaves: Vec<(String, SpriteClass)>,
-    /// The parent types.
+    /// The types that have subtypes.
     groups: Vec<String>,
     /// `true` if the lowest row is ground, on which avatars and walkers stand.
     has_ground: bool,
@@ -341,7 +341,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Returns all required parameters, and some of the optional ones.
+    /// Returns all required parameters, and some optional parameters.
     fn effect_parameters(&mut self, effect: &str) -> Vec<Param> {
         let mut params: Vec<Param> = Vec::new();
         for (key, kind) in effect_parameters(effect) {

@@ -2,9 +2,9 @@
 
 use base::Sampler;
 
-/// Decisions read from bytes. Small decisions come from the front; [`Choices::from_end`] gives bytes from the back, so that
-/// changing one kind of decision does not shift the other. Past the end, every decision is the first option, which is always the
-/// simplest, so shorter inputs give simpler games.
+/// Decisions read from bytes. Small decisions come from the front. [`Choices::from_end`] gives bytes from the back, so
+/// that changing one kind of decision does not shift the other. Past the end, every decision is the first option, which
+/// is always the simplest, so shorter inputs give simpler games.
 #[derive(Clone, Debug)]
 pub struct Choices<'a> {
     bytes: &'a [u8],
@@ -26,14 +26,14 @@ impl<'a> Choices<'a> {
         self.bytes
     }
 
-    /// Returns the next byte, or 0.
+    /// Returns the next byte, or 0 if no bytes are left.
     pub fn byte(&mut self) -> u8 {
         let Some((&first, rest)) = self.bytes.split_first() else { return 0 };
         self.bytes = rest;
         first
     }
 
-    /// Returns the last byte, or 0.
+    /// Returns the last byte, or 0 if no bytes are left.
     pub fn from_end(&mut self) -> u8 {
         let Some((&last, rest)) = self.bytes.split_last() else { return 0 };
         self.bytes = rest;

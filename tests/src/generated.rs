@@ -148,8 +148,8 @@ pub(crate) fn sprite(sampler: &mut Sampler, names: &[String], hero: bool) -> Str
 /// The parameters that only some classes have.
 const OWN: [&str; 8] = ["limit", "value", "total", "prob", "spawnorientation", "cons", "spreadprob", "stype"];
 
-/// Every effect with its parameters. N stands for a sprite, I for a small number, S for a speed, P for a probability, B for a
-/// truth value, and E for an effect.
+/// Every effect with its parameters. N stands for a sprite, I for a small number, S for a speed, P for a probability, B
+/// for a truth value, and E for an effect.
 const EFFECTS: [&str; 72] = [
     "killSprite",
     "killSprite",

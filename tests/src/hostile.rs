@@ -1,6 +1,6 @@
 //! The hostile set: games that would exhaust, confuse or crash a careless engine, as files in `tests/suite/hostile/`.
 //!
-//! A case is `name.vgdl`, mostly with a level `name.txt`, and `name.expect`, whose lines are
+//! A case is `name.vgdl`, usually with a level `name.txt`, and `name.expect`, whose lines are
 //!
 //! ```text
 //! # why the case is there
@@ -9,8 +9,8 @@
 //! reference: refused too-large
 //! ```
 //!
-//! The last two give the result under each of the two ways to load a game: the distinct codes of the diagnostics, or
-//! the outcome and the number of ticks played.
+//! The last two lines give the result under each of the two ways to load a game. The result is the distinct codes of
+//! the diagnostics, or the outcome and the number of ticks played.
 
 use crate::{workspace_files, workspace_root};
 use base::Seed;
@@ -21,7 +21,7 @@ use std::path::PathBuf;
 /// The folder of the set, relative to the workspace.
 const FOLDER: &str = "tests/suite/hostile";
 
-/// One case.
+/// One case of the hostile set.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The file name without its extension.
@@ -68,7 +68,7 @@ impl Case {
         fs::write(&file, self.got()).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     }
 
-    /// Returns the expectation with its results replaced by the actual ones.
+    /// Returns the expectation, with its results replaced by the actual results.
     pub fn got(&self) -> String {
         let lines = self.expect.lines().map(|line| match line.split_once(':') {
             Some(("strict", _)) => format!("strict: {}\n", self.end(false)),

@@ -21,7 +21,7 @@ pub fn rethemed(description: &Description, sampler: &mut Sampler) -> Description
     tree
 }
 
-/// Changes all numbers that are sizes, keeping signs and zeros. Returns `None` if there are no such numbers.
+/// Changes all numbers that are sizes, without changing signs and zeros. Returns `None` if there are no such numbers.
 pub fn renumbered(description: &Description) -> Option<Description> {
     let mut tree = description.clone();
     let mut changed = false;
@@ -170,7 +170,7 @@ fn reorder_sprites(lines: &mut [SpriteLine], sampler: &mut Sampler) {
     lines.iter_mut().for_each(|line| reorder_sprites(&mut line.children, sampler));
 }
 
-/// Changes the order of partners, and possibly moves them to their own lines.
+/// Changes the order of partners, and sometimes moves them to their own lines.
 fn split(lines: Vec<InteractionLine>, sampler: &mut Sampler) -> Vec<InteractionLine> {
     let mut all = Vec::new();
     for mut line in lines {

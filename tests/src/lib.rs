@@ -1,7 +1,8 @@
-//! Helpers of the tests that span crates: the root and files of the workspace, and checks that must hold for any
-//! input ([`robustness`]).
+//! Helpers of the tests that span crates: the root and files of the workspace, and checks that must hold for any input
+//! ([`robustness`]).
 //!
-//! The tests themselves are in `tests/tests/it/`; `tidy/` there holds the rules that can be checked automatically.
+//! The tests themselves are in `tests/tests/it/`. The folder `tidy/` in it holds the rules that can be checked
+//! automatically.
 
 extern crate infinite_arcade_base as base;
 extern crate infinite_arcade_engine as engine;
@@ -36,8 +37,9 @@ pub fn workspace_root() -> PathBuf {
 
 /// Returns every file that belongs to the repository, relative to [`workspace_root`], sorted.
 ///
-/// Excluded are: top-level folders that `.gitignore` lists, such as `releases`; build output (any folder with cargo's
-/// `CACHEDIR.TAG`, and `target`); unfinished releases (`*.partial`); links; and hidden folders except `.cargo` and `.ci`.
+/// The following are excluded: top-level folders that `.gitignore` lists, such as `releases`; build output (any folder
+/// with cargo's `CACHEDIR.TAG`, and `target`); unfinished releases (`*.partial`); links; and hidden folders except
+/// `.cargo` and `.ci`.
 ///
 /// # Panics
 ///
@@ -79,8 +81,8 @@ pub fn rust_files() -> Vec<(PathBuf, String)> {
         .collect()
 }
 
-/// Returns the folder of the reference's public games, which are test data beside the repository. Prints a message and returns
-/// `None` if the folder is missing.
+/// Returns the folder of the reference's public games, which are test data outside the repository. If the folder is
+/// missing, prints a message and returns `None`.
 pub fn public_games() -> Option<PathBuf> {
     let games = workspace_root().join("../shared/gvgai/games");
     let found = games.is_dir();

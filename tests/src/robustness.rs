@@ -1,8 +1,8 @@
-//! Properties that must hold for any input. Each check takes bytes from any source: the fuzz targets in `tools/fuzz/` and
-//! the short runs in `tests/tests/it/robustness.rs` are one call each.
+//! Properties that must hold for any input. Each check takes bytes from any source. The fuzz targets in `tools/fuzz/`
+//! and the short runs in `tests/tests/it/robustness.rs` are one call each.
 //!
 //! - [`text`]: any text parses, compiles or gets diagnostics, and prints canonically.
-//! - [`level`]: any text is a level of a valid game or gets diagnostics.
+//! - [`level`]: any text is a level of a valid game, or gets diagnostics.
 //! - [`play`]: any actions on any valid game and level leave a sound state behind, tick after tick.
 
 use crate::any_game::any_game;
@@ -225,11 +225,13 @@ pub fn play(bytes: &[u8]) -> Seen {
 
 /// The number of ticks in the episode that is recorded and replayed.
 const EPISODE: usize = 24;
-/// The number of walks from states already seen, and the maximum number of ticks in each.
+/// The number of walks from states already seen.
 const WAYS: usize = 24;
+/// The maximum number of ticks in a walk.
 const WAY: usize = 4;
-/// The number of pairs of states with equal search keys that are played further, and the number of ticks to play.
+/// The number of pairs of states with equal search keys that are played further.
 const TWINS: usize = 4;
+/// The number of ticks for which such a pair of states is played further.
 const FUTURE: usize = 50;
 /// The work limit of a check, for all ticks together and including the work of checking sprites.
 const COST: usize = 300_000;
@@ -294,7 +296,8 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Plays and checks one tick: a copy taken before must stay unchanged, and a second copy must evolve equally.
+    /// Plays and checks one tick. A copy of the state taken before the tick must stay unchanged, and a second copy must
+    /// evolve equally.
     fn step(&mut self, state: &mut State, action: Action) {
         let before = state.clone();
         let (hash, over) = (state.state_hash(), state.is_over());
@@ -312,7 +315,7 @@ impl<'g> Walk<'g> {
         let mut copy = before;
         self.game.step_unscheduled(&mut copy, action, &mut ());
         if copy.outcome() == Outcome::Stopped(Limit::Work) {
-            // Prediction saves work, so the other state gets further before the limit is reached.
+            // Prediction saves work, so the other state gets further before it reaches the limit.
             return;
         }
         assert_eq!(copy.state_hash(), state.state_hash(), "a copy that foresees nothing goes the same way");
@@ -336,7 +339,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Checks that incrementally maintained values equal recomputed ones.
+    /// Checks that incrementally maintained values equal recomputed values.
     fn check(&mut self, state: &State) {
         assert_eq!(state.state_hash(), state.state_hash_from_scratch(), "tick {}", state.tick());
         let counts =
@@ -370,7 +373,7 @@ impl<'g> Walk<'g> {
         assert_eq!(observation.cells.len(), self.level.columns() * self.level.rows());
         let replayed =
             episode.replay(self.game, self.level).unwrap_or_else(|divergence| panic!("{divergence}"));
-        // Compare as text, because some speeds are NaN.
+        // Compare the states as text, because some speeds are NaN.
         let written = |state: &State| format!("{:?}", self.game.records(state));
         assert_eq!(written(&replayed), written(&state));
         if state.is_over() && self.cost < COST / 2 {
@@ -378,8 +381,8 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Takes many short walks from states already reached. If two walks lead to states with equal search keys but different
-    /// histories, both states are played further, side by side.
+    /// Takes many short walks from states already reached. If two walks lead to states with equal search keys but
+    /// different histories, both states are played further, side by side.
     fn explore(&mut self, choices: &mut Choices<'_>) {
         let start = self.start();
         let mut reached = vec![start.clone()];
@@ -424,11 +427,11 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Checks that states with equal keys have equal keys, outcomes and gains after the same actions. If nothing draws random
-    /// numbers, the random state is not part of the key and must not matter either.
+    /// Checks that states with equal keys still have equal keys, outcomes and gains after the same actions. If nothing
+    /// draws random numbers, the random state is not part of the key and must not matter either.
     ///
-    /// If an `abstraction` is given, its keys are compared. If the abstraction leaves out the tick, the later state may lose
-    /// because of that.
+    /// If an `abstraction` is given, its keys are compared. If the abstraction leaves out the tick, the later state may
+    /// lose for that reason.
     fn compare_futures(
         &mut self,
         one: &State,

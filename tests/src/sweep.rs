@@ -1,7 +1,8 @@
 //! The size and the seeds of randomised tests.
 //!
-//! An ordinary run uses a tenth of the cases, with fixed seeds. `cargo xtask sweep` uses all of them, with a fresh seed, which it
-//! puts into [`VARIABLE`] and prints. Tests that call [`many_cases`] run [`TIMES`] times as many.
+//! An ordinary run uses a tenth of the cases, with fixed seeds. `cargo xtask sweep` uses all cases, with a fresh seed,
+//! which it puts into [`VARIABLE`] and prints. Tests that call [`many_cases`] multiply the number of cases by the value
+//! of [`TIMES`].
 
 use base::Seed;
 
@@ -11,7 +12,7 @@ pub const VARIABLE: &str = "ARCADE_SWEEP";
 /// The environment variable that contains the factor for [`many_cases`].
 pub const TIMES: &str = "ARCADE_SWEEP_TIMES";
 
-/// Returns the number of [`cases`], multiplied by [`TIMES`] in a sweep.
+/// Returns the number of [`cases`], multiplied by the value of [`TIMES`] in a sweep.
 ///
 /// # Panics
 ///

@@ -1,4 +1,5 @@
-//! The kinds of values of VGDL's parameters, and example values: mostly realistic ones, and some extreme ones.
+//! The kinds of values of VGDL's parameters, and example values. Most of these values are realistic, and some
+//! are extreme.
 
 use crate::choices::Choices;
 
@@ -15,11 +16,11 @@ pub enum ValueKind {
     Probability,
     /// A size in cells.
     Size,
-    /// `True` or `False`.
+    /// The word `True` or `False`.
     Flag,
     /// A direction.
     Direction,
-    /// GRID or CONT.
+    /// The word `GRID` or `CONT`.
     Physics,
     /// The name of a colour.
     Color,
@@ -69,7 +70,7 @@ pub fn sprite_parameter(key: &str) -> Option<ValueKind> {
     })
 }
 
-/// Returns a whole number. One in eight is extreme.
+/// Returns a whole number. One number in eight is extreme.
 pub fn int(choices: &mut Choices<'_>) -> i32 {
     const TAME: [i32; 12] = [0, 1, 2, 3, 4, 5, 6, 8, 10, -1, -2, 20];
     const WILD: [i32; 6] = [i32::MAX, i32::MIN, i32::MAX - 1, -1000, 1_000_000, 1 << 16];
@@ -81,7 +82,7 @@ pub fn ticks(choices: &mut Choices<'_>) -> i32 {
     if choices.once_in(8) { int(choices) } else { choices.below(8) as i32 + 1 }
 }
 
-/// Returns a number as text. Some are not valid floats, and some are infinite.
+/// Returns a number as text. Some texts are not valid floats, and some numbers are infinite.
 pub fn number(choices: &mut Choices<'_>) -> &'static str {
     const TAME: [&str; 12] = ["1", "0.5", "0", "2", "0.25", "0.1", "-1", "3.5", "10", "0.75", "5", "-0.5"];
     const WILD: [&str; 8] = ["1e300", "-1e300", "1e999", "1e-320", "-0.0", "2147483648", "1e9", "0.000001"];
@@ -93,8 +94,8 @@ pub fn probability(choices: &mut Choices<'_>) -> &'static str {
     choices.pick(&["1", "0.5", "0.1", "0.9", "0", "1.0", "0.3", "2"])
 }
 
-/// Returns a value for a parameter that does not refer to sprites. Returns `None` for kinds that do, and for
-/// [`ValueKind::Fixed`].
+/// Returns a value for a parameter that does not refer to sprites. Returns `None` for kinds that refer to
+/// sprites, and for [`ValueKind::Fixed`].
 pub fn value(kind: ValueKind, choices: &mut Choices<'_>) -> Option<String> {
     Some(match kind {
         ValueKind::Int => int(choices).to_string(),

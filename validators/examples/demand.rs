@@ -1,4 +1,4 @@
-//! Prints what levels demand, one line per level, and the levels of each tier.
+//! Prints the demands of levels, one line per level, and the levels of each tier.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-validators --example demand -- CALLS corpora/*
@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Returns the rows for a folder with a game and its levels; the search for each win takes up to `budget` calls.
+/// Returns the rows for a folder with a game and its levels. The search for each win takes up to `budget` calls.
 fn rows(folder: &Path, budget: u64) -> Result<Vec<String>, String> {
     let read = |file: &str| fs::read_to_string(folder.join(file));
     let source = read("game.vgdl").map_err(|error| format!("{}: {error}", folder.display()))?;

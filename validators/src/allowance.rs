@@ -1,7 +1,7 @@
 //! The budget of a validation: a number of forward-model calls, divided among the criteria.
 //!
-//! Minting does not need such a budget: its recipe limits each criterion separately. A designer sets one number and
-//! wants an answer after about that much work, whatever the game.
+//! Minting does not need such a budget, because its recipe limits each criterion separately. A designer sets one
+//! number and wants an answer after about that much work, whatever the game.
 
 use crate::measures::LadderConfig;
 use crate::thresholds::CheckedCriteria;
@@ -9,7 +9,7 @@ use agents::PortfolioConfig;
 use base::Seed;
 use engine::{Action, Game, Level, Meeting, Watch};
 
-/// The maximum work of a tick, as `engine` counts it, at which a call counts as one.
+/// The maximum work of a tick, in the units of `engine`, at which a call still counts as one call.
 const USUAL_WORK: u64 = 4096;
 /// The number of ticks that are played to estimate the work per tick of a level.
 const SAMPLED_TICKS: u64 = 16;
@@ -18,7 +18,7 @@ const SAMPLED_TICKS: u64 = 16;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Allowance {
     calls: u64,
-    /// The number of calls that one call counts as: more than one if ticks are unusually heavy.
+    /// The number of calls that one call counts as. It is more than one if ticks are unusually heavy.
     weight: u64,
 }
 
@@ -36,8 +36,8 @@ impl Watch for WorkCounter {
 }
 
 impl Allowance {
-    /// Returns the allowance for the given levels, which is smaller if the ticks of one of them are unusually heavy.
-    /// Cost: some ticks of each level.
+    /// Returns the allowance for the given levels. The allowance is smaller if the ticks of one of them are unusually
+    /// heavy. Cost: some ticks of each level.
     pub(crate) fn of<'a>(calls: u64, game: &Game, levels: impl IntoIterator<Item = &'a Level>) -> Allowance {
         let weight_of = |level: &Level| {
             let mut state = game.start(level, Seed::from_text("weigh"));
@@ -63,21 +63,22 @@ impl Allowance {
 /// The effort of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// All episodes and searches of the criteria: for reports.
+    /// All episodes and searches of the criteria. Reports use this effort.
     Full,
-    /// Like [`Effort::Full`], but players of `skill` stop as soon as the answer is practically certain: for minting,
-    /// where there are many candidates.
+    /// Like [`Effort::Full`], except that players of `skill` stop as soon as the answer is practically certain.
+    /// Minting uses this effort, because it has many candidates.
     Sequential,
     /// A number of forward-model calls for each level, and for the game over all its levels, divided among all
-    /// criteria. Together they take up to about eight times as many, and at least the minimum for an answer. Work that
-    /// does not fit is stopped, and its answer is unknown. A tick with unusually much work counts as several calls.
+    /// criteria. All criteria together take up to about eight times this number, and at least the minimum for an
+    /// answer. Work that does not fit is stopped, and its answer is unknown. A tick with unusually much work counts as
+    /// several calls.
     Calls(u64),
 }
 
 /// The criteria, and the budgets of their judges for some levels.
 #[derive(Clone, Copy)]
 pub(crate) struct Setting<'a> {
-    /// The criteria. Use the methods for the numbers that the allowance limits.
+    /// The criteria. For numbers that the allowance limits, use the methods instead of this field.
     pub(crate) criteria: &'a CheckedCriteria,
     allowance: Option<Allowance>,
     is_sequential: bool,
@@ -98,12 +99,12 @@ impl<'a> Setting<'a> {
         Setting { criteria, allowance, is_sequential: effort == Effort::Sequential }
     }
 
-    /// Returns `full`, or the fraction `times / of` of the allowance if that is less.
+    /// Returns the smaller of `full` and the fraction `times / of` of the allowance.
     fn bounded(&self, full: u64, [times, of]: [u64; 2]) -> u64 {
         self.allowance.map_or(full, |allowance| allowance.share(times, of, 1).min(full))
     }
 
-    /// Returns the number of ticks of one episode of doing nothing.
+    /// Returns the number of ticks of one episode in which the player does nothing.
     pub(crate) fn idle_ticks(&self) -> usize {
         self.allowance.map_or(usize::MAX, |allowance| allowance.share(1, 16, 500) as usize)
     }
@@ -155,7 +156,7 @@ mod tests {
     use super::*;
     use crate::{Criteria, Criterion, GameReport, Judging, Panel, Report};
 
-    /// A game in which a moth reaches the goal at some time, rarely before the 1000th tick.
+    /// A game in which a moth reaches the goal at some time, but rarely before the 1000th tick.
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    moth > RandomNPC cooldown=60\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    m > moth\n  InteractionSet\n    avatar wall > stepBack\n    moth wall > stepBack\n    goal moth > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    Timeout limit=1000 win=False\n";
     const LEVEL: &str = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                            w\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwm                           gw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
 
@@ -167,7 +168,7 @@ mod tests {
         panel.judge(Judging::game(&game, &[level], Seed::from_text("allowance")))
     }
 
-    /// Returns the number of calls and of the ticks of all episodes.
+    /// Returns the number of calls, plus the ticks of all episodes.
     fn spent(report: &Report) -> u64 {
         let of = |judged: &crate::Judgement| {
             let ticks: usize = judged.finding.episodes.iter().map(|episode| episode.actions.len()).sum();

@@ -6,9 +6,9 @@ use engine::{Analysis, Episode, Game, Level};
 /// A level to judge, with the seed to use.
 #[derive(Clone, Copy)]
 pub struct Case<'a> {
-    /// The game.
+    /// The game of the level.
     pub game: &'a Game,
-    /// The level.
+    /// The level to judge.
     pub level: &'a Level,
     /// The source of the validator's own randomness.
     pub seed: &'a SeedPath,

@@ -6,8 +6,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::str::FromStr;
 
-/// Calls the macro `$with` with the table of all criteria, in the order of checking: the variant of [`Criterion`], its
-/// name, its [`Stage`] or its subject ([`About`]), its [`Cost`], and the module of its judge.
+/// Calls the macro `$with` with the table of all criteria, in the order of checking. A row has the variant of
+/// [`Criterion`], its name, its [`Stage`] or its subject ([`About`]), its [`Cost`], and the module of its judge.
 macro_rules! every_criterion {
     ($with:ident) => {
         $with! {
@@ -44,7 +44,7 @@ pub(crate) use every_criterion;
 /// The assumptions of a criterion of levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// The criterion does not depend on play, or its failure is the reason for skipping the others.
+    /// The criterion does not depend on play, or its failure is the reason for skipping other criteria.
     Start,
     /// The criterion examines episodes that get beyond the first tick.
     Play,
@@ -52,7 +52,7 @@ pub(crate) enum Stage {
     Search,
     /// The criterion examines the win.
     Win,
-    /// The criterion lets a ladder of players play, which may win although no search did; it is skipped on a level that
+    /// The criterion lets a ladder of players play, which may win although no search did. It is skipped on a level that
     /// nobody can win.
     Ladder,
 }
@@ -62,9 +62,9 @@ pub(crate) enum Stage {
 pub(crate) enum About {
     /// The players.
     Players,
-    /// Winning play: levels without a known win are left out.
+    /// Winning play. Levels without a known win are left out.
     Play,
-    /// The rules; doubts about them may be due to a level that nobody can win.
+    /// The rules. Doubts about the rules may be due to a level that nobody can win.
     Rules,
 }
 
@@ -88,7 +88,7 @@ macro_rules! define {
         games { $($game:ident = $game_name:literal, $about:ident, $game_cost:ident, $game_module:ident;)* }
         gates { $($gate:ident = $gate_name:literal, $gate_cost:ident, $gate_module:ident;)* }
     ) => {
-        /// A criterion of a level, or of a game over all its levels. The order is that of checking.
+        /// A criterion of a level, or of a game over all its levels. Criteria are ordered as they are checked.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Criterion {
             $(#[doc = concat!("`", $level_name, "`, of a level.")] $level,)*
@@ -149,7 +149,7 @@ impl Criterion {
         !self.of_level()
     }
 
-    /// Returns `true` for a gate: a criterion of a game that measures what people observe in play.
+    /// Returns `true` for a gate, which is a criterion of a game that measures what people observe in play.
     pub fn is_gate(self) -> bool {
         CriterionSet::GATES.contains(self)
     }
@@ -230,7 +230,7 @@ impl CriterionSet {
         self.0 == 0
     }
 
-    /// Returns the set with all criteria of another one.
+    /// Returns the set with all criteria of `others` added.
     #[must_use]
     pub const fn with(self, others: CriterionSet) -> CriterionSet {
         CriterionSet(self.0 | others.0)
@@ -242,7 +242,7 @@ impl CriterionSet {
         CriterionSet(self.0 & others.0)
     }
 
-    /// Returns the set without the criteria of another one.
+    /// Returns the set without the criteria of `others`.
     #[must_use]
     pub const fn without(self, others: CriterionSet) -> CriterionSet {
         CriterionSet(self.0 & !others.0)

@@ -6,15 +6,15 @@ use engine::{Game, Span};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// One observation.
+/// One observation of a validator.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
     /// The observation in words.
     pub text: String,
-    /// The tick; the first one is 1.
+    /// The tick of the observation. The first tick is 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tick: Option<usize>,
-    /// The cell as column and row, counted from 1 from the upper left.
+    /// The cell as column and row, counted from 1 at the upper left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cell: Option<(usize, usize)>,
     /// The line of the game file that the observation refers to.
@@ -40,7 +40,7 @@ impl Evidence {
         Evidence { rule: Some(rule), ..self }
     }
 
-    /// Adds advice.
+    /// Adds advice to the evidence.
     #[must_use]
     pub fn advise(self, advice: impl Into<String>) -> Evidence {
         Evidence { advice: Some(advice.into()), ..self }
@@ -52,10 +52,10 @@ impl Evidence {
 pub struct Line {
     /// The text of the line, in canonical spelling.
     pub text: String,
-    /// The line's position in the source text; empty for games that were built instead of parsed.
+    /// The line's position in the source text. It is empty for games that were built instead of parsed.
     #[serde(skip)]
     pub span: Span,
-    /// The number of the line in the source text, from 1; filled in by a caller that has the text.
+    /// The number of the line in the source text, counted from 1. A caller that has the text fills in this field.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
 }

@@ -7,12 +7,12 @@ use engine::{Episode, Game, Level};
 
 /// A subject for a [`Panel`](crate::Panel), with the settings for judging it.
 pub struct Judging<'a, S> {
-    /// The subject.
+    /// The subject to judge.
     pub subject: S,
     /// The source of all randomness of the judges.
     pub seed: SeedPath,
-    /// `true` to stop after the first unmet criterion and to explain no failures: for minting, where there are many
-    /// candidates.
+    /// `true` to stop after the first unmet criterion and to explain no failures. Minting uses this setting, because
+    /// it has many candidates.
     pub stop_at_first: bool,
     /// The receiver of each judgement on the level, or on the game over all its levels.
     pub observer: Option<Observer<'a>>,
@@ -20,26 +20,27 @@ pub struct Judging<'a, S> {
 
 /// A receiver of judgements that can cancel the judging.
 pub struct Observer<'a> {
-    /// Receives each judgement when it is made, and again if it changes later. The judging ends if it returns `false`.
+    /// Receives each judgement when it is made, and again if it changes later. The judging ends if the receiver
+    /// returns `false`.
     pub hear: &'a mut (dyn FnMut(&Judgement) -> bool + 'a),
-    /// Cancels the judging: once it returns `true`, the judging ends soon. The last judgement is then meaningless, and
+    /// Cancels the judging. Once it returns `true`, the judging ends soon. The last judgement is then meaningless, and
     /// is not passed to `hear`.
     pub stopped: Stopped<'a>,
 }
 
-/// A level.
+/// A level to judge.
 pub struct LevelSubject<'a> {
-    /// The game.
+    /// The game of the level.
     pub game: &'a Game,
-    /// The level.
+    /// The level to judge.
     pub level: &'a Level,
-    /// A known win; the criterion `winnable` searches for one regardless.
+    /// A known win. The criterion `winnable` searches for a win regardless.
     pub witness: Option<Episode>,
 }
 
 /// A game with its levels.
 pub struct GameSubject<'a> {
-    /// The game.
+    /// The game to judge.
     pub game: &'a Game,
     /// The game's levels, in order.
     pub levels: &'a [Level],
@@ -47,7 +48,7 @@ pub struct GameSubject<'a> {
 
 /// A game over all its levels, each of which has been judged alone.
 pub struct TogetherSubject<'a> {
-    /// The game.
+    /// The game to judge.
     pub game: &'a Game,
     /// The game's levels, in order.
     pub levels: &'a [Level],

@@ -1,8 +1,8 @@
-//! Judgements on games and levels: each criterion of a release is a separate validator.
+//! Judgements on games and levels. Each criterion of a release is a separate validator.
 //!
-//! A verdict has three values. *Pass* may carry a witness: an episode that replays. *Fail* gives a reason and may carry
-//! a counter-example. *Unknown* gives the calls spent: a level is never called unsolvable merely because the budget ran
-//! out.
+//! A verdict has three values. *Pass* may carry a witness, which is an episode that replays. *Fail* gives a reason and
+//! may carry a counter-example. *Unknown* gives the number of calls spent. A level is never called unsolvable merely
+//! because the budget ran out.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod allowance;

@@ -36,13 +36,13 @@ impl Panel {
         Panel { criteria, effort }
     }
 
-    /// Judges a level, a game with its levels, or a game over levels that have been judged.
+    /// Judges a level, a game with its levels, or a game over levels that have already been judged.
     pub fn judge<S: Subject>(&self, judging: Judging<'_, S>) -> S::Findings {
         S::judged_by(self, judging)
     }
 
-    /// Judges a game: first each level, with a seed derived from its text, so that the result does not depend on the
-    /// other levels; then all levels together.
+    /// Judges a game. Each level is judged first, with a seed derived from its text, so that the result does not depend
+    /// on the other levels. All levels are then judged together.
     fn judge_game(&self, judging: Judging<'_, GameSubject<'_>>) -> GameReport {
         let Judging { subject: GameSubject { game, levels }, seed, stop_at_first, observer } = judging;
         let stopped = observer.as_ref().map(|observer| observer.stopped);
@@ -235,13 +235,14 @@ impl Subject for TogetherSubject<'_> {
     }
 }
 
-/// Returns the finding for a criterion that is skipped, with the reason.
+/// Returns the finding for a criterion that is skipped for a reason.
 fn skipped(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
-/// Returns the reason if a verdict on the rules is only a consequence of levels that cannot be won or are over in their
-/// first tick, or is meaningless because all levels are like that.
+/// Returns the reason why a verdict on the rules should not count; `None` if it should. The verdict may be only a
+/// consequence of levels that cannot be won or are over in their first tick. It is meaningless if all levels are like
+/// that.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());
@@ -257,7 +258,7 @@ fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
             Some(if all == 1 { UNWINNABLE } else { "skipped: no level can be won" }.to_owned())
         }
         Verdict::Pass { .. } => None,
-        // A proof over all levels holds even if some cannot be won.
+        // A proof over all levels holds even if some levels cannot be won.
         Verdict::Fail { .. } => None,
         Verdict::Unknown { .. } if over > 0 => {
             Some(format!("skipped: the game is over in its first tick on {over} of {all} levels"))

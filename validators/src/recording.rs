@@ -8,9 +8,9 @@ use rayon::prelude::*;
 /// A level with the episodes that its validators played, from most to least informative.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded<'a> {
-    /// The level.
+    /// The level of the recording.
     pub level: &'a Level,
-    /// The episodes.
+    /// The recorded episodes.
     pub episodes: &'a [Episode],
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct Use {
 pub(crate) struct Usage {
     /// For each interaction line, the first executions in some episodes, alternating between levels.
     pub(crate) lines: Vec<Vec<Use>>,
-    /// For each type, `true` if a sprite of it was present or held.
+    /// For each type, `true` if a sprite of the type was present or held.
     pub(crate) types: Vec<bool>,
     /// `true` if at least one episode of every level is won.
     pub(crate) won: bool,
@@ -39,7 +39,7 @@ pub(crate) struct Usage {
 
 /// The maximum number of episodes to keep per interaction.
 const USES: usize = 24;
-/// The maximum number of ticks of a level's episodes to replay; the most informative episodes come first.
+/// The maximum number of ticks of a level's episodes to replay. The most informative episodes come first.
 const TICKS: u64 = 100_000;
 
 struct MeetingRecorder<'a> {
@@ -78,8 +78,8 @@ impl Usage {
         Usage::within(game, recording, TICKS)
     }
 
-    /// Replays the recording as [`Usage::of`] does, with about `most` ticks per level: the episode that exceeds the
-    /// limit is the last one replayed.
+    /// Replays the recording like [`Usage::of`], with about `most` ticks per level. The episode that exceeds the limit
+    /// is the last one replayed.
     pub(crate) fn within(game: &Game, recording: &[Recorded<'_>], most: u64) -> Usage {
         let most = most.min(TICKS);
         let numbered: Vec<(usize, &Recorded<'_>)> = recording.iter().enumerate().collect();
@@ -88,8 +88,8 @@ impl Usage {
         let mut usage = Usage::new(game);
         let levels: Vec<Usage> = numbered.par_iter().map(of_level).collect();
         for (line, all) in usage.lines.iter_mut().enumerate() {
-            // Take the first execution of every level, then the second: the effect of a rule may show on only one
-            // level.
+            // Take the first execution of every level, then the second, because the effect of a rule may show on only
+            // one level.
             let ranked =
                 (0..USES).flat_map(|rank| levels.iter().filter_map(move |of| of.lines[line].get(rank)));
             all.extend(ranked.copied().take(USES));
@@ -136,8 +136,8 @@ impl Usage {
 }
 
 /// Returns, for each interaction line, the level and the episode of up to 24 recorded executions, each in a different
-/// episode: a list of places to look for the effect of a rule. Cost: that of the episodes, at most 100,000 ticks per
-/// level.
+/// episode. The effect of a rule can be looked for in these episodes. Cost: that of the episodes, with at most 100,000
+/// ticks per level.
 pub fn executions(game: &Game, recording: &[Recorded<'_>]) -> Vec<Vec<[usize; 2]>> {
     let places = |uses: Vec<Use>| uses.iter().map(|at| [at.level, at.episode]).collect();
     Usage::of(game, recording).lines.into_iter().map(places).collect()
@@ -149,8 +149,8 @@ const MAX_WALKS: u64 = 400;
 const WALK_TICKS: usize = 40;
 
 /// Looks for executions of interactions that a recording does not show, by random walks from random moments of the
-/// episodes of each level. Each level takes up to `most` ticks and one more walk. Returns, for each level, the episodes
-/// that show something new; they are ordinary episodes.
+/// episodes of each level. Each level takes up to `most` ticks and one more walk. Returns, for each level, the ordinary
+/// episodes that show new executions.
 pub(crate) fn explore(
     game: &Game,
     recording: &[Recorded<'_>],
@@ -175,7 +175,7 @@ pub(crate) fn explore(
     numbered.par_iter().map(of_level).collect()
 }
 
-/// Takes a random walk and marks the new interactions that it shows. Returns the episode up to the last new
+/// Takes a random walk and marks the new interactions that the walk shows. Returns the episode up to the last new
 /// interaction.
 fn random_walk(
     game: &Game,
@@ -194,7 +194,7 @@ fn random_walk(
         return None;
     }
     let mut sampler = seed.sampler();
-    // The most informative episode comes first; every other walk starts from it.
+    // The most informative episode comes first. Every other walk starts from that episode.
     let among = if sampler.ratio(1, 2) { 1 } else { recorded.episodes.len() };
     let from = &recorded.episodes[sampler.below(among)];
     let start = sampler.below(from.actions.len().max(1));
@@ -243,7 +243,7 @@ pub(crate) fn record(
         explore(game, &recording, &usage, seed, most)
     };
     for (episodes, new) in episodes.iter_mut().zip(new) {
-        // Insert them after the witness, before episodes that may exceed the limit.
+        // Insert the walks after the witness, before episodes that may exceed the limit.
         let at = usize::from(!episodes.is_empty());
         episodes.splice(at..at, new);
     }

@@ -6,14 +6,14 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use serde::Serialize;
 
-/// The message for criteria that are skipped because the game is won or lost in its first tick, whatever the player
-/// does.
+/// The message for criteria that are skipped because the game is won or lost in its first tick, regardless of the
+/// player's actions.
 pub(crate) const OVER: &str = "skipped: the game is over in its first tick";
 
 /// The finding of one validator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judgement {
-    /// The criterion.
+    /// The criterion that was judged.
     pub criterion: Criterion,
     /// The finding of the criterion's validator.
     #[serde(flatten)]
@@ -41,13 +41,13 @@ impl Report {
         self.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass())
     }
 
-    /// Returns the finding of a criterion, if it was checked.
+    /// Returns the finding of a criterion; `None` if the criterion was not checked.
     pub fn finding(&self, criterion: Criterion) -> Option<&Finding> {
         let judgement = self.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
         Some(&judgement.finding)
     }
 
-    /// Returns the results of the ladder, if it was played.
+    /// Returns the results of the ladder; `None` if no ladder was played.
     pub fn ladder(&self) -> Option<&Ladder> {
         self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
     }
@@ -71,7 +71,7 @@ impl Report {
         first.any(|seen| seen.text == OVER)
     }
 
-    /// Takes the witness of a judgement. If the search found no win, a win by another player serves as well.
+    /// Takes over the witness of a judgement. If the search found no win, a win by a different player serves as well.
     pub(crate) fn accept(&mut self, judgement: &mut Judgement) {
         if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
             judgement.finding.verdict = Verdict::Pass { witness: Some(won) };
@@ -87,8 +87,8 @@ impl Report {
         won.min_by_key(|episode| episode.actions.len()).cloned()
     }
 
-    /// Returns all episodes that the validators played, from most to least informative: the witness, then the episodes
-    /// of the last validators.
+    /// Returns all episodes that the validators played, from most to least informative. The witness comes first, then
+    /// the episodes of the last validators.
     pub fn episodes(&self) -> Vec<Episode> {
         let played = self.judgements.iter().rev().flat_map(|judgement| {
             let shown = match &judgement.finding.verdict {

@@ -9,8 +9,9 @@ use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
 base::with_defaults! {
-    /// The thresholds of all criteria: the `[criteria]` table of a recipe. The page `docs/reference/validate.md` explains each
-    /// threshold. The defaults are for minting: they are cheap enough for many candidates.
+    /// The thresholds of all criteria, which are the `[criteria]` table of a recipe. The page
+    /// `docs/reference/validate.md` explains each threshold. The defaults are for minting, and are cheap enough for
+    /// many candidates.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Criteria {
@@ -102,8 +103,8 @@ fn wrong<T>(key: &'static str, message: impl Into<String>) -> Result<T, Criteria
 }
 
 impl Criteria {
-    /// Returns the criteria for a single game, including those that minting leaves out, but without `skill-overall`,
-    /// which may fail a good game only because it is too hard.
+    /// Returns the criteria for a single game, including those that minting leaves out. `skill-overall` is not
+    /// included, because it may fail a good game only because the game is too hard.
     pub fn full() -> Criteria {
         let all = Criteria::of_generated_games();
         Criteria { ask: all.ask.without(CriterionSet::of(&[Criterion::SkillOverall])), ..all }
@@ -121,7 +122,7 @@ impl Criteria {
         }
     }
 
-    /// Returns all criteria for levels and games, for generated games, of which there are many candidates.
+    /// Returns all criteria for the levels and games of generators, which have many candidates.
     pub fn of_generated_games() -> Criteria {
         Criteria { ask: CriterionSet::LEVEL.with(CriterionSet::GAME), ..Criteria::default() }
     }
@@ -131,10 +132,10 @@ impl Criteria {
         self.ask.contains(criterion)
     }
 
-    /// Checks the values; judges accept only checked criteria.
+    /// Checks the values. Judges accept only checked criteria.
     ///
     /// # Errors
-    /// Returns the first value that is out of range.
+    /// Returns an error for the first value that is out of range.
     pub fn check(&self) -> Result<CheckedCriteria, CriteriaError> {
         if self.includes(Criterion::SkillOverall) && !self.includes(Criterion::Skill) {
             return wrong("ask", "lists `skill-overall`, which needs the plays of `skill`: list both");
@@ -198,7 +199,7 @@ impl Criteria {
     }
 }
 
-/// Criteria whose thresholds are in range, as judges require. Narrowing them cannot fail.
+/// Criteria whose thresholds are in range, as judges require. Narrowing the criteria cannot fail.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckedCriteria {
     criteria: Criteria,

@@ -15,8 +15,8 @@ pub trait Validator: Sync {
     /// Judges the case. The same case gives the same answer on any number of threads.
     fn validate(&self, case: Case<'_>) -> Finding;
 
-    /// Judges the case as [`Validator::validate`] does, but can be cancelled: once `stopped` returns `true`, it returns
-    /// soon, and its finding is meaningless.
+    /// Judges the case like [`Validator::validate`], but can be cancelled. Once `stopped` returns `true`, the call
+    /// returns soon, and its finding is meaningless.
     fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
         let _ = stopped;
         self.validate(case)
@@ -26,15 +26,15 @@ pub trait Validator: Sync {
 /// A game with its levels and their recorded episodes.
 #[derive(Clone, Copy)]
 pub(crate) struct GameCase<'a> {
-    /// The game.
+    /// The game to judge.
     pub(crate) game: &'a Game,
     /// The analysis of the game's rules.
     pub(crate) analysis: &'a Analysis,
     /// The game's levels with the episodes that their validators played.
     pub(crate) recording: &'a [Recorded<'a>],
-    /// The ladder results of each level, if a ladder was played.
+    /// The ladder results of each level; `None` for a level without a played ladder.
     pub(crate) ladders: &'a [Option<&'a Ladder>],
-    /// The rules and types that these episodes show.
+    /// The rules and types that the recorded episodes show.
     pub(crate) usage: &'a Usage,
     /// The episodes of careless players, which the gates share.
     pub(crate) careless: &'a CarelessPlays<'a>,
@@ -44,8 +44,8 @@ pub(crate) struct GameCase<'a> {
 
 /// The judge of a criterion of a game over all its levels.
 pub(crate) trait GameValidator: Sync {
-    /// Returns `true` if the judge needs to know which rules the recording executes. If no judge does, the recording is not replayed, and no
-    /// random walks look for executions of the other rules.
+    /// Returns `true` if the judge needs to know which rules the recording executes. If no judge needs this, the
+    /// recording is not replayed, and no random walks look for executions of the other rules.
     fn asks_for_usage(&self) -> bool {
         false
     }
@@ -53,7 +53,7 @@ pub(crate) trait GameValidator: Sync {
     /// Judges the case. The same case gives the same answer on any number of threads.
     fn validate(&self, case: GameCase<'_>) -> Finding;
 
-    /// Judges the case as [`GameValidator::validate`] does, but can be cancelled: once `stopped` returns `true`, it
+    /// Judges the case like [`GameValidator::validate`], but can be cancelled. Once `stopped` returns `true`, the call
     /// returns soon, and its finding is meaningless.
     fn validate_until(&self, case: GameCase<'_>, stopped: Stopped<'_>) -> Finding {
         let _ = stopped;

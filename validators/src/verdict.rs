@@ -5,13 +5,13 @@ use crate::measures::ladder::{Ladder, Rate};
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// A verdict, with the observations and measurements made on the way.
+/// A verdict, with the observations and measurements behind it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// The answer.
+    /// The verdict of the validator.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// The win rate of the measured players, if any played.
+    /// The win rate of the measured players; `None` if no player was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<Rate>,
     /// The number of forward-model calls of a search, in addition to the calls of the measured episodes.
@@ -68,14 +68,14 @@ impl Finding {
         Finding { measured: Some(rate), ..self }
     }
 
-    /// Adds evidence.
+    /// Adds evidence to the finding.
     #[must_use]
     pub fn seen(mut self, evidence: impl IntoIterator<Item = Evidence>) -> Finding {
         self.evidence.extend(evidence);
         self
     }
 
-    /// Adds episodes.
+    /// Adds episodes to the finding.
     #[must_use]
     pub fn played(mut self, episodes: impl IntoIterator<Item = Episode>) -> Finding {
         self.episodes.extend(episodes);
@@ -89,7 +89,7 @@ impl Finding {
 pub enum Verdict {
     /// The criterion is met.
     Pass {
-        /// An episode that demonstrates the pass, if a single episode can.
+        /// An episode that demonstrates the pass; `None` if no single episode can.
         #[serde(skip)]
         witness: Option<Episode>,
     },
@@ -97,7 +97,7 @@ pub enum Verdict {
     Fail {
         /// The reason for the failure.
         reason: Reason,
-        /// An episode that demonstrates the failure, if a single episode can.
+        /// An episode that demonstrates the failure; `None` if no single episode can.
         #[serde(skip)]
         witness: Option<Episode>,
     },
@@ -119,7 +119,7 @@ impl Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: None }
     }
 
-    /// Returns a failure with an episode that shows it.
+    /// Returns a failure with an episode that demonstrates it.
     pub fn fail_with(reason: impl Into<String>, witness: Episode) -> Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: Some(witness) }
     }

@@ -1,4 +1,5 @@
-//! The page of the book with the help of every command, generated from the command line; the commands of all other pages.
+//! The page of the book with the help of every command, which is generated from the command line. This module also
+//! finds the commands in all other pages.
 
 use crate::usage::tests::for_each_verb;
 use clap::Command;
@@ -19,14 +20,14 @@ and `--memory` ([the command line](command-line.md)).
 A test compares this page with the program. `BLESS=1 cargo test -p infinite-arcade command_page` writes it again.
 ";
 
-/// Returns the page.
+/// Returns the page with the help of every command.
 fn page() -> String {
     let mut text = HEAD.to_owned();
     for_each_verb(&mut |path, verb| {
         if path == "arcade" {
             return;
         }
-        // Flags of every command are listed once, at the head of the page.
+        // Flags that every command accepts are listed once, at the head of the page.
         let own = verb.clone().term_width(COLUMNS).mut_args(|argument| {
             let is_shared =
                 argument.is_global_set() || ["help", "version"].contains(&argument.get_id().as_str());
@@ -82,7 +83,7 @@ fn commands(page: &str) -> Vec<String> {
     commands
 }
 
-/// Every command of the book names verbs and flags that the program has.
+/// Every command in the book uses subcommands and flags that the program has.
 #[test]
 fn the_commands_of_the_book_exist() {
     let mut root = crate::usage::command();

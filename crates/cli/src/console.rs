@@ -19,10 +19,10 @@ pub(crate) struct Console {
 
 #[derive(Default)]
 struct Output {
-    /// `true` once the reader has left (`arcade … | head`) or a write has failed. Nothing more is written then.
+    /// `true` once the reader has left (`arcade … | head`) or a write has failed. After that, nothing more is written.
     is_closed: bool,
     failure: Option<io::Error>,
-    /// `true` once a document has been written. A run writes at most one.
+    /// `true` once a document has been written. A run writes at most one document.
     is_documented: bool,
 }
 
@@ -98,7 +98,8 @@ impl Console {
         }
     }
 
-    /// Prints the content of a file for people, unchanged but safe for a terminal. Prints nothing if the user requested JSON.
+    /// Prints the content of a file for people, unchanged but safe for a terminal. Prints nothing if the user requested
+    /// JSON.
     pub(crate) fn file(&self, content: &str) {
         if !self.json {
             match io::stdout().is_terminal() {
@@ -118,7 +119,8 @@ impl Console {
         Ok(())
     }
 
-    /// Prints a line of JSON for people and programs. Subcommands that continue after their answer use it for their output.
+    /// Prints a line of JSON for people and programs. Subcommands that continue after their answer use this function
+    /// for their output.
     pub(crate) fn line(&self, value: &serde_json::Value) {
         self.json(&value.to_string());
     }
@@ -127,7 +129,7 @@ impl Console {
         self.out(format_args!("{}\n", in_ascii_escapes(text)), true);
     }
 
-    /// Prints a note to standard error, unless the user requested quiet.
+    /// Prints a note to standard error, unless the user requested quiet output.
     pub(crate) fn remark(&self, text: impl Display) {
         if !self.quiet {
             let _ = writeln!(io::stderr(), "{}", shown(&text.to_string()));
@@ -140,8 +142,8 @@ impl Console {
         Arc::new(move |text| remarks.remark(text))
     }
 
-    /// Prints the failure, even when quiet. Also prints it as a document if the user requested JSON and the subcommand has
-    /// written no document.
+    /// Prints the failure, even if the user requested quiet output. Also prints it as a document if the user requested
+    /// JSON and the subcommand has written no document.
     pub(crate) fn error(&self, failure: &Failure) {
         self.report(failure);
         self.error_document(failure);
@@ -179,7 +181,8 @@ impl Console {
     }
 }
 
-/// The elapsed time, for notes. No recorded output depends on it; `tests/tests/it/tidy/clocks.rs` lists all readers of clocks.
+/// The elapsed time, for notes. No recorded output depends on this time. `tests/tests/it/tidy/clocks.rs` lists all
+/// readers of clocks.
 pub(crate) struct Stopwatch(Instant);
 
 impl Stopwatch {
@@ -194,13 +197,13 @@ impl Stopwatch {
     }
 }
 
-/// Prints a note about an action that differs from the request, even when quiet.
+/// Prints a note about an action that differs from the request, even if the user requested quiet output.
 pub(crate) fn warn(text: impl Display) {
     let _ = writeln!(io::stderr(), "note: {}", shown(&text.to_string()));
 }
 
-/// Escapes the characters that [`visible_lines`] escapes, as JSON escapes. In a JSON document, such characters occur only in
-/// strings.
+/// Escapes the characters that [`visible_lines`] escapes, in the notation of JSON. In a JSON document, such characters
+/// occur only in strings.
 fn in_ascii_escapes(text: &str) -> Cow<'_, str> {
     if *visible_lines(text) == *text {
         return Cow::Borrowed(text);

@@ -1,5 +1,5 @@
-//! Recorded episodes that the user specifies: the files that `arcade validate --witness` and `arcade play --record` write, and
-//! the witnesses of a snapshot.
+//! Recorded episodes that the user specifies. They are the files that `arcade validate --witness` and
+//! `arcade play --record` write, and the witnesses of a snapshot.
 
 use crate::failure::Failure;
 use crate::input::{GameInput, Named, read_text};
@@ -27,7 +27,7 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
         Ok(Recorded::Witness(witness)) => Ok(witness.episode),
         Ok(Recorded::Episode(episode)) => Ok(episode),
         Err(_) => {
-            // The untagged enum's error only says that no variant fits; the error for an episode is more helpful.
+            // The untagged enum's error only says that no variant fits, so the error for an episode is more helpful.
             let error = serde_json::from_str::<Episode>(&text).err();
             let why = error.map_or(String::new(), |error| format!(" ({error})"));
             Err(malformed!(
@@ -38,8 +38,8 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
     }
 }
 
-/// Rejects, before the work starts, a path that an episode cannot be written to. Also rejects the game, its levels and the
-/// `others` that the command reads.
+/// Rejects, before the work starts, a path that an episode cannot be written to. Also rejects the paths of the game,
+/// its levels and the `others` that the command reads.
 pub(crate) fn check(path: &Path, input: &GameInput, others: &[&str]) -> Result<(), Failure> {
     let others = others.iter().map(Path::new);
     whole_file::check(path, &input.files().into_iter().chain(others).collect::<Vec<_>>())
@@ -72,7 +72,8 @@ pub(crate) fn recorded(
     Ok((named, level, episode))
 }
 
-/// Finds the level to show: the one that the user specified, else the one on which the episode was recorded, else the first.
+/// Finds the level to show. This is the level that the user specified, or else the level on which the episode was
+/// recorded, or else the first level.
 fn level(
     input: &GameInput,
     game: &Game,

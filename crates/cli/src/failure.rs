@@ -13,7 +13,7 @@ use std::path::Path;
 #[cfg(feature = "terminal")]
 use terminal::PlayError;
 
-/// The exit status for the answer no.
+/// The exit status for the answer "no".
 pub(crate) const NO: u8 = 1;
 /// The exit status for a malformed question.
 pub(crate) const MALFORMED: u8 = 2;
@@ -62,7 +62,8 @@ impl Failure {
         }
     }
 
-    /// Returns the failure of reading the file at `path`: the user specified a missing file, or the system denied access.
+    /// Returns the failure of reading the file at `path`. Either the user specified a missing file, or the system
+    /// denied access.
     pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
         let name = path.in_message();
         match error.kind() {
@@ -79,7 +80,8 @@ impl Failure {
         }
     }
 
-    /// Returns the failure of writing the file at `path`: the user specified an impossible path, or the system denied access.
+    /// Returns the failure of writing the file at `path`. Either the user specified an impossible path, or the system
+    /// denied access.
     pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
         let name = path.in_message();
         match error.kind() {
@@ -101,7 +103,7 @@ impl Failure {
         }
     }
 
-    /// Returns the failure for programs; `problems` locates each problem in a user's file.
+    /// Returns the failure as a document for programs. `problems` in it locates each problem in a user's file.
     pub(crate) fn document(&self) -> Value {
         let (kind, error) = match self {
             Failure::Malformed(error) => ("malformed", error),
@@ -163,7 +165,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Returns advice for this kind of error, if there is any.
+/// Returns advice for this kind of error; `None` if there is no advice.
 fn advice(kind: ErrorKind) -> Option<&'static str> {
     match kind {
         ErrorKind::PermissionDenied => Some("check the permissions of the file and of the folders above it"),

@@ -28,18 +28,18 @@ pub(crate) struct GameInput {
     /// The game's text, with the name that messages use for it.
     pub(crate) source: Named,
     pub(crate) title: String,
-    /// The game's file, or `None` for a corpus game.
+    /// The game's file; `None` for a corpus game.
     pub(crate) path: Option<PathBuf>,
     levels: Vec<LevelInput>,
-    /// The levels that the user specified, if any; otherwise all levels count.
+    /// The levels that the user specified. If the user specified none, all levels count.
     asked: Vec<LevelInput>,
-    /// Set once the user has been told which files were not recognised as levels.
+    /// A flag that is set once the user has been informed about files that were not recognised as levels.
     told: Arc<OnceLock<()>>,
 }
 
 #[derive(Clone, Debug)]
 struct LevelInput {
-    /// The number in the file's name: `lvl3.txt` is level 3.
+    /// The number in the file's name. For example, `lvl3.txt` is level 3.
     number: Option<usize>,
     place: LevelPlace,
 }
@@ -73,7 +73,7 @@ impl LevelInput {
 }
 
 impl GameInput {
-    /// Compiles the game; `as_reference` enables the reference engine's recovery from faults.
+    /// Compiles the game. `as_reference` enables the reference engine's recovery from faults.
     pub(crate) fn compile(&self, as_reference: bool) -> Result<Game, Failure> {
         let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
         load(&self.source.text).map_err(|problems| crate::diagnostics::failure(&self.source, &problems.0))
@@ -93,14 +93,14 @@ impl GameInput {
         self.levels.len()
     }
 
-    /// Returns the levels that the user specified in place of the game, or else the levels that come with it.
+    /// Returns the levels that the user specified in place of the game, or else the levels that come with the game.
     pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
         self.tell_strays();
         self.wanted().iter().map(LevelInput::read).collect()
     }
 
-    /// Reports, once, which files and folders beside the game look like levels but are not. Reports nothing if the user specified
-    /// levels.
+    /// Reports, once, the files and folders beside the game that look like levels but are not levels. Reports nothing
+    /// if the user specified levels.
     fn tell_strays(&self) {
         let Some(path) = self.path.as_deref().filter(|_| self.asked.is_empty()) else { return };
         let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -160,7 +160,7 @@ impl GameInput {
         self.levels()?.iter().map(|named| named.level(game)).collect()
     }
 
-    /// Returns the level that the user specified in place of the game, if there is one.
+    /// Returns the level that the user specified in place of the game; `None` if the user specified a game.
     pub(crate) fn asked(&self) -> Result<Option<Named>, Failure> {
         self.asked.first().map(LevelInput::read).transpose()
     }
@@ -169,7 +169,8 @@ impl GameInput {
         if self.asked.is_empty() { &self.levels } else { &self.asked }
     }
 
-    /// Returns the level that the user specified: a file, or the number of a level that comes with the game.
+    /// Returns the level that the user specified, either as a file or as the number of a level that comes with the
+    /// game.
     pub(crate) fn level(&self, name: &str) -> Result<Named, Failure> {
         self.find_level(name)?.read()
     }
@@ -260,7 +261,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     })
 }
 
-/// A file that the user specified: a game, or a level with the game beside it, if there is one.
+/// A file that the user specified. It is a game, or a level with the game beside it, if there is one.
 enum Found {
     Game(GameInput),
     Level(LevelInput, Option<GameInput>),
@@ -294,7 +295,7 @@ fn file(path: &Path) -> Result<Found, Failure> {
     Ok(Found::Level(level, Some(input)))
 }
 
-/// Returns the game in a file. Its levels are among `names`, the names of the files beside it.
+/// Returns the game in a file. The game's levels are among `names`, which are the names of the files beside the game.
 fn of_source(path: &Path, text: String, title: String, names: &[String]) -> GameInput {
     let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let levels = layout::levels(own, names.iter().map(String::as_str));
@@ -309,7 +310,7 @@ fn of_source(path: &Path, text: String, title: String, names: &[String]) -> Game
     }
 }
 
-/// Returns a failure with advice for a level without a game beside it: the game may be in the parent folder.
+/// Returns a failure with advice for a level without a game beside it. The game may be in the parent folder.
 fn lost_level(path: &Path) -> Failure {
     let name = path.in_message();
     let beside = games_in(folder_of(path)).unwrap_or_default();
@@ -355,11 +356,11 @@ fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
     )
 }
 
-/// The word that stands for all corpus games, unless a folder has that name.
+/// The word for all corpus games, unless a folder has that name.
 pub(crate) const CORPUS: &str = "corpus";
 
-/// Finds all games of an argument: the game that [`game`] finds, all games in a folder of games or of such folders, or the corpus
-/// games for `corpus`.
+/// Finds all games of an argument. These are the game that [`game`] finds, all games in a folder of games or of such
+/// folders, or the corpus games for `corpus`.
 pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     let path = Path::new(name);
     let found = paths::metadata(path)?;
@@ -386,8 +387,9 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Returns `true` if new games can be created at `place`. That is so if nothing exists there, or a folder that contains no game
-/// and no visible folders. A name with an extension counts as a file, and the name of a corpus game as a game.
+/// Returns `true` if new games can be created at `place`. This requires that nothing exists there, or that `place` is a
+/// folder that contains no game and no visible folders. A name with an extension counts as a file, and the name of a
+/// corpus game as a game.
 pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
     let Some(found) = paths::metadata(place)? else {
         let is_known = embedded::corpus()?.find(&place.to_string_lossy()).is_some();
@@ -401,7 +403,7 @@ pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
     Ok(!sorted_entries(place)?.iter().any(|path| path.is_dir() && !is_hidden(path)))
 }
 
-/// Returns the game or path of which `place`, which does not exist, may be a misspelling.
+/// Returns a game or path of which `place`, which does not exist, may be a misspelling.
 pub(crate) fn nearest_place(place: &Path) -> Result<Option<String>, Failure> {
     let corpus = embedded::corpus()?;
     let names = corpus.games.iter().map(|game| game.name.as_str());
@@ -414,8 +416,8 @@ fn has_whole_game(input: &GameInput) -> bool {
     stem.is_some_and(|stem| stem.eq_ignore_ascii_case("game"))
 }
 
-/// Finds the games in a list of arguments. A level selects itself for its game: it can be followed by more levels of that game,
-/// or by the game. A number, or a level without a game beside it, belongs to the game before it.
+/// Finds the games in a list of arguments. A level selects itself for its game. More levels of that game, or the game,
+/// can follow the level. A number, or a level without a game beside it, belongs to the game before it.
 pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
     let mut games: Vec<GameInput> = Vec::new();
     for name in names {
@@ -447,7 +449,8 @@ pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Returns a failure with advice for a folder without a game: it may be a release, whose games are in subfolders.
+/// Returns a failure with advice for a folder without a game. The folder may be a release, whose games are in
+/// subfolders.
 fn no_game_in(folder: &Path) -> Failure {
     let name = folder.in_message();
     let below = folder.join("games");
@@ -483,7 +486,7 @@ fn nearest_sibling(path: &Path) -> Option<String> {
     Some(folder.join(near).in_message().to_string())
 }
 
-/// Returns `true` if a text looks like a level: rows of equal width, and nothing that only games contain.
+/// Returns `true` if a text looks like a level, with rows of equal width and nothing that only games contain.
 fn is_level(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}').trim_end_matches(['\n', '\r']).replace("\r\n", "\n");
     let rows: Vec<&str> = text.split(['\n', '\r']).map(str::trim_end).collect();
@@ -499,7 +502,7 @@ fn is_level(text: &str) -> bool {
     rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(is_vgdl)
 }
 
-/// Returns `true` if a text is certainly a game: it has two of the sections, each on its own line.
+/// Returns `true` if a text is certainly a game, because it has two of the sections, each on its own line.
 fn is_game(text: &str) -> bool {
     let sections = ["SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
     text.split(['\n', '\r']).filter(|line| sections.contains(&line.trim())).count() > 1

@@ -1,9 +1,10 @@
-//! Signal handling: on Ctrl-C and similar signals, resumable work prints a hint before the program ends.
+//! Signal handling. On Ctrl-C and similar signals, resumable work prints a hint before the program ends.
 //!
-//! A verb whose work is kept on the disk calls [`watch`] before it starts, and [`defer`] when it is done. The first
-//! of SIGINT, SIGTERM, SIGHUP and SIGQUIT then prints a hint about `--resume` and ends the program with status 128 +
-//! signal, as in shells; a second one ends it at once. A signal that was ignored when the program started, as with
-//! `nohup`, stays ignored. SIGKILL cannot be caught, so the files on the disk must always be enough to resume.
+//! A subcommand that keeps its work on disk calls [`watch`] before the work starts, and [`defer`] when the work is
+//! done. The first of SIGINT, SIGTERM, SIGHUP and SIGQUIT then prints a hint about `--resume` and ends the program with
+//! status 128 + signal, as in shells. A second signal ends the program at once. A signal that was ignored when the
+//! program started, as with `nohup`, stays ignored. SIGKILL cannot be caught, so the files on disk must always suffice
+//! to resume.
 
 #[cfg(unix)]
 mod unix {
@@ -64,10 +65,10 @@ mod unix {
 #[cfg(unix)]
 pub(crate) use unix::{defer, watch};
 
-/// Does nothing on systems other than Unix, which end the program silently.
+/// Has no effect on systems other than Unix, which end the program silently.
 #[cfg(not(unix))]
 pub(crate) fn watch(_: impl FnOnce() + Send + 'static, _: String) {}
 
-/// Does nothing on systems other than Unix.
+/// Has no effect on systems other than Unix.
 #[cfg(not(unix))]
 pub(crate) fn defer() {}

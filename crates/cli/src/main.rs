@@ -1,4 +1,4 @@
-//! The `arcade` binary. Each subcommand has its own module; everything else is in the library crates.
+//! The `arcade` binary. Each subcommand has its own module. Everything else is in the library crates.
 
 #![allow(
     rustdoc::broken_intra_doc_links,
@@ -55,8 +55,8 @@ struct Cli {
     limits: threads::Limits,
 }
 
-/// Declares the subcommands, in the groups and the order of the help: the variant, and the module with its `Args` and `run`. The
-/// short help only lists the names of the subcommands after `more`.
+/// Declares the subcommands, in the groups and the order of the help. Each entry has the variant, and the module with
+/// its `Args` and `run`. The short help only lists the names of the subcommands after `more`.
 macro_rules! verbs {
     ($($group:literal {
         $($verb:ident: $module:ident),* $(,)?; more $($(#[$attribute:meta])* $rare:ident: $other:ident),* $(,)?
@@ -66,8 +66,8 @@ macro_rules! verbs {
             $($($verb(Box<verbs::$module::Args>),)* $($(#[$attribute])* $rare(Box<verbs::$other::Args>),)*)*
         }
 
-        /// The groups of the help: the title, the number of subcommands that the short help describes, and the number that it
-        /// only lists.
+        /// The groups of the help. Each group has a title, the number of subcommands that the short help describes, and
+        /// the number that it only lists.
         const GROUPS: &[(&str, usize, usize)] =
             &[$(($group, [$(stringify!($verb)),*].len(), [$(stringify!($rare)),*].len())),*];
 

@@ -9,15 +9,16 @@ use std::ops::Range;
 static DOCS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs");
 
 pub(crate) struct Page {
-    /// The argument of `arcade docs` that selects this page: the file's name, or the folder's name for its README.
+    /// The argument of `arcade docs` that selects this page. It is the file's name, or the folder's name for a folder's
+    /// README.
     pub(crate) name: String,
     /// The path below `docs/`, without the extension.
     path: String,
     /// The title in the contents page.
     pub(crate) label: String,
-    /// The depth in the contents page: 0 for a page of a section, more for pages listed by name only.
+    /// The depth in the contents page. It is 0 for a page of a section, and more for pages listed by name only.
     pub(crate) depth: usize,
-    /// Markdown.
+    /// The text of the page in Markdown.
     pub(crate) text: &'static str,
 }
 
@@ -26,7 +27,7 @@ pub(crate) struct Page {
 pub(crate) enum Section {
     /// Tutorials.
     Start,
-    /// Steps of single tasks.
+    /// Guides to single tasks.
     HowTo,
     /// Commands, keys, files and terms.
     Reference,
@@ -62,7 +63,7 @@ impl Section {
     }
 }
 
-/// The contents page, in the form of mdBook: headings of sections, and nested lists of links to pages.
+/// The contents page in the form of mdBook, with headings of sections, and nested lists of links to pages.
 const CONTENTS: &str = "SUMMARY.md";
 
 /// Pages that other pages have replaced, each with the page to read instead.
@@ -74,7 +75,7 @@ pub(crate) fn pages() -> Vec<Page> {
     contents.lines().filter_map(Page::listed).collect()
 }
 
-/// Returns the page that has replaced a page of this name.
+/// Returns the page that has replaced the page called `wanted`.
 pub(crate) fn replaced(wanted: &str) -> Option<&'static str> {
     REPLACED.iter().find(|(old, _)| *old == stem(wanted)).map(|(_, new)| *new)
 }
@@ -88,7 +89,7 @@ pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
     }
 }
 
-/// Returns the failure for a word that is neither a page nor in one.
+/// Returns the failure for a word that is neither a page nor in a page.
 pub(crate) fn absent(pages: &[Page], wanted: &str) -> Failure {
     let near = engine::nearest(wanted, pages.iter().map(|page| page.name.as_str()));
     let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
@@ -98,18 +99,18 @@ pub(crate) fn absent(pages: &[Page], wanted: &str) -> Failure {
 /// A page that contains the words searched for.
 pub(crate) struct Hit<'a> {
     pub(crate) page: &'a Page,
-    /// The best matching line: the title, or else a heading, if it contains the words.
+    /// The best matching line. This is the title, or else a heading, if it contains the words.
     pub(crate) line: String,
 }
 
-/// The points that a page scores for a line with a matching word: for the title, in proportion to its matching words; for a
-/// heading or a line of the first paragraph; for any other line.
+/// The points that a page scores for a line with a matching word. The three values are for the title, in proportion to
+/// its matching words, for a heading or a line of the first paragraph, and for any other line.
 const POINTS: [usize; 3] = [30, 8, 1];
 /// The maximum number of other lines that score.
 const COUNTED: usize = 10;
 
-/// The number of lines with a matching word from which a page for beginners counts as an explanation. Such a page ranks before
-/// all others.
+/// The minimum number of lines with a matching word at which a page for beginners counts as an explanation. Such a page
+/// ranks before all others.
 const EXPLAINED: usize = 3;
 
 /// Returns the pages that contain all words of `wanted`, best first.
@@ -160,12 +161,12 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
         let is_for_beginners = page.section() == Section::Start && lines >= EXPLAINED;
         hits.push(((is_for_beginners, points * weight), Hit { page, line: shown(line) }));
     }
-    // The sort is stable: pages with equal points stay in the order of the manual.
+    // The sort is stable, so pages with equal points stay in the order of the manual.
     hits.sort_by_key(|(points, _)| std::cmp::Reverse(*points));
     hits.into_iter().map(|(_, hit)| hit).collect()
 }
 
-/// Returns the words of a text in lower case; `killSprite` is two words.
+/// Returns the words of a text in lower case. For example, `killSprite` is two words.
 fn words(text: &str) -> impl Iterator<Item = String> + '_ {
     let is_inner = |c: char| c.is_alphanumeric();
     text.split(move |c| !is_inner(c))
@@ -182,7 +183,8 @@ fn words(text: &str) -> impl Iterator<Item = String> + '_ {
 /// The suffixes that inflect a word.
 const ENDINGS: [&str; 7] = ["", "s", "es", "ed", "ing", "er", "ers"];
 
-/// Returns `true` if a word is a form of a wanted one: `pushes` and `pushing` match `push`, and `boat` matches `boats`.
+/// Returns `true` if a word is a form of a wanted word. For example, `pushes` and `pushing` match `push`, and `boat`
+/// matches `boats`.
 fn is_form(own: &str, wanted: &str) -> bool {
     let stem = wanted.strip_suffix('s').unwrap_or(wanted);
     own == wanted || own.strip_prefix(stem).is_some_and(|end| ENDINGS.contains(&end))
@@ -208,7 +210,7 @@ fn shown(line: &str) -> String {
 /// The folder of the pages on codes of diagnostics.
 const DIAGNOSTICS: &str = "reference/diagnostics";
 
-/// Returns the name or path that a reader means by `prompts.md#turn` or `ontology/`.
+/// Returns the name or path in a reference such as `prompts.md#turn` or `ontology/`.
 fn stem(wanted: &str) -> &str {
     let wanted = wanted.split('#').next().unwrap_or_default();
     let wanted = wanted.strip_prefix("docs/").unwrap_or(wanted).trim_end_matches('/');
@@ -216,7 +218,7 @@ fn stem(wanted: &str) -> &str {
     wanted.strip_suffix("/README").unwrap_or(wanted)
 }
 
-/// Finds a page by its name or path, or by the end of its path: pages lay in other folders before.
+/// Finds a page by its name or path, or by the end of its path, because pages were in other folders before.
 fn find(pages: &[Page], wanted: &str) -> Option<usize> {
     let wanted = stem(wanted);
     let is_it = |page: &Page| page.name == wanted || page.path == wanted;
@@ -228,7 +230,7 @@ fn find(pages: &[Page], wanted: &str) -> Option<usize> {
 }
 
 impl Page {
-    /// Reads a line of the contents page: an item of a list that links to a page.
+    /// Parses a line of the contents page as an item of a list that links to a page.
     fn listed(line: &str) -> Option<Page> {
         let item = line.trim_start();
         let (label, file) = item.strip_prefix("- [")?.strip_suffix(')')?.split_once("](")?;
@@ -239,7 +241,8 @@ impl Page {
         Some(Page { name, path, label: label.replace('`', ""), depth: (line.len() - item.len()) / 2, text })
     }
 
-    /// Returns the page's folder below `docs/`, which is empty for a top-level page. A folder's own page lies in that folder.
+    /// Returns the page's folder below `docs/`, which is empty for a top-level page. A folder's own page lies in that
+    /// folder.
     pub(crate) fn folder(&self) -> &str {
         // A folder of images beside a page is not the page's own folder.
         match DOCS.get_file(format!("{}/README.md", self.path)) {
@@ -261,7 +264,8 @@ impl Page {
         self.text.lines().next().unwrap_or_default().trim_start_matches('#').trim()
     }
 
-    /// Returns the page with its links as text: the names of other pages in brackets, addresses and source files in parentheses.
+    /// Returns the page with its links as text. The names of other pages are in brackets, and addresses and source
+    /// files are in parentheses.
     pub(crate) fn plain(&self, pages: &[Page]) -> String {
         let mut plain = String::with_capacity(self.text.len());
         let mut done = 0;
@@ -409,7 +413,7 @@ mod tests {
             let found = first(wanted, 8);
             assert!(found.contains(&page.to_owned()), "{wanted}: {found:?}");
         }
-        // A page must contain all the words; a search for punctuation finds nothing.
+        // A page must contain all the words. A search for punctuation finds nothing.
         assert!(search(&pages, "boat qwertzuiop").is_empty() && search(&pages, "promts").is_empty());
         assert!(search(&pages, "").is_empty() && search(&pages, "-").is_empty());
         let hits = search(&pages, "planners");
@@ -433,7 +437,8 @@ mod tests {
         pages.iter().find(|page| page.name == name).map_or("", Page::title)
     }
 
-    /// The words of a beginner lead to the tutorials before all other pages, and to that about a first game among them.
+    /// A search for the words of a beginner lists the tutorials before all other pages. The tutorial about a first game
+    /// comes first among them.
     #[test]
     fn words_of_beginners_lead_to_the_tutorials() {
         let pages = pages();

@@ -1,4 +1,4 @@
-//! The players that measure a release's marks, built like those of evaluations.
+//! The players that measure a release's marks. They are built like the players of evaluations.
 
 use base::Seed;
 use evaluation::LevelMark;

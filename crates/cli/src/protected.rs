@@ -1,4 +1,4 @@
-//! Protection of releases: a file added to a release breaks its verification, or is published with it.
+//! Protection of releases. A file added to a release breaks its verification, or is published with the release.
 
 use crate::failure::Failure;
 use crate::shell;
@@ -8,8 +8,8 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// Rejects a path to write to if it lies in a release or in the withheld part of one, except in the release's `papers/` folder.
-/// Also rejects `-`, which stands for standard output in subcommands that can write there.
+/// Rejects a path to write to if the path lies in a release or in the withheld part of a release, except in the
+/// release's `papers/` folder. Also rejects `-`, which stands for standard output in subcommands that can write there.
 pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     if place == Path::new("-") {
         bail!(
@@ -57,13 +57,13 @@ pub(crate) fn publish(draft: Draft, files: Vec<pages::File>) -> Result<Vec<Strin
     Ok(files.into_iter().map(|file| file.name).collect())
 }
 
-/// Starts a draft like [`draft`], keeping the finished jobs of an interrupted one.
+/// Starts a draft like [`draft`], keeping the finished jobs of an interrupted draft.
 pub(crate) fn resumed(out: &Path) -> Result<Draft, Failure> {
     check(out)?;
     Draft::resume(out).map_err(Failure::from)
 }
 
-/// Returns the absolute path, following links in the part of it that exists.
+/// Returns the absolute path, following links in the existing part of the path.
 fn resolved(place: &Path) -> PathBuf {
     for above in place.ancestors() {
         let known = if above.as_os_str().is_empty() { Path::new(".") } else { above };

@@ -1,4 +1,4 @@
-//! The number of threads, and the memory limit for their searches. No output depends on them.
+//! The number of threads, and the memory limit for their searches. No output depends on these limits.
 
 use crate::console;
 use crate::failure::Failure;
@@ -9,7 +9,8 @@ use std::ffi::OsString;
 use std::sync::OnceLock;
 use std::thread::available_parallelism;
 
-/// The maximum number of threads in a pool. More would only wait for each other, and starting thousands takes minutes.
+/// The maximum number of threads in a pool. More threads would only wait for each other, and starting thousands takes
+/// minutes.
 const MAX_THREADS: usize = 256;
 
 /// The limits that the user sets for a run. No output depends on them.
@@ -28,8 +29,8 @@ pub(crate) struct Limits {
 static LIMITS: OnceLock<Limits> = OnceLock::new();
 
 impl Limits {
-    /// Starts the threads and limits the memory for their searches. Without this call, rayon would start as many threads as
-    /// `RAYON_NUM_THREADS` says, without a limit.
+    /// Starts the threads and limits the memory for their searches. Without this call, rayon would start the number of
+    /// threads in `RAYON_NUM_THREADS`, without a limit.
     pub(crate) fn apply(self) -> Result<(), Failure> {
         let threads = match self.jobs {
             Some(0) => bail!("--jobs takes a number of threads, at least 1"),
@@ -71,7 +72,7 @@ pub(crate) fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Re
     Ok(pool.map_err(failure)?.install(work))
 }
 
-/// Returns the number of threads that is used if the user gives none.
+/// Returns the number of threads to use if the user specifies none.
 fn usual() -> usize {
     #[expect(
         clippy::disallowed_methods,

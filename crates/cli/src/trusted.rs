@@ -37,7 +37,7 @@ impl TrustArgs {
         self.key.is_none()
     }
 
-    /// Reads the key, if one was given, so that a bad key is reported before the work starts.
+    /// Reads the key, if a key was given, so that a bad key is reported before the work starts.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         self.key.as_deref().map_or(Ok(()), |file| anchor(file).map(drop))
     }
@@ -72,7 +72,7 @@ impl TrustArgs {
         }
         let mut signed = Signatures::read(&folder)?.judge(name, root, &anchor);
         if let Anchor::Key(key) = &anchor {
-            // People know a key by its file.
+            // People recognise a key by its file.
             let (id, file) = (key.id(), file.in_message());
             let named = |problem: &String| {
                 problem.replace(&format!("the key {id}"), &format!("the key in {file} ({id})"))
@@ -98,9 +98,9 @@ pub(crate) struct OriginArgs {
 pub(crate) struct Origin {
     /// The root of the release.
     pub(crate) root: Digest,
-    /// `true` if the root was compared with one from another source.
+    /// `true` if the root was compared with a root from another source.
     pub(crate) root_compared: bool,
-    /// The result of checking the signatures, if they were checked.
+    /// The result of checking the signatures; `None` if they were not checked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) signed: Option<Signed>,
 }
@@ -176,7 +176,7 @@ pub(crate) struct SecretArgs {
 }
 
 impl SecretArgs {
-    /// Opens the secret keys, asking for the passwords of encrypted keys.
+    /// Opens the secret keys. Prompts for the passwords of encrypted keys.
     pub(crate) fn open(&self) -> Result<Vec<SecretKey>, Failure> {
         self.secret.iter().map(|file| open_secret(file, self.password_file.as_deref())).collect()
     }
@@ -192,7 +192,7 @@ pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
     }
 }
 
-/// Opens a secret key, asking for its password if it is encrypted.
+/// Opens a secret key. Prompts for its password if the key is encrypted.
 pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<SecretKey, Failure> {
     let named = |error: TrustError| malformed!("`{}`: {error}", file.in_message());
     let text = read_bounded(file, MAX_KEY_FILE)?;
@@ -204,7 +204,7 @@ pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<S
     SecretKey::open(&text, password.as_deref()).map_err(named)
 }
 
-/// Reads a password: the first line of a file, or hidden input on the terminal.
+/// Reads a password, which is the first line of a file, or hidden input on the terminal.
 pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Failure> {
     if let Some(file) = file {
         let Ok(text) = String::from_utf8(read_bounded(file, MAX_KEY_FILE)?) else {
@@ -243,7 +243,8 @@ fn keep_echo() {
 #[cfg(not(unix))]
 fn keep_echo() {}
 
-/// Converts the error: a missing or malformed file is a malformed question, and a disk failure is a failure of the environment.
+/// Converts the error. A missing or malformed file is a malformed question, and a disk failure is a failure of the
+/// environment.
 impl From<TrustError> for Failure {
     fn from(error: TrustError) -> Failure {
         match error {

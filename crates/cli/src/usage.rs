@@ -39,7 +39,7 @@ fn help_of_all() -> Command {
 /// The width of the help text, in columns.
 const COLUMNS: usize = 100;
 
-/// Returns the subcommands that users need first, in their groups, and the names of the others.
+/// Returns the subcommands that users need first, in their groups, and the names of all other subcommands.
 fn verbs_in_short(command: &Command) -> String {
     let mut verbs = command.get_subcommands();
     let mut groups = Vec::new();
@@ -170,7 +170,7 @@ fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Words for which the command line has a different subcommand: each row has a subcommand and its words.
+/// Words for which the command line has a different subcommand. Each row has a subcommand and its words.
 const OTHER_VERBS: [(&str, &[&str]); 6] = [
     ("new", &["create", "make", "init", "init-game", "new-game", "begin", "start"]),
     ("validate", &["check", "test", "lint", "judge"]),
@@ -180,7 +180,7 @@ const OTHER_VERBS: [(&str, &[&str]); 6] = [
     ("fmt", &["format", "convert"]),
 ];
 
-/// Suggests the subcommand that does what an unknown word means in other programs, if this command has such a subcommand.
+/// Suggests the subcommand that does what an unknown word means in other programs, if `arcade` has such a subcommand.
 fn with_own_verb(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
     let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidSubcommand) else { return error };
     let Some((verb, _)) = OTHER_VERBS.iter().find(|(_, words)| words.contains(&unknown.as_str())) else {
@@ -245,7 +245,7 @@ fn in_words(error: &clap::Error) -> Option<String> {
     ))
 }
 
-/// Returns the flags that do what an unknown flag means, instead of a flag that only looks similar.
+/// Returns the flags that have the meaning of an unknown flag, instead of a flag that only looks similar.
 fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let is_unknown = error.kind() == ErrorKind::UnknownArgument;
     let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg).filter(|_| is_unknown) else {

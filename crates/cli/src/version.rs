@@ -3,7 +3,7 @@
 use snapshots::version::CURRENT;
 use std::sync::LazyLock;
 
-/// The version, the generation and semantics that the build mints and replays, and the commit if the build recorded one:
+/// The version, the generation and semantics that the build mints and replays, and the commit if the build recorded it:
 /// `0.12.0 (GENERATION 12, SEMANTICS 3, commit 0123456789ab)`.
 static VERSION: LazyLock<String> = LazyLock::new(|| {
     let commit = option_env!("ARCADE_COMMIT").map_or(String::new(), |commit| format!(", commit {commit}"));

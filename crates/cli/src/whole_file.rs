@@ -8,8 +8,8 @@ use std::fs::{self, Metadata, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a whole file, like [`disk::write`]. Rejects the paths that [`check`] rejects. Devices and the streams of this process
-/// (`/dev/stdout`) are written in place.
+/// Writes a whole file like [`disk::write`], except that paths which [`check`] rejects are rejected. Devices and the
+/// streams of this process (`/dev/stdout`) are written in place.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     protected::check(path)?;
     let written = match Place::of(path)? {
@@ -21,7 +21,8 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     written.map_err(|error| Failure::write(path, error))
 }
 
-/// Rejects, before the work starts, a path that [`write`] would reject after it, and each of the `inputs` of the same command.
+/// Rejects, before the work starts, a path that [`write`] would reject after the work, and each of the `inputs` of the
+/// same command.
 pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     protected::check(path)?;
     Place::of(path)?;
@@ -47,8 +48,8 @@ enum Place {
 }
 
 impl Place {
-    /// Examines a path that the user specified. Others who can write to its folder may have put a link to a different file there,
-    /// or a pipe, which would block when it is opened.
+    /// Examines a path that the user specified. Other users who can write to its folder may have put a link to a
+    /// different file there, or a pipe, which would block when opened.
     fn of(path: &Path) -> Result<Place, Failure> {
         let name = path.in_message();
         if is_own_stream(path) {
@@ -93,7 +94,7 @@ fn is_character_device(found: &Metadata) -> bool {
     }
 }
 
-/// Returns the file that a link leads to, which need not exist, or `None` if the link leads back to itself.
+/// Returns the file that a link leads to, which need not exist; `None` if the link leads back to itself.
 fn target(link: &Path) -> Option<PathBuf> {
     match fs::canonicalize(link) {
         Err(error) if error.kind() == ErrorKind::NotFound => {

@@ -21,7 +21,7 @@ pub struct Completion {
 /// A word that can be inserted at a position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// The word.
+    /// The word that is offered.
     pub label: String,
     /// The kind of word.
     pub kind: ItemKind,
@@ -33,7 +33,7 @@ pub struct Item {
     pub insert: String,
 }
 
-/// The kind of a completion.
+/// The kind of a word in a completion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ItemKind {
     /// A sprite class.
@@ -100,7 +100,7 @@ impl<'a> Context<'a, '_> {
         let above = above.map(|line| line.place);
         match (above, self.line.map(|line| line.place)) {
             (None, _) => Place::Header,
-            // The line may look like a section because it is only half written.
+            // The line may look like a section only because it is half written.
             (Some(Place::Head(section) | Place::Body(section)), _) => Place::Body(section),
             (Some(Place::Header | Place::Outside), own) => own.unwrap_or(Place::Outside),
         }
@@ -295,8 +295,8 @@ mod tests {
 
     const GAME: &str = "BasicGame |\n    SpriteSet\n        fox > Missile orientation=RIGHT\n        den > SpawnPoint stype=fox\n    LevelMapping\n        f > fox\n    InteractionSet\n        fox wall > killSprite\n    TerminationSet\n        Timeout limit=9\n";
 
-    /// Checks the completions at the `|` of a text that replaces a part of the game: the words that must be offered, and the
-    /// words that must not.
+    /// Checks the completions at the `|` of a text that replaces a part of the game. `offered` are the words that must
+    /// be offered, and `others` are the words that must not be offered.
     #[track_caller]
     fn check(part: &str, instead: &str, offered: &[&str], others: &[&str]) {
         let game = GAME.replace('|', "");

@@ -3,11 +3,12 @@
 use crate::problems::{Problem, problems};
 use engine::{Diagnostics, syntax};
 
-/// Returns the text in canonical form: sections in order, an indent of four spaces, comments kept.
+/// Returns the text in canonical form. Sections are in order, indents are four spaces, and comments are kept.
 ///
 /// # Errors
 ///
-/// Returns the problems of the text if it has lines that cannot be parsed, because printing only the others would lose them.
+/// Returns the problems of the text if it has lines that cannot be parsed, because printing only the other lines would
+/// lose them.
 pub fn format(source: &str) -> Result<String, Vec<Problem>> {
     let (description, found) = syntax::parse(source);
     if Diagnostics::has_errors(&found) {

@@ -41,7 +41,8 @@ pub fn hover(source: &str, at: usize) -> Option<Hover> {
     Some(Hover { span: word.span, markdown })
 }
 
-/// Returns the explanation of the character at byte `at` of a level, which says what the character places in the game.
+/// Returns the explanation of the character at byte `at` of a level, which describes the sprites that the character
+/// places in the game.
 pub fn level_hover(source: &str, level: &str, at: usize) -> Option<Hover> {
     let (span, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);

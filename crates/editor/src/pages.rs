@@ -50,8 +50,8 @@ pub(crate) struct Row {
     pub(crate) meaning: String,
 }
 
-/// Returns the row of a line's parameter: from the page of the line's keyword, from those that the keyword extends, or from the
-/// page for all keywords of its kind.
+/// Returns the row of a line's parameter. It comes from the page of the line's keyword, from the pages that this
+/// keyword extends, or from the page for all keywords of its kind.
 pub(crate) fn row(owner: Owner<'_>, key: &str) -> Option<Row> {
     let found = |folder: &str, name: &str| text(folder, name).and_then(|page| row_of(page, key));
     match owner {
@@ -113,7 +113,7 @@ pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
     keys
 }
 
-/// Replaces the links in Markdown by their texts, because they lead to files that an editor does not have.
+/// Replaces the links in Markdown by their texts, because the links lead to files that an editor does not have.
 fn unlinked(markdown: &str) -> String {
     let mut out = String::with_capacity(markdown.len());
     let mut rest = markdown;

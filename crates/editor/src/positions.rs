@@ -1,11 +1,11 @@
-//! Positions as editors count them: in UTF-16 code units instead of bytes, and as lines with columns.
+//! Positions in the units of editors: UTF-16 code units instead of bytes, and lines with columns.
 
 /// The unit in which columns are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Bytes of UTF-8.
     Byte,
-    /// Code units of UTF-16, as JavaScript and the Language Server Protocol count.
+    /// Code units of UTF-16, as in JavaScript and the Language Server Protocol.
     Utf16,
 }
 
@@ -24,8 +24,8 @@ impl Unit {
         }
     }
 
-    /// Returns the byte offset that is `count` units from the start of `text`. It is at most the text's length, and never inside
-    /// a character.
+    /// Returns the byte offset that is `count` units from the start of `text`. The offset is at most the text's length,
+    /// and never inside a character.
     fn byte(self, text: &str, count: usize) -> usize {
         let mut passed = 0;
         for (at, c) in text.char_indices() {
@@ -43,7 +43,8 @@ pub fn utf16_of_byte(text: &str, at: usize) -> usize {
     Unit::Utf16.length(&text[..boundary(text, at)])
 }
 
-/// Returns the byte offset of the UTF-16 code unit `at`. It is at most the text's length, and never inside a character.
+/// Returns the byte offset of the UTF-16 code unit `at`. The offset is at most the text's length, and never inside a
+/// character.
 pub fn byte_of_utf16(text: &str, at: usize) -> usize {
     Unit::Utf16.byte(text, at)
 }
@@ -57,9 +58,9 @@ fn boundary(text: &str, at: usize) -> usize {
 /// A line and a column, both counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
-    /// The line.
+    /// The line, counted from 0.
     pub line: usize,
-    /// The column, in the chosen [`Unit`].
+    /// The column, counted from 0 in the chosen [`Unit`].
     pub column: usize,
 }
 
@@ -95,8 +96,8 @@ impl Lines {
         Position { line, column: unit.length(&text[self.starts[line]..at]) }
     }
 
-    /// Returns the byte offset of a position in the text. Columns beyond the line stand for its end, and lines beyond the text
-    /// for the text's end.
+    /// Returns the byte offset of a position in the text. Columns beyond the line stand for its end, and lines beyond
+    /// the text for the text's end.
     pub fn byte(&self, text: &str, position: Position, unit: Unit) -> usize {
         let Some(&start) = self.starts.get(position.line) else { return text.len() };
         let end = self.starts.get(position.line + 1).copied().unwrap_or(text.len());

@@ -11,9 +11,9 @@ pub struct Problem {
     pub severity: Severity,
     /// The message, which contains the faulty word. It is in lower case, without a full stop.
     pub message: String,
-    /// A note about the position, which may be empty.
+    /// A note about the position. The note may be empty.
     pub label: String,
-    /// The suggested next step, if there is one.
+    /// The suggested next step; `None` if there is no suggestion.
     pub help: Option<String>,
     /// The position of the problem.
     pub span: Span,
@@ -40,8 +40,8 @@ pub fn problems(source: &str) -> Vec<Problem> {
     found.into_iter().map(|problem| Problem::of(problem, source)).collect()
 }
 
-/// Returns the problems of a level's text under a game. If the game has errors, returns only the problems that are certain
-/// whatever is wrong with the game. For several levels of one game, [`LevelRules`] reads the game only once.
+/// Returns the problems of a level's text under a game. If the game has errors, returns only the problems that do not
+/// depend on these errors. For several levels of one game, [`LevelRules`] parses the game only once.
 pub fn level_problems(source: &str, level: &str) -> Vec<Problem> {
     LevelRules::of(source).problems(level)
 }
@@ -97,7 +97,8 @@ pub fn applied(text: &str, edits: &[Edit]) -> String {
     out
 }
 
-/// Returns the fix such that removing a word also removes the spaces before it, unless they indent the line or separate words.
+/// Adapts a fix so that removing a word also removes the spaces before it, unless they indent the line or separate
+/// words.
 fn tidied(mut fix: Fix, source: &str) -> Fix {
     for edit in fix.edits.iter_mut().filter(|edit| edit.text.is_empty()) {
         let (Some(before), Some(after)) = (source.get(..edit.span.start), source.get(edit.span.end..)) else {

@@ -12,7 +12,7 @@ const BUILT_IN_SYMBOLS: [&str; 2] = ["w", "A"];
 /// The reason why a name cannot be changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RenameError {
-    /// There is no sprite type and no level character at the position.
+    /// There is neither a sprite type nor a level character at the position.
     Nothing,
     /// The old or the new name has a meaning in the engine.
     BuiltIn(String),
@@ -47,7 +47,7 @@ impl fmt::Display for RenameError {
 
 impl std::error::Error for RenameError {}
 
-/// Returns the span of the name at byte `at`, if the name can be changed.
+/// Returns the span of the name at byte `at`, provided that the name can be changed.
 ///
 /// # Errors
 ///
@@ -62,8 +62,8 @@ pub fn renamable(source: &str, at: usize) -> Result<Span, RenameError> {
     }
 }
 
-/// Returns the edits that rename the sprite type or level character at byte `at` everywhere in the game. Levels must follow a
-/// renamed character; see [`rename_in_level`].
+/// Returns the edits that rename the sprite type or level character at byte `at` everywhere in the game. Levels must
+/// follow a renamed character, as in [`rename_in_level`].
 ///
 /// # Errors
 ///

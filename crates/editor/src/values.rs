@@ -5,11 +5,12 @@ use engine::{ParameterKind, SpriteClass, effect_parameters};
 /// The owner of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Owner<'a> {
-    /// The first line.
+    /// The first line of a game.
     Game,
     /// A sprite type with that class, inherited or its own.
     Sprite(Option<SpriteClass>),
-    /// An effect by its keyword, and the keyword of the effect that it schedules, if it schedules one.
+    /// An effect by its keyword. The keyword of the effect that it schedules follows, if it schedules an
+    /// effect.
     Effect(&'a str, Option<&'a str>),
     /// A termination, by class.
     Termination(&'a str),
@@ -26,15 +27,15 @@ pub(crate) enum Kind {
     Sprites,
     /// The keyword of an effect.
     Effect,
-    /// `True` or `False`.
+    /// The word `True` or `False`.
     Flag,
-    /// `UP`, `DOWN`, `LEFT`, `RIGHT` or `NONE`.
+    /// The word `UP`, `DOWN`, `LEFT`, `RIGHT` or `NONE`.
     Direction,
     /// The name of a colour.
     Color,
-    /// `GRID` or `CONT`.
+    /// The word `GRID` or `CONT`.
     Physics,
-    /// Any other kind.
+    /// A value of any other kind.
     Open,
 }
 
@@ -63,7 +64,7 @@ pub(crate) const OF_TERMINATIONS: [&str; 4] = ["limit", "win", "count_score", "c
 /// The parameters of a line in the ParameterSet.
 pub(crate) const OF_PARAMETERS: [&str; 3] = ["values", "value", "string"];
 
-/// Returns the parameters that a termination accepts in addition to those of all terminations.
+/// Returns the parameters that a termination accepts in addition to the parameters of all terminations.
 pub(crate) fn of_termination(class: &str) -> &'static [&'static str] {
     match class {
         "SpriteCounter" | "SpriteCounterMore" => &["stype"],

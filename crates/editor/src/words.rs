@@ -27,7 +27,7 @@ pub(crate) const SECTIONS: [Section; 5] = [
 /// The place of a line in the game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// The first line.
+    /// The first line of the game.
     Header,
     /// The name of a section.
     Head(Section),
@@ -40,7 +40,7 @@ pub(crate) enum Place {
 /// The role of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// `BasicGame` or `GameSpace`.
+    /// The word `BasicGame` or `GameSpace`.
     GameClass,
     /// The name of a section.
     Section(Section),
@@ -52,7 +52,7 @@ pub(crate) enum Role {
     Class,
     /// The keyword of an effect.
     Effect,
-    /// `EOS` or `TIME`.
+    /// The word `EOS` or `TIME`.
     Edge,
     /// A termination class.
     Termination,
@@ -66,7 +66,7 @@ pub(crate) enum Role {
     Parameter,
     /// A reference to a `GameSpace` parameter as a value.
     ParameterUse,
-    /// A `>`.
+    /// The arrow `>`.
     Arrow,
     /// A word that is out of place.
     Stray,
@@ -96,7 +96,7 @@ pub(crate) struct Line<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct Sprite<'a> {
     pub(crate) name: &'a str,
-    /// The class of the sprites. An inherited class takes precedence over a written one.
+    /// The class of the sprites. An inherited class takes precedence over a written class.
     pub(crate) class: Option<SpriteClass>,
     /// The index of the parent type.
     pub(crate) parent: Option<usize>,
@@ -116,7 +116,7 @@ pub(crate) fn is_blank(c: char) -> bool {
     c <= ' '
 }
 
-/// Returns the text of a line before its comment, which starts with `#`, or with `//` as in other languages.
+/// Returns the text of a line before its comment. The comment starts with `#`, or with `//` as in other languages.
 pub(crate) fn code(raw: &str) -> &str {
     let code = raw.split('#').next().unwrap_or_default();
     let foreign = |&(at, _): &(usize, &str)| code[..at].chars().next_back().is_none_or(is_blank);
@@ -203,7 +203,7 @@ impl<'a> Words<'a> {
         std::iter::successors(Some(sprite), |sprite| self.sprites.get(sprite.parent?)).skip(1)
     }
 
-    /// Returns the parameters of a type, its own ones first, with `true` for inherited ones.
+    /// Returns the parameters of a type, with `true` for inherited parameters. The type's own parameters come first.
     pub(crate) fn params(&self, sprite: &Sprite<'a>) -> Vec<(&'a str, &'a str, bool)> {
         let mut seen = BTreeSet::new();
         let own = sprite.params.iter().map(|&(key, value)| (key, value, false));
@@ -212,7 +212,7 @@ impl<'a> Words<'a> {
         all.filter(|(key, ..)| seen.insert(*key)).collect()
     }
 
-    /// Returns the names of all sprite types, in order and each once.
+    /// Returns the names of all sprite types in order. Each name is returned once.
     pub(crate) fn sprite_names(&self) -> Vec<&'a str> {
         let mut seen = BTreeSet::new();
         let declared = self.sprites.iter().map(|sprite| sprite.name);
@@ -331,7 +331,7 @@ impl Reader<'_> {
         words
     }
 
-    /// Returns the role of a word, before which `count` other words stand on the same side of the arrow.
+    /// Returns the role of a word that has `count` words before it on the same side of the arrow.
     fn role(&self, token: &str, is_past: bool, count: usize) -> Role {
         use Section as S;
         match (self.place, is_past, count) {

@@ -1,7 +1,7 @@
 //! Prints boards of a game, either drawn or found by a search: `boards KERNEL|PATH.vgdl SEED [SLOT] [COUNT] [DIR]`.
 //!
 //! Without a slot, prints compositions as they are drawn, and a table of their similarity. With a slot, searches for
-//! boards, each unlike the ones before, and writes them as level files to the folder, if one is given.
+//! boards, each unlike all earlier boards, and writes them as level files to the folder, if a folder is given.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
@@ -103,7 +103,7 @@ fn most_common(levels: &[Level]) -> u8 {
     (0..=255u8).max_by_key(|&symbol| counts[usize::from(symbol)]).unwrap_or(b'.')
 }
 
-/// Prints the fraction of compositions that meet all constraints as they are.
+/// Prints the fraction of compositions that meet all constraints without changes.
 fn print_yield(analysis: &Analysis, seed: Seed, order: &BoardOrder) {
     let budget = BoardBudget { evaluations: 1, total: 1, ..BoardBudget::default() };
     let made =

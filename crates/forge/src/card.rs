@@ -14,13 +14,13 @@ pub enum Origin {
         /// The name of the game's folder in the corpus.
         name: String,
     },
-    /// A game made by the rule generator.
+    /// A game made by a rule generator.
     Generated {
         /// The name of the generator.
         generator: String,
         /// The kernel, its variants and the scene, each with its kind: `kernel/one-spark`.
         patterns: Vec<String>,
-        /// The index of the candidate among the candidates for its place in the release, from 0.
+        /// The index of the candidate among the candidates for the game's position in the release, from 0.
         candidate: u32,
     },
 }
@@ -52,8 +52,8 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))
     }
 
-    /// The kernel and variants of a generated game, without duplicates; of earlier generations its patterns, excluding its theme or scene,
-    /// and the edits of search and shrinking.
+    /// Returns the kernel and variants of a generated game, without duplicates. For games of earlier generations,
+    /// returns the patterns except the theme or scene and the edits of search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
         let kept =
@@ -81,7 +81,7 @@ pub struct LevelCard {
     pub asks: Option<String>,
     /// The difficulty that was requested, from 0 to 1.
     pub difficulty: f64,
-    /// The index of the candidate among the candidates for its place in the game, from 0.
+    /// The index of the candidate among the candidates for the level's position in the game, from 0.
     pub candidate: u32,
     /// The number of ticks of the witness.
     pub witness_ticks: usize,
@@ -90,7 +90,7 @@ pub struct LevelCard {
     /// The number of ticks of the shortest win, if it is proved to be the shortest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub optimal_ticks: Option<usize>,
-    /// The forward-model calls that the search for the witness took.
+    /// The number of forward-model calls of the search for the witness.
     #[serde(default)]
     pub search_calls: u64,
     /// The win rate of plain Monte Carlo tree search.
@@ -99,10 +99,11 @@ pub struct LevelCard {
     pub random: Rate,
     /// The win rate of players that do nothing.
     pub idle: Rate,
-    /// The results of the players of a ladder, and the difficulty derived from them, if the recipe asks for `skill`.
+    /// The results of the players of a ladder, and the difficulty derived from these results, if the recipe requests
+    /// `skill`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// The demands that a win makes on a player, if the recipe asks for tiers.
+    /// The demands that a win makes on a player, if the recipe requests tiers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<Demand>,
     /// The tier derived from the demand.
@@ -114,7 +115,7 @@ pub struct LevelCard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Card {
-    /// The release's canary: text that contains it should not be trained on.
+    /// The release's canary. Text that contains the canary should not be used for training.
     pub canary: String,
     /// The game's folder in `games/`.
     pub id: String,
@@ -126,7 +127,7 @@ pub struct Card {
     pub goal: String,
     /// The kind of game.
     pub kind: String,
-    /// `true` if something moves even if the player does not act.
+    /// `true` if anything moves even while the player does nothing.
     pub real_time: bool,
     /// `true` if the game has no randomness.
     pub deterministic: bool,

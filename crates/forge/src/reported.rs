@@ -41,7 +41,7 @@ pub(crate) struct PlayerRate {
 }
 
 impl PlayerRate {
-    /// Adds the players of some ladders to a section: the players of the ladder from weakest to strongest, then the
+    /// Adds the players of some ladders to a section: the ladder players from weakest to strongest, then the
     /// held-out players.
     pub(crate) fn add_all<'a>(section: Section, ladders: impl IntoIterator<Item = &'a Ladder>) -> Section {
         let mut players: Vec<PlayerRate> = Vec::new();
@@ -63,8 +63,8 @@ impl PlayerRate {
     }
 }
 
-/// Returns Spearman's rank correlation between a player's position in the ladder and its result (wins first, then
-/// score): 1 if every stronger player does better; `None` if all do equally well.
+/// Returns Spearman's rank correlation between a player's position in the ladder and its result, by wins first and
+/// then by score. The correlation is 1 if every stronger player does better; `None` if all players do equally well.
 pub(crate) fn in_order(fares: &[(f64, f64)]) -> Option<f64> {
     let worse = |own: &(f64, f64)| fares.iter().filter(|other| *other < own).count() as f64;
     let pairs: Vec<(f64, f64)> = fares.iter().enumerate().map(|(at, own)| (at as f64, worse(own))).collect();

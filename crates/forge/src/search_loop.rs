@@ -1,14 +1,14 @@
-//! The common parts of the searches for levels and for games: they evaluate candidates on all threads, keep the best,
-//! and pick candidates that lie far apart in an archive.
+//! The common parts of the searches for levels and for games. The searches evaluate candidates on all threads, keep the
+//! best, and pick candidates that lie far apart in an archive.
 
 use base::Digest;
 use generators::{Archive, Evaluated, Evaluation, Search};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Runs a search for a number of candidates, `batch` at a time, evaluates them on all threads, and reports to the
-/// search the evaluation that `evaluation_of` derives from each result. Returns `false` if the search runs out of
-/// proposals early.
+/// Runs a search for a number of candidates, `batch` at a time. The candidates are evaluated on all threads, and
+/// `evaluation_of` derives the evaluation that is reported to the search from each result. Returns `false` if the
+/// search runs out of proposals early.
 pub(crate) fn run_search<S: Search<Candidate: Sync>, L: Send>(
     search: &mut S,
     (looks, batch): (usize, usize),
@@ -65,9 +65,10 @@ impl<C: Clone> Finalists<C> {
 /// An elite of an archive, with its cell and the cell's bins.
 type Elite<'a, C> = (usize, Vec<usize>, &'a Evaluated<C>);
 
-/// Picks candidates of an archive that were not shown before, with their cells, spread as far apart as possible: always
-/// the one farthest from all cells that are taken or picked (so the best one, if there are none yet), with ties going
-/// to the better one. Skips candidates that are near a taken or picked one; they may be picked later.
+/// Picks candidates of an archive that were not shown before, with their cells, spread as far apart as possible. Each
+/// step picks the candidate farthest from all cells that are taken or picked. Ties go to the better candidate, so the
+/// first pick is the best candidate if no cells are taken. Candidates near a taken or picked candidate are skipped, and
+/// may be picked later.
 pub(crate) fn spread<C: Clone>(
     archive: &Archive<C>,
     wanted: usize,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::Judgement;
 
-/// The candidates tried for one place or for a whole release, and the reasons why some of them failed.
+/// The candidates tried for one position or for a whole release, and the reasons why some of them failed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tally {
@@ -19,18 +19,17 @@ pub struct Tally {
     pub levels_accepted: u64,
     /// The number of forward-model calls of all judges.
     pub calls: u64,
-    /// The number of levels that met all criteria except the requested difficulty, and that no player of the ladder
-    /// wins.
+    /// The number of levels that met all criteria except the requested difficulty, but that no ladder player wins.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub unbeaten: u64,
     /// The number of rejections by each criterion or generator.
     pub rejections: BTreeMap<String, u64>,
-    /// The cost of each judge, by the name of its criterion, or else by a description.
+    /// The cost of each judge, under the name of its criterion or under a description.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub judges: BTreeMap<String, JudgeCost>,
 }
 
-/// The cost of levels on request, for documents. It does not include time, which differs from run to run.
+/// The cost of levels on request, for documents. Time is not included, because it differs from run to run.
 #[derive(Serialize)]
 struct LevelCost<'a> {
     looks: u64,
@@ -47,8 +46,8 @@ fn is_zero(count: &u64) -> bool {
     *count == 0
 }
 
-/// The cost of a judge, by whether the candidate passed. Episodes played by gates do not count calls, except those of
-/// searches.
+/// The cost of a judge, split by whether the candidate passed. Episodes played by gates do not count as calls, except
+/// in searches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JudgeCost {
@@ -58,7 +57,7 @@ pub struct JudgeCost {
     pub refused: u64,
     /// The forward-model calls spent on levels and games that were accepted.
     pub calls_accepted: u64,
-    /// The forward-model calls spent on candidates that this judge or a later one rejected.
+    /// The forward-model calls spent on candidates that this judge or a later judge rejected.
     pub calls_refused: u64,
     /// The forward-model calls spent on accepted levels of games that were rejected.
     pub calls_lost: u64,
@@ -89,7 +88,7 @@ impl Tally {
         self.games_accepted += 1;
     }
 
-    /// Counts a game that failed, by its reason up to the first colon.
+    /// Counts a game that failed, under its reason up to the first colon.
     pub fn game_rejected(&mut self, why: &str) {
         self.games_tried += 1;
         // The text after the colon differs with every seed.
@@ -150,7 +149,7 @@ impl Tally {
         cost.calls_accepted += calls;
     }
 
-    /// Adds the cost of `judge`. If it accepts nothing, `refused` converts the cost before it is added.
+    /// Adds the cost of `judge`. If `judge` accepts nothing, `refused` converts the cost before the addition.
     pub(crate) fn spend<T>(
         &mut self,
         refused: fn(Tally) -> Tally,
@@ -248,7 +247,7 @@ impl Tally {
     }
 }
 
-/// Returns the words for a reason, which records store as the name of a criterion or as a few words.
+/// Returns the words for a reason. Records store a reason as the name of a criterion or as a few words.
 fn words(why: &str) -> String {
     match why {
         "less than an earlier level" => "easier than the level before".to_owned(),

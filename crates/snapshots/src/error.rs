@@ -12,14 +12,14 @@ use base::canonical::CanonicalError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// The file system refused.
+    /// A file system operation failed.
     #[error("cannot {action} `{}`", .path.in_message())]
     Io {
         /// The failed operation as a verb, as in "cannot read".
         action: &'static str,
         /// The path of the failed operation.
         path: PathBuf,
-        /// The system's error.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The output path is occupied.
@@ -44,15 +44,15 @@ pub enum SnapshotError {
     /// The release to be packed is sealed, so part of it is withheld.
     #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.in_message())]
     HeldBack(PathBuf),
-    /// A file of a shard is not the one that the shard lists.
+    /// A file of a shard differs from the shard's list.
     #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.in_message())]
     Altered(PathBuf),
     /// A file that should hold the secret of a sealed release does not.
     #[error("`{}` is not the secret of a sealed release: {source}", .path.in_message())]
     NotASecret {
-        /// The file.
+        /// The file that holds no secret.
         path: PathBuf,
-        /// The fault.
+        /// The error of parsing the secret.
         source: serde_json::Error,
     },
     /// The secret was not drawn by arcade.
@@ -60,12 +60,12 @@ pub enum SnapshotError {
         "`{}` is not a valid secret: {what}; draw one with `arcade release RECIPE --commit`", .path.in_message()
     )]
     WeakSecret {
-        /// The file.
+        /// The file with the invalid secret.
         path: PathBuf,
-        /// The fault.
+        /// The fault of the secret.
         what: String,
     },
-    /// Another process is writing there.
+    /// Another process is writing to the output path.
     #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.in_message())]
     Busy(PathBuf),
     /// The output path ends in `..` or `.` or is the root of the file system.
@@ -93,7 +93,7 @@ pub enum SnapshotError {
     /// A file exceeds the size limit.
     #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.in_message())]
     TooLarge {
-        /// The file.
+        /// The file that is too large.
         path: PathBuf,
         /// The limit, in bytes.
         limit: u64,
@@ -122,7 +122,7 @@ pub enum SnapshotError {
     /// The manifest is not JSON, or not JSON of this shape.
     #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.in_message())]
     Syntax {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
         /// The position of the error, and the expected content.
         source: serde_json::Error,
@@ -130,7 +130,7 @@ pub enum SnapshotError {
     /// The manifest contradicts itself or its limits.
     #[error("`{}` is not a valid manifest: {message}", .path.in_message())]
     Manifest {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
         /// The fault, with the name of the item.
         message: String,
@@ -138,9 +138,9 @@ pub enum SnapshotError {
     /// A folder that is searched for releases contains too many entries.
     #[error("`{}` contains more than {limit} files and folders: pass the releases one by one", .path.in_message())]
     Crowded {
-        /// The folder.
+        /// The folder with too many entries.
         path: PathBuf,
-        /// The limit.
+        /// The maximum number of entries.
         limit: usize,
     },
     /// A folder that is searched for releases contains none.
@@ -149,9 +149,9 @@ pub enum SnapshotError {
     /// An archive that is damaged before its manifest can be read.
     #[error("`{}` is not a valid archive: {message}", .path.in_message())]
     Archive {
-        /// The archive.
+        /// The path of the damaged archive.
         path: PathBuf,
-        /// The fault.
+        /// The fault of the archive.
         message: String,
     },
     /// A file to be written exists.
@@ -160,7 +160,7 @@ pub enum SnapshotError {
     /// A release does not hold what its manifest says, but a sound one is required.
     #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.in_message())]
     Unsound {
-        /// The release.
+        /// The path of the unsound release.
         path: PathBuf,
         /// The release's first problem.
         first: String,
@@ -181,19 +181,21 @@ pub enum SnapshotError {
     DuplicatePath(#[from] DuplicatePath),
 }
 
-/// Returns the final name of the folder that is unfinished, or of the folder that contains it, for messages.
+/// Returns the final name of an unfinished folder, or of the unfinished folder that contains the path, for
+/// messages.
 fn finished(unfinished: &Path) -> String {
     let draft = unfinished.ancestors().find(|folder| folder.extension().is_some_and(|end| end == "partial"));
     draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").in_message().to_string())
 }
 
 impl SnapshotError {
-    /// Returns a closure for `map_err` that makes the error of trying to `action` on `path`.
+    /// Returns a closure for `map_err` that creates the error for a failed `action` on `path`.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> SnapshotError {
         move |source| SnapshotError::Io { action, path: path.to_path_buf(), source }
     }
 
-    /// Returns the same error for the manifest at `place`, because a manifest is parsed from bytes without a path.
+    /// Returns the same error with `place` as the path of the manifest, because a manifest is parsed from bytes
+    /// without a path.
     pub(crate) fn in_manifest(self, place: &Path) -> SnapshotError {
         let path = place.to_path_buf();
         match self {

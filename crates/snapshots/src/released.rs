@@ -15,10 +15,10 @@ use forge::card::Card;
 use rayon::prelude::*;
 use std::path::Path;
 
-/// A verified release.
+/// A verified release, with its games parsed.
 #[derive(Clone, Debug)]
 pub struct Released {
-    /// The manifest.
+    /// The manifest of the release.
     pub manifest: Manifest,
     /// The games, sorted by the bytes of their folders' names.
     pub games: Vec<ReleasedGame>,
@@ -33,7 +33,7 @@ pub struct ReleasedGame {
     pub card: Card,
     /// The text as released.
     pub source: String,
-    /// The compiled game.
+    /// The compiled game of the released text.
     pub game: Game,
     /// The levels, in the order of the card.
     pub levels: Vec<ReleasedLevel>,
@@ -46,7 +46,7 @@ pub struct ReleasedGame {
 pub struct ReleasedSibling {
     /// The text as released.
     pub source: String,
-    /// The compiled game.
+    /// The compiled game of the sibling's text.
     pub game: Game,
     /// The levels, with their texts as released.
     pub levels: Vec<(String, Level)>,
@@ -57,7 +57,7 @@ pub struct ReleasedSibling {
 pub struct ReleasedLevel {
     /// The text as released.
     pub text: String,
-    /// The parsed level.
+    /// The level, parsed from its text.
     pub level: Level,
     /// An episode that wins the level, if the release holds one.
     pub witness: Option<Episode>,
@@ -66,8 +66,8 @@ pub struct ReleasedLevel {
 }
 
 impl ReleasedLevel {
-    /// Returns the beginnings that distinguish the published win from the withheld one. They differ, and have the
-    /// same length of at most [`PREFIX`] actions. `None` if either win is missing.
+    /// Returns the beginnings that distinguish the published win from the withheld win. The two beginnings
+    /// differ, and have the same length of at most [`PREFIX`] actions. Returns `None` if either win is missing.
     pub fn beginnings(&self) -> Option<[Vec<Action>; 2]> {
         let (published, withheld) = (&self.witness.as_ref()?.actions, &self.second.as_ref()?.actions);
         let common = PREFIX.min(published.len()).min(withheld.len());
@@ -123,7 +123,7 @@ impl Released {
 }
 
 fn read_game(contents: &Contents, manifest: &Manifest, folder: &str) -> Result<ReleasedGame, ReleasedError> {
-    // All files were well-formed during verification; the digest detects later changes.
+    // All files were well-formed during verification, and the digest detects later changes.
     let read = |path: String| -> Result<Option<String>, ReleasedError> {
         let Some(item) = manifest.item(&path) else { return Ok(None) };
         // A listed file is absent only if it is withheld.

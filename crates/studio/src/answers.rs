@@ -1,4 +1,4 @@
-//! The handling of requests: bodies are read within limits, and a bounded number of threads does the work.
+//! The handling of requests. Bodies are read within limits, and a bounded number of threads does the work.
 
 use crate::lines::{Ended, Lines};
 use crate::refusal::Refusal;
@@ -15,8 +15,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tokio::sync::Semaphore;
 
-/// The numbers of threads for short responses, and for responses that arrive line by line.
+/// The number of threads for short responses.
 const SHORT: usize = 6;
+/// The number of threads for responses that arrive line by line.
 const LONG: usize = 6;
 /// The number of threads that work on responses.
 pub(crate) const THREADS: usize = SHORT + LONG;
@@ -142,7 +143,7 @@ pub(crate) fn asked<I: DeserializeOwned + Send + 'static, O: Serialize + 'static
     post(answer)
 }
 
-/// A flag that tells whether the client still waits for the response.
+/// A flag that is set once the client no longer waits for the response.
 pub(crate) struct Asker(Arc<AtomicBool>);
 
 impl Asker {
@@ -152,7 +153,7 @@ impl Asker {
     }
 }
 
-/// A waiting client. The server drops this value, and so sets the flag, when the connection closes.
+/// A waiting client. The server drops this value when the connection closes, which sets the flag.
 struct Waiting(Arc<AtomicBool>);
 
 impl Drop for Waiting {
@@ -178,7 +179,8 @@ pub(crate) fn awaited<I: DeserializeOwned + Send + 'static, O: Serialize + 'stat
     post(answer)
 }
 
-/// A request whose response arrives line by line. `page` identifies the page that sent it, if it says so.
+/// A request whose response arrives line by line. `page` identifies the page that sent the request, if the page
+/// identifies itself.
 pub(crate) struct Asked<I> {
     pub(crate) body: I,
     pub(crate) page: Option<String>,

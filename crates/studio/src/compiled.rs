@@ -28,7 +28,7 @@ impl Compiled {
         Ok(Compiled { source: source.to_owned(), game, analysis, looks })
     }
 
-    /// Parses a level.
+    /// Parses a level of the game.
     pub(crate) fn level(&self, text: &str) -> Result<Level, Refusal> {
         self.game.level(text).map_err(|problems| refused("the level", text, &problems))
     }
@@ -55,8 +55,8 @@ impl Cache {
         Ok(fresh)
     }
 
-    /// Returns the compiled game like [`Cache::find`], but with a refusal instead of problems, for requests that need a game
-    /// without problems.
+    /// Returns the compiled game like [`Cache::find`], but with a refusal instead of problems. This suits requests that
+    /// need a game without problems.
     pub(crate) fn need(&self, source: &str) -> Result<Arc<Compiled>, Refusal> {
         self.find(source).map_err(|problems| refused("the game", source, &problems))
     }

@@ -12,17 +12,17 @@ use std::path::{Path, PathBuf};
 pub struct NamedText {
     /// The name, without a folder.
     pub name: String,
-    /// The content.
+    /// The content of the file.
     pub text: String,
 }
 
-/// The most levels of a game that are read.
+/// The maximum number of levels that are read per game.
 const MAX_LEVELS: usize = 1000;
 /// The maximum total size of a game's levels, in bytes.
 const MAX_ALL_LEVELS: usize = 4 << 20;
 
-/// Returns the number in the name that pages use for a level: `lvl3.txt` is level 3. Each number has one name, whatever the
-/// file's name.
+/// Returns the number of the level for which pages use this name. For example, `lvl3.txt` is level 3. Each number has
+/// one name, regardless of the name of the level's file.
 pub(crate) fn level_number(name: &str) -> Option<usize> {
     let digits = name.strip_prefix("lvl")?.strip_suffix(".txt")?;
     let number: usize = digits.parse().ok()?;
@@ -57,8 +57,8 @@ pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refu
     level_files(folder, source)?.into_iter().map(read).collect()
 }
 
-/// Returns the path of the game's level with this number: the existing file, or else the path of a new file that is named like
-/// the others.
+/// Returns the path of the game's level with this number. If the file does not exist, returns the path of a new file
+/// that is named like the other levels.
 pub(crate) fn level_path(folder: &Path, source: &str, number: usize) -> Result<PathBuf, Refusal> {
     let levels = level_files(folder, source)?;
     if let Some((_, file)) = levels.iter().find(|(own, _)| *own == number) {
@@ -89,7 +89,7 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
     match fs::symlink_metadata(file) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(unreadable(file, &error)),
-        // Writing would replace a link by a file, and leave the link's target as it was.
+        // Writing would replace a link by a file, without changing the link's target.
         Ok(found) if !found.is_file() => {
             Err(Refusal::forbidden(format_args!("{} is not a regular file", shown(file)))
                 .help("replace it with a regular file to change it here"))

@@ -18,7 +18,7 @@ pub(crate) struct TileSvg {
     svg: String,
 }
 
-/// The tiles of a game or a session. Each is sent once.
+/// The tiles of a game or a session. Each tile is sent once.
 #[derive(Default)]
 pub(crate) struct Tiles {
     known: Vec<Tile>,
@@ -50,7 +50,7 @@ fn whole(tile: &Tile) -> String {
     )
 }
 
-/// A tile in a rectangle: left, top, width and height in thousandths of a cell.
+/// A tile in a rectangle, given by its left, top, width and height in thousandths of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Mark {
     tile: usize,
@@ -82,7 +82,7 @@ pub(crate) struct Frame {
     height: i32,
     #[serde(skip_serializing_if = "Option::is_none")]
     marks: Option<Vec<Mark>>,
-    /// The difference from the previous frame, in place of the marks.
+    /// The difference from the previous frame, which replaces the marks.
     #[serde(skip_serializing_if = "Option::is_none")]
     change: Option<Vec<Splice>>,
     caption: Vec<String>,
@@ -128,21 +128,22 @@ impl Frame {
     }
 }
 
-/// The number of marks up to which a list of frames is sent without differences, and the maximum number of marks in a list.
+/// The number of marks up to which a list of frames is sent without differences.
 const PLAIN: usize = 200_000;
+/// The maximum number of marks in a list of frames.
 const MOST: usize = 1_000_000;
 /// The maximum length of two lists of marks for which a minimal difference is computed. The cost grows with the product of the
 /// lengths.
 const COMPARED: usize = 4_000;
 
-/// The frames of an episode. A few frames are stored as they are, and many as differences from one to the next, so that neither
-/// memory nor responses grow with the board size times the ticks.
+/// The frames of an episode. A few frames are stored unchanged, and many frames as differences between successive
+/// frames. Neither memory nor responses then grow with the product of the board size and the number of ticks.
 pub(crate) struct Frames {
     all: Vec<Frame>,
     last: Vec<Mark>,
     /// The number of marks in the list.
     marks: usize,
-    /// The number of marks from which differences are stored.
+    /// The number of marks beyond which differences are stored.
     plain: usize,
 }
 
@@ -152,7 +153,7 @@ impl Frames {
         Frames { all: Vec::new(), last: Vec::new(), marks: 0, plain: PLAIN }
     }
 
-    /// Creates an empty list for a file, in which all frames but the first are differences.
+    /// Creates an empty list for a file, in which all frames except the first are differences.
     pub(crate) fn of_changes() -> Frames {
         Frames { plain: 0, ..Frames::new() }
     }
@@ -177,7 +178,7 @@ impl Frames {
         true
     }
 
-    /// Returns the frames.
+    /// Returns the frames of the list.
     pub(crate) fn finish(self) -> Vec<Frame> {
         self.all
     }
@@ -218,7 +219,8 @@ fn marks(drawn: &Picture, cell: u32, tiles: &mut Tiles) -> Vec<Mark> {
     drawn.stamps().iter().map(mark).collect()
 }
 
-/// Returns the lines with the avatar's resources and, if the game was stopped, the limit that stopped it.
+/// Returns the lines with the avatar's resources. If the game was stopped, also returns a line with the limit that
+/// stopped it.
 fn caption(looks: &Looks, state: &State) -> Vec<String> {
     let mut lines = Vec::new();
     if looks.has_holdings() {
@@ -255,7 +257,7 @@ pub(crate) fn action_name(action: Action) -> String {
     format!("ACTION_{}", action.name().to_ascii_uppercase())
 }
 
-/// Parses an action from the reference's name or from ours.
+/// Parses an action from the reference's name or from this suite's name.
 pub(crate) fn action(name: &str) -> Result<Action, Refusal> {
     let ours = || Action::ALL.into_iter().find(|action| action.name() == name);
     Action::from_reference(name).or_else(ours).ok_or_else(|| {

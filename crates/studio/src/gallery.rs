@@ -1,7 +1,7 @@
-//! A release as a folder of static files: the same page, without a server, from a disk or any web server.
+//! A release as a folder of static files. It shows the same page without a server, from a disk or any web server.
 //!
-//! The data are scripts, because a page opened from `file://` may load scripts and nothing else. The content of a release remains
-//! data in these scripts; see [`script`].
+//! The data are scripts, because a page opened from `file://` can load only scripts. The content of a release remains
+//! data in these scripts, as [`script`] explains.
 
 use crate::api::{CUT, game_of, release_of};
 use crate::compiled::Compiled;
@@ -129,8 +129,8 @@ fn witnesses(
     Ok(shown)
 }
 
-/// Returns a script that passes data to the page. Characters that could end the script, or a string in it, are escaped, so that
-/// nothing in the data can become code.
+/// Returns a script that passes data to the page. Characters that could end the script, or a string in it, are escaped,
+/// so that no data can become code.
 fn script(name: &str, data: &Value) -> String {
     let plain = |value: &Value| {
         let mut text = String::new();

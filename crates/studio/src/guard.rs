@@ -1,8 +1,9 @@
-//! Checks before every response: only the page that this server served, opened with its token, may send requests.
+//! Checks before every response. Only the page that this server served, opened with its token, may send requests.
 //!
-//! A page from anywhere can make a browser send requests to 127.0.0.1, and so can every program on this machine. Requests from
-//! foreign pages are recognised by the requested host name (which DNS rebinding cannot hide), by the origin, and by the site that
-//! the browser reports. Both pages and programs lack the token, which is only in the address printed by `arcade studio`.
+//! A page from anywhere can make a browser send requests to 127.0.0.1, and so can every program on this machine.
+//! Requests from foreign pages are recognised by the requested host name (which DNS rebinding cannot hide), by the
+//! origin, and by the site that the browser reports. Foreign pages and other programs both lack the token, which is
+//! only in the address printed by `arcade studio`.
 
 use crate::refusal::Refusal;
 use axum::extract::{Request, State};
@@ -17,7 +18,7 @@ use std::sync::Arc;
 const TOKEN: HeaderName = HeaderName::from_static("x-arcade-token");
 const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 
-/// The page's content security policy: it may load its own files and images made from data, and nothing else.
+/// The page's content security policy, which allows the page to load only its own files and images made from data.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
                       connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -46,7 +47,7 @@ impl Guard {
         &self.token
     }
 
-    /// Returns the reason for rejecting a request with these headers, if there is one.
+    /// Returns the reason for rejecting a request with these headers; `None` if the request is accepted.
     fn problem(&self, path: &str, headers: &HeaderMap) -> Option<Refusal> {
         let all = |name: &HeaderName| -> Vec<&str> {
             headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default()).collect()
@@ -87,7 +88,7 @@ pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Ne
         None => {
             let path = request.uri().path();
             let is_asked = path == "/api" || path.starts_with("/api/");
-            // A client with the token is not disconnected in favour of one that may not have the token.
+            // A client with the token is not disconnected in favour of a client that may not have the token.
             if let Some(asker) = request.extensions().get::<Asker>().filter(|_| is_asked) {
                 asker.trust();
             }

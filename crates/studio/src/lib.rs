@@ -1,8 +1,9 @@
-//! The server of `arcade studio`: a web page on this machine for writing, checking, playing, browsing and judging games.
+//! The server of `arcade studio`, which is a web page on this machine for writing, checking, playing, browsing and
+//! judging games.
 //!
-//! A [`Workspace`] contains the opened games. A [`Studio`] answers requests about it. A [`Server`] lets a page on this machine,
-//! and nobody else, send these requests ([who can ask](../../../docs/reference/studio-server.md#security)). Long work arrives line by line and
-//! ends when the page leaves.
+//! A [`Workspace`] contains the opened games. A [`Studio`] answers requests about a workspace. A [`Server`] lets only a
+//! page on this machine send these requests ([who can ask](../../../docs/reference/studio-server.md#security)). Long
+//! work arrives line by line and ends when the page leaves.
 
 mod answers;
 mod api;

@@ -38,7 +38,8 @@ impl Lines {
         (Lines { sender, superseded: Arc::default() }, response)
     }
 
-    /// Sends one line, and waits while the client reads slowly. It blocks, so it must not run on the runtime's thread.
+    /// Sends one line, and waits while the client reads slowly. The call blocks, so it must not run on the runtime's
+    /// thread.
     pub(crate) fn send(&self, line: &impl Serialize) -> Result<(), Gone> {
         self.check()?;
         self.put(line)

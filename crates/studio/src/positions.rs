@@ -1,4 +1,4 @@
-//! Positions in texts as a page counts them: in UTF-16 code units from 0, and in lines and columns from 1.
+//! Positions in texts in the units of a page: UTF-16 code units from 0, and lines and columns from 1.
 
 use editor::Problem;
 use editor::positions::utf16_of_byte;

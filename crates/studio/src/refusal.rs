@@ -25,7 +25,7 @@ impl Refusal {
         Refusal::new(StatusCode::BAD_REQUEST, error)
     }
 
-    /// Creates a refusal because the requested thing does not exist.
+    /// Creates a refusal because the requested item does not exist.
     pub(crate) fn missing(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::NOT_FOUND, error)
     }

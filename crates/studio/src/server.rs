@@ -1,4 +1,4 @@
-//! The server: a port on this machine, the page, and the API.
+//! The server, with a port on this machine, the page, and the API.
 
 use crate::answers::Serving;
 use crate::guard::{self, Guard};
@@ -29,7 +29,7 @@ const BOUNDS: Bounds = Bounds {
     threads: answers::THREADS,
 };
 
-/// A server that is bound to its port but does not answer yet.
+/// A server that is bound to its port but does not yet answer requests.
 #[derive(Debug)]
 pub struct Server {
     studio: Studio,
@@ -43,7 +43,7 @@ pub struct Server {
 pub struct Stop(#[allow(dead_code, reason = "dropping it is the signal")] oneshot::Sender<()>);
 
 impl Server {
-    /// Binds a port on 127.0.0.1 (any free port for 0), and draws a token.
+    /// Binds a port on 127.0.0.1, and draws a token. If `port` is 0, any free port is bound.
     ///
     /// # Errors
     ///
@@ -54,7 +54,7 @@ impl Server {
         Ok(Server { studio, listener, port, guard: Guard::of(port)? })
     }
 
-    /// Returns the port.
+    /// Returns the port of the server.
     pub fn port(&self) -> u16 {
         self.port
     }

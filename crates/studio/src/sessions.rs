@@ -1,4 +1,4 @@
-//! Games in progress. Each can be undone tick by tick, and its memory is limited.
+//! Games in progress. Each game can be undone tick by tick, and its memory is limited.
 
 use crate::compiled::Compiled;
 use crate::frames::{Frame, TileSvg, Tiles, action_name};
@@ -9,13 +9,15 @@ use engine::{Action, Episode, Level, State};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The maximum number of sessions. Beyond it, the oldest session is dropped.
+/// The maximum number of sessions. If there are more, the oldest session is dropped.
 const MOST: usize = 32;
-/// The maximum number of states that a session keeps, and their maximum total size in bytes.
+/// The maximum number of states that a session keeps.
 const KEPT: usize = 64;
+/// The maximum total size of the states that a session keeps, in bytes.
 const KEPT_BYTES: usize = 8 << 20;
-/// The maximum number of forward-model calls per decision of a planner, and the default for a planner without a number.
+/// The maximum number of forward-model calls per decision of a planner.
 const MOST_CALLS: u64 = 10_000;
+/// The number of forward-model calls per decision of a planner whose name contains no number.
 const USUAL_CALLS: u64 = 400;
 
 /// A game in progress.
@@ -27,7 +29,7 @@ pub(crate) struct Session {
     /// The state after the first `at` actions.
     state: State,
     at: usize,
-    /// The number of ticks between two kept states. It is doubled when there are too many states.
+    /// The number of ticks between two kept states. The number is doubled when there are too many states.
     stride: usize,
     /// The states after 0, `stride`, 2 × `stride`, … ticks.
     kept: Vec<State>,
@@ -57,7 +59,8 @@ impl Session {
         Ok(Shown { tiles: self.tiles.fresh(), frame, action: action.map(action_name) })
     }
 
-    /// Plays a tick, and drops the ticks that were played after this point before. Does nothing if the game is over.
+    /// Plays a tick, and drops the ticks that were previously played after this point. The call has no effect if the
+    /// game is over.
     pub(crate) fn act(&mut self, action: Action) {
         if self.state.is_over() {
             return;

@@ -20,7 +20,7 @@ pub struct Studio {
     pub(crate) verdicts: Running,
     pub(crate) judging: Option<Arc<Judging>>,
     pub(crate) vouch: Option<Vouch>,
-    /// A lock that is held while a file is compared and written, so that no two requests do so at once.
+    /// A lock that is held while a file is compared and written, so that no two requests do this at once.
     pub(crate) saving: Mutex<()>,
 }
 

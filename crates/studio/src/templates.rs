@@ -1,4 +1,4 @@
-//! Templates for new games: a commented game and two levels for each of a few genres.
+//! Templates for new games. Each of a few genres has a commented game and two levels.
 
 use crate::files;
 use std::fs;
@@ -12,7 +12,7 @@ pub struct Template {
     pub genre: &'static str,
     /// The player's task, as a sentence without a full stop.
     pub about: &'static str,
-    /// The files with their names. The game comes last, so that a folder without all of its levels is not a game.
+    /// The files with their names. The game comes last, so that a folder that lacks some of its levels is not a game.
     pub files: [(&'static str, &'static str); 3],
 }
 

@@ -1,4 +1,5 @@
-//! The verdict on a level while it is being edited: the cheapest answers come first, and each is sent as soon as it is known.
+//! The verdict on a level while the level is being edited. The cheapest answers come first, and each answer is sent as
+//! soon as it is known.
 
 use crate::compiled::Compiled;
 use crate::lines::{Ended, Lines};
@@ -23,7 +24,7 @@ pub(crate) const BYTES: usize = 256 << 20;
 /// The fraction of the calls for a search that foresees the randomness of one episode. Without foresight, some games would never
 /// be won.
 pub(crate) const FORESIGHT: f64 = 0.4;
-/// The number of forward-model calls that the criteria divide among them.
+/// The number of forward-model calls that are divided among the criteria.
 const CRITERIA: u64 = 300_000;
 
 /// A level to judge.
@@ -61,7 +62,7 @@ impl Subject<'_> {
                 }
                 Solution::Unknown => {
                     lines.check()?;
-                    // Nothing is proven, but a win in a game that differs in one line shows where to look.
+                    // Nothing is proved, but a win in a game that differs in one line shows where to look.
                     let judged = self.why_not(CRITERIA)?;
                     if !judged.finding.evidence.is_empty() {
                         lines.send(&criterion(&judged, source))?;
@@ -70,7 +71,7 @@ impl Subject<'_> {
             },
         }
         let is_open = impossible.is_none() && witness.is_some();
-        // It is already known whether the level can be won, or the search took more calls than there are here.
+        // It is already known whether the level can be won, or the search took more calls than are available here.
         let answered = CriterionSet::of(&[Criterion::Winnable]);
         let of_wins = CriterionSet::of(&[Criterion::Length, Criterion::Skill]);
         let skipped = if is_open { answered } else { answered.with(of_wins) };
@@ -126,9 +127,9 @@ impl Subject<'_> {
     }
 }
 
-/// Searches for a win with an increasing number of calls, up to `most` per search, until `gone` returns `true`. `tell` gets the
-/// number of calls spent after each search without an answer, and stops the work by returning `false`. Returns the answer and the
-/// number of calls spent.
+/// Searches for a win with an increasing number of calls, up to `most` per search, until `gone` returns `true`. After
+/// each search without an answer, `tell` gets the number of calls spent, and stops the work by returning `false`.
+/// Returns the answer and the number of calls spent.
 pub(crate) fn look_for_win(
     analysis: &Analysis,
     level: &Level,
@@ -157,11 +158,11 @@ pub(crate) fn look_for_win(
     (Solution::Unknown, spent)
 }
 
-/// The roles of sprites that the player wants to reach where the level places them.
+/// The roles of sprites that the player wants to reach in their initial positions.
 const WANTED: [Role; 6] =
     [Role::Exit, Role::Key, Role::Collectable, Role::Pushable, Role::Portal, Role::Breakable];
 
-/// Returns the types that the avatar can reach, those that it cannot reach, and the cells where it can be.
+/// Returns the types that the avatar can reach, the types that it cannot reach, and the cells where the avatar can be.
 fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> Value {
     let game = analysis.game();
     let cell = |at: usize| json!([at % level.columns(), at / level.columns()]);
@@ -190,8 +191,8 @@ fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> 
     })
 }
 
-/// Returns evidence in the form that the page shows: cells are counted from 0, and rules are given by their positions in the
-/// text.
+/// Returns evidence in the form that the page shows. Cells are counted from 0, and rules are given by their positions
+/// in the text.
 fn evidence(seen: &[Evidence], source: &str) -> Vec<Value> {
     seen.iter()
         .map(|seen| {

@@ -15,15 +15,15 @@ use std::sync::{Arc, PoisonError, RwLock};
 pub enum Kind {
     /// The games embedded in the program.
     Corpus,
-    /// Games in folders.
+    /// The games in folders.
     Games,
-    /// A release.
+    /// The games of a release.
     Snapshot,
-    /// Results of an evaluation.
+    /// The games of an evaluation's results.
     Results,
 }
 
-/// The place of a game's files.
+/// The location of a game's files.
 #[derive(Clone, Debug)]
 pub enum Place {
     /// The files are in memory, where nobody can change them.
@@ -33,9 +33,10 @@ pub enum Place {
         /// The levels, in order.
         levels: Vec<NamedText>,
     },
-    /// The files are in a folder, with the levels beside the game: `lvl0.txt` …, or `NAME_lvl0.txt` … beside `NAME.txt`.
+    /// The files are in a folder, with the levels beside the game. The levels are `lvl0.txt` …, or `NAME_lvl0.txt` …
+    /// beside `NAME.txt`.
     Folder {
-        /// The folder.
+        /// The folder with the files.
         folder: PathBuf,
         /// The name of the game's file in the folder.
         source: String,
@@ -44,7 +45,7 @@ pub enum Place {
     },
     /// The game is a single file without levels.
     File {
-        /// The file.
+        /// The file of the game.
         file: PathBuf,
         /// `true` if the file may be edited.
         writable: bool,
@@ -58,24 +59,24 @@ pub struct WitnessEntry {
     pub name: String,
     /// The index of the level.
     pub level: usize,
-    /// The episode.
+    /// The winning episode.
     pub episode: Episode,
 }
 
 /// A game in a workspace.
 #[derive(Clone, Debug)]
 pub struct GameEntry {
-    /// The ID with which the page requests the game. It is unique in the workspace.
+    /// The ID with which the page requests the game. The ID is unique in the workspace.
     pub id: String,
     /// The title to show.
     pub title: String,
     /// The location of the files.
     pub place: Place,
-    /// The card: a description of the game, and in a release also the results of its judges.
+    /// The card, which is a description of the game. In a release, the card also has the results of the game's judges.
     pub card: Option<Value>,
     /// A sentence about the game.
     pub summary: String,
-    /// The recorded wins.
+    /// The recorded wins of the game's levels.
     pub witnesses: Vec<WitnessEntry>,
 }
 
@@ -94,9 +95,9 @@ pub struct Workspace {
     pub results: Vec<PathBuf>,
     /// The release, if one is open and it verifies.
     pub released: Option<Arc<Released>>,
-    /// The release to compare with the opened one, with its path.
+    /// The release to compare with the opened release, and its path.
     pub against: Option<(PathBuf, Arc<Released>)>,
-    /// Further places to search for the releases before the opened one: releases, and folders of releases.
+    /// Further places to search for the releases before the opened release: releases, and folders of releases.
     pub chain: Vec<PathBuf>,
     games: RwLock<Vec<Arc<GameEntry>>>,
 }
@@ -184,7 +185,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns the path of a file by name, which is that of the game itself or of a level.
+    /// Returns the path of a file by name. The file is the game itself or a level.
     pub(crate) fn path_of(&self, name: &str) -> Result<PathBuf, Refusal> {
         let unknown = |help: &str| Refusal::missing("the game has no file of that name").help(help);
         match &self.place {

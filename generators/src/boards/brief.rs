@@ -9,16 +9,17 @@ pub(crate) const MAX_DEMAND: u8 = 4;
 /// The request for a board: its demand on the player, and its contents.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BoardBrief {
-    /// The slot of the course, from 0 to 4: introduce, confirm, combine, twist, exam. It determines the size of the
-    /// board and the numbers of things.
+    /// The slot of the course, from 0 to 4: introduce, confirm, combine, twist, exam. The slot determines the size of
+    /// the board and the numbers of things.
     pub demand: u8,
-    /// The minimum and maximum numbers of sprites of some types; the other numbers follow from the rules and the demand.
+    /// The minimum and maximum numbers of sprites of some types. All other numbers follow from the rules and the
+    /// demand.
     pub counts: Vec<(SpriteType, (usize, usize))>,
-    /// The idioms of types that the caller knows better than [`Idiom::of`].
+    /// The idioms of types for which the caller has better information than [`Idiom::of`].
     pub idioms: Vec<(SpriteType, Idiom)>,
-    /// Types that the board must not hold.
+    /// The types that the board must not contain.
     pub without: Vec<SpriteType>,
-    /// The columns and rows, including the border; `None` lets the demand decide.
+    /// The columns and rows, including the border. If `None`, the demand determines the size.
     pub size: Option<(usize, usize)>,
 }
 

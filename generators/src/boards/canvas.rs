@@ -3,7 +3,7 @@
 use crate::levels::grid::{FAR, Grid};
 use base::Sampler;
 
-/// A line that divides a board, and the gaps in it; neither consists of walls yet.
+/// A line that divides a board, and the gaps in the line. Neither consists of walls yet.
 #[derive(Clone, Debug)]
 pub(crate) struct Divider {
     /// The cells of the line in order, including gaps.
@@ -17,7 +17,7 @@ pub(crate) struct Canvas {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
     pub(crate) dividers: Vec<Divider>,
-    /// The floor in or around the landmark, for what matters most.
+    /// The floor in or around the landmark, for the most important things.
     pub(crate) marks: Vec<usize>,
 }
 
@@ -29,24 +29,24 @@ impl Canvas {
         Canvas { grid, wall, dividers: Vec::new(), marks: Vec::new() }
     }
 
-    /// Returns the width of the floor, which has the columns from 1 to this number.
+    /// Returns the width of the floor. The floor has the columns from 1 to this width.
     pub(crate) fn width(&self) -> usize {
         self.grid.columns - 2
     }
 
-    /// Returns the height of the floor, which has the rows from 1 to this number.
+    /// Returns the height of the floor. The floor has the rows from 1 to this height.
     pub(crate) fn height(&self) -> usize {
         self.grid.rows - 2
     }
 
-    /// Turns a rectangle into walls, as far as it lies on the board.
+    /// Turns the part of a rectangle that lies on the board into walls.
     pub(crate) fn fill(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = true;
         }
     }
 
-    /// Turns a rectangle into floor, as far as it lies within the border.
+    /// Turns the part of a rectangle that lies within the border into floor.
     pub(crate) fn clear(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = self.grid.on_border(cell);
@@ -59,7 +59,7 @@ impl Canvas {
         self.marks.extend(cells.into_iter().filter(|&cell| !self.grid.on_border(cell)));
     }
 
-    /// Returns the cells of a rectangle, row by row, as far as they are on the board.
+    /// Returns the cells of a rectangle that lie on the board, row by row.
     pub(crate) fn cells(&self, (x, y): (usize, usize), size: (usize, usize)) -> Vec<usize> {
         if x >= self.grid.columns || y >= self.grid.rows {
             return Vec::new();
@@ -67,7 +67,8 @@ impl Canvas {
         self.grid.block(self.grid.at(x, y), size).collect()
     }
 
-    /// Returns the cells along a line of corners, each in the same row or column as the previous one.
+    /// Returns the cells along a line through the given corners. Each corner is in the same row or column as the
+    /// previous corner.
     pub(crate) fn path(&self, corners: &[(usize, usize)]) -> Vec<usize> {
         let mut cells: Vec<usize> = Vec::new();
         for pair in corners.windows(2) {
@@ -132,7 +133,7 @@ impl Canvas {
         Canvas { grid: image, wall, dividers, marks: all(&self.marks) }
     }
 
-    /// Bites corners and sides out of the floor, so that its outline is not just a rectangle.
+    /// Fills some corners and sides of the floor, so that its outline is not just a rectangle.
     pub(crate) fn bite(&mut self, sampler: &mut Sampler) {
         let (width, height) = (self.width(), self.height());
         for corner in 0..4 {
@@ -154,8 +155,8 @@ impl Canvas {
         }
     }
 
-    /// Removes walls that touch no other wall, and fills floor that is cut off. Dividers count as floor. Returns `false` if
-    /// little floor is left, or much of it is narrow.
+    /// Removes walls that touch no other wall, and fills floor that is cut off. Dividers count as floor. Returns
+    /// `false` if little floor is left, or if much of the floor is narrow.
     pub(crate) fn settle(&mut self) -> bool {
         for cell in 0..self.grid.len() {
             let barred = |next: &Option<usize>| next.is_none_or(|next| self.wall[next]);
@@ -180,7 +181,8 @@ impl Canvas {
     }
 }
 
-/// Returns the fraction of the floor that is in no square of two by two floor cells: corridors, doorways and alcoves.
+/// Returns the fraction of the floor that is not in any square of two by two floor cells. Such floor forms corridors,
+/// doorways and alcoves.
 pub(crate) fn narrow(grid: Grid, is_floor: impl Fn(usize) -> bool) -> f64 {
     let mut wide = vec![false; grid.len()];
     for cell in 0..grid.len() {
@@ -214,7 +216,7 @@ pub(crate) fn emptiness(grid: Grid, is_empty: impl Fn(usize) -> bool) -> f64 {
     largest as f64 / ((grid.columns - 2) * (grid.rows - 2)) as f64
 }
 
-/// Returns the cells that are farthest from a cell through open ones, at a distance of at least 70% of the maximum.
+/// Returns the cells farthest from a cell through open cells, at a distance of at least 70% of the maximum.
 pub(crate) fn far_from(grid: Grid, from: usize, open: impl Fn(usize) -> bool) -> Vec<usize> {
     let steps = grid.flood(&[from], open);
     let reached = || steps.iter().copied().filter(|&steps| steps != FAR);
@@ -232,7 +234,7 @@ mod tests {
         let empty = |canvas: &Canvas| emptiness(canvas.grid, |cell| !canvas.wall[cell]);
         assert_eq!(empty(&canvas), 1.0);
         canvas.fill((3, 1), (1, 3));
-        // The empty rectangle is three columns on the right, or the row below.
+        // The empty rectangle is either the three columns on the right, or the row at the bottom.
         assert_eq!(empty(&canvas), 12.0 / 24.0);
         canvas.fill((5, 1), (1, 4));
         assert_eq!(empty(&canvas), 8.0 / 24.0);

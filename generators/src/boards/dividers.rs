@@ -6,10 +6,10 @@ use super::idiom::Idiom;
 use super::kit::{Kit, Piece};
 use base::Sampler;
 
-/// Pieces that still have to be placed, with their numbers.
+/// Pieces that must still be placed, with their numbers.
 pub(crate) type Stock = Vec<(Piece, usize)>;
 
-/// Lays the walls of a plan and its dividers. A gap holds a barrier or stays open; a river has at most one gap.
+/// Lays the walls of a plan and its dividers. A gap holds a barrier or stays open. A river has at most one gap.
 pub(crate) fn lay<'k>(
     kit: &'k Kit<'k>,
     canvas: &Canvas,
@@ -41,7 +41,7 @@ pub(crate) fn lay<'k>(
     draft
 }
 
-/// Turns some blocks that stand apart from the border into ponds, if the game has something to fill them with.
+/// Turns some blocks that stand apart from the border into ponds, if the game has a type to fill them with.
 fn lay_ponds(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     let Some((piece, _)) = stock.iter().find(|(piece, _)| piece.idiom == Idiom::Obstacle) else { return };
     let blocks = draft.grid.regions(|cell| draft.is_wall(cell));
@@ -52,7 +52,7 @@ fn lay_ponds(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     }
 }
 
-/// Draws the index of the piece that a divider is made of; `None` for a wall.
+/// Draws the index of the piece that forms a divider; `None` for a wall.
 fn material(divider: &Divider, stock: &Stock, has_row: bool, sampler: &mut Sampler) -> Option<usize> {
     let weight = |(piece, _): &(Piece, usize)| {
         let long = divider.line.len();

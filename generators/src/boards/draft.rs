@@ -10,7 +10,7 @@ use engine::analysis::Motion;
 
 /// The number of free cells that a patrol needs in its direction.
 const LANE: usize = 5;
-/// The minimum distance in steps of hunters and sources from the hero.
+/// The minimum number of steps between the hero and hunters or sources.
 const AWAY: usize = 6;
 /// The maximum fraction of a board's floor that may be narrow.
 const MAX_NARROW: f64 = 0.36;
@@ -77,12 +77,12 @@ impl<'k> Draft<'k> {
         self.cells[cell] = self.kit.palette.base;
     }
 
-    /// Returns whether there is a wall or the edge of the board on each side of a cell, in the order of [`WAYS`].
+    /// Returns, for each side of a cell, `true` if there is a wall or the edge of the board, in the order of [`WAYS`].
     pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
         WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_solid(next)))
     }
 
-    /// Returns `true` if a cell has something solid on exactly two opposite sides.
+    /// Returns `true` if a cell has solid cells on exactly two opposite sides.
     pub(crate) fn is_gap(&self, cell: usize) -> bool {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
@@ -100,7 +100,8 @@ impl<'k> Draft<'k> {
         1 + ways.into_iter().map(along).sum::<usize>()
     }
 
-    /// Returns the weight of a cell for a piece, which is 0 where the piece must not be. The cell counts as free.
+    /// Returns the weight of a cell for a piece. The weight is 0 if the piece must not be there. The cell counts as
+    /// free.
     pub(crate) fn fit(&self, piece: &Piece, cell: usize) -> u32 {
         let [up, left, down, right] = self.walls_beside(cell);
         let walls = [up, left, down, right].into_iter().filter(|&wall| wall).count();
@@ -140,7 +141,8 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// Returns the weight of a cell that is not a gap, for a piece that belongs in gaps: it may extend a gap or a wall.
+    /// Returns the weight of a cell that is not a gap, for a piece that belongs in gaps. Such a piece may extend a gap
+    /// or a wall.
     fn fit_of_barrier(&self, piece: &Piece, cell: usize) -> u32 {
         let own = |next: usize| self.cells[next] == piece.symbol;
         let barred = |next: usize| self.is_solid(next) && !self.grid.on_border(next);
@@ -168,9 +170,9 @@ impl<'k> Draft<'k> {
         self.grid.flood(&from, |cell| self.is_open(cell))
     }
 
-    /// Returns `true` if the board is sound: there is one hero, all cells that are not solid are connected, little of
-    /// the board is narrow, the numbers of all pieces are in their ranges, nothing harmful is next to the hero, and
-    /// there is no lone block of wall.
+    /// Returns `true` if the board is sound. A sound board has one hero, and nothing harmful is next to the hero. All
+    /// cells that are not solid are connected, and little of the board is narrow. The numbers of all pieces are in
+    /// their ranges, and there is no lone block of wall.
     pub(crate) fn is_sound(&self) -> bool {
         let Some(hero) = self.hero() else { return false };
         let reach = self.grid.flood(&[hero], |cell| !self.is_solid(cell));
@@ -190,7 +192,7 @@ impl<'k> Draft<'k> {
             && narrow(self.grid, |cell| !self.is_solid(cell)) <= MAX_NARROW
     }
 
-    /// Returns the maximum number of a piece on any board; lines of barriers may exceed the usual number.
+    /// Returns the maximum number of a piece on any board. Lines of barriers may exceed the usual number.
     pub(crate) fn most(&self, piece: &Piece) -> usize {
         match piece.idiom {
             Idiom::Barrier | Idiom::Crossing | Idiom::Ground | Idiom::Road if !piece.asked => {
@@ -205,8 +207,8 @@ impl<'k> Draft<'k> {
         emptiness(self.grid, |cell| self.is_free(cell))
     }
 
-    /// Returns the number of fragments: groups of one or two wall blocks that touch no others, and lone pieces of types
-    /// that normally stand in rows.
+    /// Returns the number of fragments. A fragment is a group of one or two wall blocks that touches no other block, or
+    /// a lone piece of a type that normally stands in rows.
     pub(crate) fn fragments(&self) -> usize {
         let walls = self.grid.regions(|cell| self.is_wall(cell));
         let is_lone = |&cell: &usize| {
@@ -218,7 +220,7 @@ impl<'k> Draft<'k> {
         walls.iter().filter(|group| group.len() <= 2).count() + (0..self.grid.len()).filter(is_lone).count()
     }
 
-    /// Returns `true` if a board has at most `fragments` fragments, and no larger empty rectangle than `empty`.
+    /// Returns `true` if a board has at most `fragments` fragments, and no empty rectangle larger than `empty`.
     pub(crate) fn is_composed(&self, fragments: usize, empty: f64) -> bool {
         self.fragments() <= fragments && self.emptiness() <= empty
     }

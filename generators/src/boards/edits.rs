@@ -12,7 +12,7 @@ pub(crate) enum Edit {
     MovePiece,
     /// Swaps two different pieces.
     Swap,
-    /// Moves adjacent pieces of a kind together.
+    /// Moves adjacent pieces of the same kind together.
     MoveGroup,
     /// Moves a straight segment of wall sideways.
     ShiftWall,
@@ -52,7 +52,7 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Makes an edit; returns `None` if there is nothing to edit in that way. The result may be unsound.
+    /// Makes an edit. Returns `None` if the board has nothing to edit in that way. The result may be unsound.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::MovePiece => self.move_piece(sampler),
@@ -77,8 +77,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Draws a free cell that fits a piece, other than the cell that it comes from. Pieces that stand in rows join
-    /// others of their kind, and half of the moves are short.
+    /// Draws a free cell that fits a piece, other than the piece's current cell. Pieces that stand in rows join
+    /// pieces of the same kind. Half of the moves are short.
     fn draw_cell(&self, symbol: u8, from: Option<usize>, sampler: &mut Sampler) -> Option<usize> {
         let piece = self.kit.piece(symbol)?;
         let near = from.filter(|_| sampler.ratio(1, 2));
@@ -129,7 +129,7 @@ impl Draft<'_> {
         (0..self.grid.len()).filter(|&cell| self.is_wall(cell) && !self.grid.on_border(cell)).collect()
     }
 
-    /// Returns the straight segment of inner walls through a cell, up to three cells to either side.
+    /// Returns the straight segment of inner walls through a cell, extended by up to three cells to either side.
     fn segment(&self, cell: usize, is_vertical: bool) -> Vec<usize> {
         let ways = if is_vertical { [(0, -1), (0, 1)] } else { [(-1, 0), (1, 0)] };
         let mut segment = vec![cell];

@@ -1,4 +1,4 @@
-//! Formations: groups of things that look arranged on purpose.
+//! Formations: groups of things that look deliberately arranged.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
@@ -9,15 +9,15 @@ const DRAWS: usize = 24;
 /// The arrangement of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Formation {
-    /// A row whose members are this offset apart.
+    /// A row whose members are separated by this offset.
     Row(i32, i32),
     /// Pairs side by side, row after row.
     Block,
     /// A zigzag along a column if `true`, otherwise along a row.
     Zigzag(bool),
-    /// Around a cell: first the four sides, then the corners.
+    /// A ring around a cell: first the four sides, then the corners.
     Ring,
-    /// As far from each other as possible.
+    /// Members as far from each other as possible.
     Spread,
 }
 
@@ -57,8 +57,8 @@ impl Formation {
     }
 }
 
-/// Draws cells for a group of `count` members. The weights say where a member may be, and how well each cell suits it.
-/// Returns fewer cells if there is no room for all members.
+/// Draws cells for a group of `count` members. The weights determine where a member may be, and how well each cell
+/// suits it. Returns fewer cells if there is no room for all members.
 pub(crate) fn arrange(grid: Grid, count: usize, weights: &[u32], sampler: &mut Sampler) -> Vec<usize> {
     let formation = Formation::draw(sampler);
     if formation == Formation::Spread || count < 2 {
@@ -78,7 +78,7 @@ pub(crate) fn arrange(grid: Grid, count: usize, weights: &[u32], sampler: &mut S
             best = (value, cells);
         }
     }
-    // Members that find no room in the formation stand close to it.
+    // Members that do not fit into the formation stand close to it.
     let mut cells = best.1;
     while cells.len() < count {
         let room = (0..grid.len()).filter(|cell| weights[*cell] > 0 && !cells.contains(cell));

@@ -10,7 +10,7 @@ use super::plans::draw_plan;
 use crate::levels::grid::{FAR, WAYS};
 use base::{Sampler, Seed};
 
-/// The order in which pieces are placed, from the least to the most room.
+/// The order in which pieces are placed, from the pieces that need the least room to those that need the most.
 const ORDER: [Idiom; 13] = [
     Idiom::Crossing,
     Idiom::Exit,
@@ -33,7 +33,7 @@ const EMPTY: f64 = 0.32;
 const FRAGMENTS: usize = 3;
 
 /// Composes a board: a plan, the material of its dividers, the hero, and all pieces. Returns `None` if there is no room
-/// for them.
+/// for all of them.
 pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     let sampler = &mut seed.child("board", 0).sampler();
     let size = kit.brief.size.unwrap_or_else(|| size(kit.brief.demand, sampler));
@@ -51,7 +51,7 @@ pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     Some(draft).filter(|draft| is_composed && draft.is_sound())
 }
 
-/// Draws the columns and rows for a demand: later boards are larger.
+/// Draws the numbers of columns and rows for a demand. Later boards are larger.
 fn size(demand: u8, sampler: &mut Sampler) -> (usize, usize) {
     let more = usize::from(demand) / 2;
     (sampler.between(10 + more, 13 + more), sampler.between(8, 9 + more))
@@ -89,7 +89,7 @@ fn place(
     match piece.idiom {
         Idiom::Ground | Idiom::Hazard | Idiom::Crossing => place_patches(draft, piece, count, sampler),
         Idiom::Barrier | Idiom::Road => {
-            // Barriers without a gap stand in a row, and only as many as necessary.
+            // Barriers without a gap stand in a row, and no more of them are placed than necessary.
             let missing = piece.counts.0.saturating_sub(draft.count(piece.symbol)).min(count);
             let weights = weights(draft, canvas, hero, piece);
             let cells = arrange(draft.grid, missing, &weights, sampler);
@@ -146,7 +146,7 @@ fn weights(draft: &Draft<'_>, canvas: &Canvas, hero: usize, piece: &Piece) -> Ve
     (0..draft.grid.len()).map(weight).collect()
 }
 
-/// Returns 0 if a pushed piece would be next to its target, so that one push is enough; otherwise 1.
+/// Returns 0 if a pushed piece would be next to its target, so that one push is enough. Otherwise returns 1.
 fn beside_rival(draft: &Draft<'_>, piece: &Piece, cell: usize) -> u32 {
     let is_pair = |one: Idiom, other: Idiom| {
         matches!((one, other), (Idiom::Heavy, Idiom::Spot | Idiom::Heavy) | (Idiom::Spot, Idiom::Heavy))
@@ -179,7 +179,7 @@ fn place_patches(draft: &mut Draft<'_>, piece: &Piece, count: usize, sampler: &m
 fn top_up(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     for (piece, _) in stock {
         while draft.count(piece.symbol) < piece.counts.0 {
-            // Next to others of the kind, if it stands in rows or patches.
+            // If the kind stands in rows or patches, the cell should be next to other pieces of the kind.
             let grows = matches!(piece.idiom, Idiom::Ground | Idiom::Crossing | Idiom::Hazard);
             let weight = |cell: usize| {
                 let own = WAYS.into_iter().filter_map(|way| draft.grid.shift(cell, way));

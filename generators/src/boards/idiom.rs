@@ -6,43 +6,46 @@ use engine::{Analysis, SpriteType};
 /// The kind of position that suits the sprites of a type, derived from the rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Idiom {
-    /// A type that stops or kills the player until a rule opens, removes or disarms it. It belongs in gaps, and in rows
-    /// that divide a board.
+    /// A type that stops or kills the player until a rule opens, removes or disarms its sprites. Its sprites belong in
+    /// gaps, and in rows that divide a board.
     Barrier,
-    /// A type that stops or kills the player until something pushed or thrown fills it. It forms a river across the
-    /// board.
+    /// A type that stops or kills the player until a pushed or thrown thing fills it. Its sprites form a river across
+    /// the board.
     Crossing,
-    /// A type that stands still and works together with its neighbours, such as soil, fuel, ice or planks. It forms
-    /// rows and patches.
+    /// A type that stands still and works together with its neighbours, such as soil, fuel, ice or planks. Its sprites
+    /// form rows and patches.
     Ground,
-    /// A type that breaks or changes under the player into an obstacle. It belongs in gaps, as the road across.
+    /// A type that breaks under the player, or changes into an obstacle. Its sprites belong in gaps, as the road
+    /// across.
     Road,
-    /// A type that permanently stops the player, as walls do, but is not a wall. It forms gulfs, ponds, and lines with
-    /// roads across.
+    /// A type that permanently stops the player like a wall, but is not a wall. Its sprites form gulfs, ponds, and
+    /// lines with roads across.
     Obstacle,
-    /// A type that permanently kills the player. It forms pools beside the path.
+    /// A type that permanently kills the player. Its sprites form pools beside the path.
     Hazard,
-    /// A type that is collected, touched or guarded. It belongs in groups.
+    /// A type that is collected, touched or guarded. Its sprites belong in groups.
     Thing,
-    /// A type that is pushed. It belongs on open floor, away from walls.
+    /// A type that is pushed. Its sprites belong on open floor, away from walls.
     Heavy,
-    /// A type onto which something is pushed or brought. It belongs where it can be reached from opposite sides.
+    /// A type onto which a thing is pushed or brought. Its sprites belong where they can be reached from opposite
+    /// sides.
     Spot,
-    /// A type that moves straight ahead. It belongs on long free lanes.
+    /// A type that moves straight ahead. Its sprites belong on long free lanes.
     Patrol,
-    /// A type that follows others. It belongs at a distance from the player.
+    /// A type that follows other sprites. Its sprites belong at a distance from the player.
     Hunter,
-    /// A type that flees or wanders. It belongs on open floor.
+    /// A type that flees or wanders. Its sprites belong on open floor.
     Stray,
-    /// A type that creates other sprites. It belongs next to walls, far from the player.
+    /// A type that creates other sprites. Its sprites belong next to walls, far from the player.
     Source,
-    /// A type that ends the level when touched, or leads to another place. It belongs next to walls, far from the player.
+    /// A type that ends the level when touched, or leads to a different location. Its sprites belong next to walls, far
+    /// from the player.
     Exit,
 }
 
 impl Idiom {
-    /// Returns the idiom of a type for the avatar that levels start with; `None` if no board is furnished with the
-    /// type. These types are the avatar, floor, shots, and types that take no part in play. Cost: O(encounters ×
+    /// Returns the idiom of a type for the avatar that levels start with. Returns `None` if boards are not furnished
+    /// with the type: for the avatar, floor, shots, and types that take no part in play. Cost: O(encounters ×
     /// relatives).
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Option<Idiom> {
         let start = analysis.start_avatar()?.stype;
@@ -122,14 +125,14 @@ impl Idiom {
     }
 }
 
-/// Returns `true` if an avatar can push something onto the type such that one of the two is removed or changed, and
-/// `wanted` accepts whether that fills the type.
+/// Returns `true` if an avatar can push something onto the type so that one of the two is removed or changed. `wanted`
+/// decides whether this must fill the type.
 fn is_partner(analysis: &Analysis, stype: SpriteType, wanted: impl Fn(bool) -> bool) -> bool {
     let sinks = analysis.pushables().iter().flat_map(|pushable| &pushable.sinks);
     sinks.into_iter().any(|sink| sink.partner == stype && wanted(sink.fills))
 }
 
-/// Returns the interactions that have the type on either side, with that side.
+/// Returns the interactions that have the type on either side, each with that side.
 fn with(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encounter, Side)> {
     let first = move |met: &&Encounter| met.second.is_some() && analysis.applies(met.first, stype);
     let second = move |met: &&Encounter| met.second.is_some_and(|written| analysis.applies(written, stype));
@@ -151,8 +154,8 @@ fn is_ended(analysis: &Analysis, stype: SpriteType) -> bool {
         || with(analysis, stype).any(|(met, side)| met.ends(side))
 }
 
-/// Returns `true` if a type takes part in some interaction that does more than stop something: it creates, opens, gives
-/// or ends something, or sends it elsewhere.
+/// Returns `true` if a type takes part in some interaction that does more than stop a sprite. Such an interaction
+/// creates, opens, gives, ends or transports something.
 fn acts(analysis: &Analysis, stype: SpriteType) -> bool {
     let stops = |effect: &EffectSummary| {
         matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_) | EffectSummary::Turn)
@@ -164,7 +167,7 @@ fn acts(analysis: &Analysis, stype: SpriteType) -> bool {
         .any(|(met, side)| met.does(|effect| !stops(effect)) && !(side == Side::Second && ends_mover(met)))
 }
 
-/// Returns `true` if the type turns into something that spreads or creates others, as fuel does.
+/// Returns `true` if the type turns into something that spreads or creates other sprites, like fuel.
 fn is_fuel(analysis: &Analysis, stype: SpriteType) -> bool {
     let spreads = |to: SpriteType| {
         analysis.game().class(to) == Some(engine::SpriteClass::Spreader)
@@ -174,7 +177,7 @@ fn is_fuel(analysis: &Analysis, stype: SpriteType) -> bool {
     !facts.is_resource && facts.makes.is_empty() && analysis.turns(stype).iter().any(|&(to, _)| spreads(to))
 }
 
-/// Returns `true` if a win requires that the type is removed, or if its end loses the game.
+/// Returns `true` if a win requires the removal of the type, or if the end of the type loses the game.
 fn is_at_stake(analysis: &Analysis, stype: SpriteType) -> bool {
     let aims = analysis.aims();
     aims.remove.contains(&stype)

@@ -16,11 +16,11 @@ pub(crate) struct Piece {
     pub(crate) stype: SpriteType,
     pub(crate) symbol: u8,
     pub(crate) idiom: Idiom,
-    /// `true` if the piece harms the player or creates something that does.
+    /// `true` if the piece harms the player or creates something harmful.
     pub(crate) harmful: bool,
-    /// `true` if the brief specified the numbers.
+    /// `true` if the brief specified the number of pieces.
     pub(crate) asked: bool,
-    /// The minimum and maximum number on a board.
+    /// The minimum and maximum number of pieces on a board.
     pub(crate) counts: (usize, usize),
 }
 
@@ -76,7 +76,7 @@ impl<'a> Kit<'a> {
                     .is_none_or(|piece| matches!(piece.idiom, Idiom::Hazard | Idiom::Obstacle)))
     }
 
-    /// Returns `true` if the avatar, as it starts, can stand in a cell with the character.
+    /// Returns `true` if the avatar can stand in a cell with the character when the level starts.
     pub(crate) fn is_open(&self, symbol: u8) -> bool {
         if self.piece(symbol).is_some_and(|piece| piece.idiom.moves()) {
             return true;
@@ -84,7 +84,7 @@ impl<'a> Kit<'a> {
         matches!(self.palette.walk(symbol), Walk::Open | Walk::Pushed)
     }
 
-    /// Returns `true` if a piece opens, fills or disarms something, so that it has to be on the hero's side.
+    /// Returns `true` if a piece opens, fills or disarms something, so that the piece must be on the hero's side.
     pub(crate) fn is_opener(&self, stype: SpriteType) -> bool {
         let gives = self
             .analysis
@@ -100,7 +100,7 @@ impl<'a> Kit<'a> {
         gives || fills || ammo
     }
 
-    /// Returns `true` if a win requires that sprites of the type are removed, or if they must be protected.
+    /// Returns `true` if a win requires that sprites of the type are removed or protected.
     pub(crate) fn is_aim(&self, stype: SpriteType) -> bool {
         let aims = self.analysis.aims();
         aims.remove.contains(&stype) || aims.protect.contains(&stype)
@@ -127,7 +127,7 @@ impl<'a> Kit<'a> {
         drawn
     }
 
-    /// Returns `true` if a level needs the type for a win, or for something that a win needs.
+    /// Returns `true` if a win needs the type, or needs something that requires the type.
     fn is_required(&self, stype: SpriteType) -> bool {
         let asked = |reason: Reason| match reason {
             Reason::Avatar | Reason::Portal(_) => false,
@@ -156,7 +156,7 @@ impl<'a> Kit<'a> {
         }
     }
 
-    /// Raises the numbers of pushed types and their targets to what a win needs.
+    /// Raises the numbers of pushed types and their targets to the numbers that a win needs.
     fn match_pushed(&self, drawn: &mut [(Piece, usize)]) {
         let remove = &self.analysis.aims().remove;
         let number = |drawn: &[(Piece, usize)], stype: SpriteType| {
@@ -179,7 +179,7 @@ impl<'a> Kit<'a> {
     }
 }
 
-/// Returns the usual numbers of a type on a board, within what the terminations require.
+/// Returns the usual numbers of a type on a board, within the limits of the terminations.
 fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (usize, usize) {
     let demand = usize::from(demand);
     let is_aim = analysis.aims().remove.contains(&stype);

@@ -1,8 +1,8 @@
-//! A generator of boards for any game: a board is composed of a plan with a landmark, and furnished according to the
+//! A generator of boards for any game. A board is composed of a plan with a landmark, and furnished according to the
 //! idiom of each type.
 //!
-//! The idioms are derived from the rules, so nothing here depends on names. A [`BoardVariation`] creates boards and
-//! edits them; players have to find out whether a board is good.
+//! The idioms are derived from the rules, so nothing in this module depends on names. A [`BoardVariation`] creates
+//! and edits boards. Only players can show whether a board is good.
 
 mod brief;
 mod canvas;

@@ -1,13 +1,15 @@
-//! Tidying: variants of a board that lack something small, so that a search can find out whether it matters.
+//! Tidying: variants of a board that lack something small, so that a search can find out whether the missing part
+//! matters.
 
 use super::draft::Draft;
 
-/// The maximum number of cells in a group that is left out at once.
+/// The maximum number of cells in a group that is left out as a whole.
 const SMALL: usize = 2;
 
 impl Draft<'_> {
-    /// Returns the sound boards without one small group of walls that stands apart from the border, or without one
-    /// piece that exceeds its minimum number and is not counted by a goal, from the smallest to the largest group.
+    /// Returns the sound boards that lack one small group, from the smallest to the largest group. Such a group
+    /// consists of walls that stand apart from the border, or of one piece that exceeds its minimum number and
+    /// that no goal counts.
     pub(crate) fn tidied(&self) -> Vec<Self> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         let walls = self.grid.regions(|cell| self.is_wall(cell));

@@ -22,11 +22,11 @@ const FRAGMENTS: usize = 2;
 /// The size of the largest empty rectangle that a board may always have, as a fraction of the area within the border.
 const EMPTY: f64 = 0.25;
 
-/// Boards of any game as candidates of a search. They are composed of plans and idioms, and changed by edits.
+/// Boards of any game as candidates of a search. The boards are composed of plans and idioms, and changed by edits.
 ///
-/// All boards have one hero, connected ground that is mostly wide, the numbers requested by the brief, and nothing
-/// harmful next to the hero, who survives a few ticks of doing nothing. They are not tested for whether they can be
-/// won. Cost: about a millisecond per board, and some tens of microseconds per edit.
+/// All boards have one hero, connected ground that is mostly wide, and the numbers requested by the brief. Nothing
+/// harmful is next to the hero, who survives a few ticks of doing nothing. The boards are not tested for whether they
+/// can be won. Cost: about a millisecond per board, and some tens of microseconds per edit.
 #[derive(Clone, Debug)]
 pub struct BoardVariation<'a> {
     kit: Kit<'a>,
@@ -44,14 +44,14 @@ impl<'a> BoardVariation<'a> {
         Ok(BoardVariation { kit })
     }
 
-    /// Returns variants of a board that each lack one small thing, for a search that looks for things that do not
+    /// Returns variants of a board that each lack one small thing. A search uses them to find things that do not
     /// matter.
     pub fn tidied(&self, level: &Level) -> Vec<Level> {
         Draft::of(&self.kit, level).tidied().iter().filter_map(Draft::level).collect()
     }
 
-    /// Returns the area of a board's largest empty rectangle, as a fraction of the area within the border; it is large
-    /// for a bare hall.
+    /// Returns the area of a board's largest empty rectangle, as a fraction of the area within the border. The
+    /// fraction is large for a bare hall.
     pub fn emptiness(&self, level: &Level) -> f64 {
         Draft::of(&self.kit, level).emptiness()
     }
@@ -63,7 +63,7 @@ impl<'a> BoardVariation<'a> {
         (0..GRACE).all(|_| !matches!(game.step(&mut state, Action::Nil), Outcome::Lost | Outcome::Stopped(_)))
     }
 
-    /// Returns a sound board with one to three more edits, or the same board.
+    /// Returns a sound board with one to three more edits. If no edits lead to a sound board, returns the same board.
     fn edited<'k>(&'k self, draft: Draft<'k>, sampler: &mut Sampler) -> Draft<'k> {
         let mut edits = 1 + sampler.weighted(&[5, 3, 2]).unwrap_or(0);
         let mut draft = draft;
@@ -106,8 +106,8 @@ impl Variation for BoardVariation<'_> {
         made.unwrap_or_else(|| parent.clone())
     }
 
-    /// Returns the first board with a part of the second one, if they have the same size and the result is sound;
-    /// otherwise an edit of the first board.
+    /// Returns the first board with a part of the second board, if both have the same size and the result is sound.
+    /// Otherwise returns an edit of the first board.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (mut child, other) = (Draft::of(&self.kit, one), Draft::of(&self.kit, two));
         let cut = sampler.between(3, child.grid.columns.max(7) - 4);

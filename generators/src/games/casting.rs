@@ -3,7 +3,7 @@
 use engine::analysis::{Analysis, Harm, Motion, Removal, Role as Use};
 use engine::{Direction, SpriteType};
 
-/// Returns the roles that a type can play, from most to least fitting; never empty.
+/// Returns the roles that a type can play, from most to least fitting. The list is never empty.
 pub(super) fn roles(analysis: &Analysis, stype: SpriteType) -> &'static [&'static str] {
     let facts = analysis.facts(stype);
     let still = facts.motion == Motion::Still;
@@ -45,7 +45,8 @@ pub(super) fn roles(analysis: &Analysis, stype: SpriteType) -> &'static [&'stati
     }
 }
 
-/// Returns words for a group of types, one of which has this use; the words are more general than those of any scene.
+/// Returns words for a group of types, one of which has this use. These words are more general than those of any
+/// scene.
 pub(super) fn group(role: Use) -> &'static [&'static str] {
     match role {
         Use::Avatar => &["figure", "actor"],

@@ -28,35 +28,35 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// Reach the exit.
+    /// Games in which the player reaches the exit.
     Escape "escape" "Escape Flight Exit";
-    /// Cross lanes of traffic.
+    /// Games in which the player crosses lanes of traffic.
     Crossing "crossing" "Crossing Passage Traverse";
-    /// Collect things among dangers.
+    /// Games in which the player collects things among dangers.
     CollectAndAvoid "collect-and-avoid" "Harvest Hoard Gathering";
-    /// Find a key and open the lock.
+    /// Games in which the player finds a key and opens the lock.
     KeyAndDoor "key-and-door" "Secret Lock Key";
-    /// Shoot or strike all foes.
+    /// Games in which the player shoots or strikes all foes.
     Shooter "shooter" "Hunt Stand Battle";
-    /// Push things onto their targets.
+    /// Games in which the player pushes things onto their targets.
     BoxPuzzle "box-puzzle" "Puzzle Labour Shift";
-    /// Save friends from danger.
+    /// Games in which the player saves friends from danger.
     Rescue "rescue" "Rescue Errand Vigil";
-    /// Drive fleeing or straying creatures to a place.
+    /// Games in which the player drives fleeing or straying creatures to a target.
     Herding "herding" "Round Drive Muster";
-    /// Fetch, process and deliver goods.
+    /// Games in which the player fetches, processes and delivers goods.
     Resource "resource" "Delivery Trade Errand";
-    /// Keep everything in order faster than it falls into disorder.
+    /// Games in which the player keeps everything in order faster than it falls into disorder.
     Tending "tending" "Rounds Watch Chore";
-    /// Stay alive until time is up.
+    /// Games in which the player stays alive until time is up.
     Survival "survival" "Ordeal Night Siege";
-    /// Protect something from harm.
+    /// Games in which the player protects something from harm.
     Defence "defence" "Guard Watch Defence";
-    /// Lead pursuers into traps.
+    /// Games in which the player leads pursuers into traps.
     Lure "lure" "Trick Ruse Bait";
-    /// Catch falling things.
+    /// Games in which the player catches falling things.
     Catching "catching" "Catch Juggle Windfall";
-    /// Blow things up.
+    /// Games in which the player blows things up.
     Demolition "demolition" "Demolition Blast Clearance";
 }
 

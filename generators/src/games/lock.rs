@@ -1,5 +1,5 @@
-//! Rules of lock puzzles: doors that use up keys, and planks that carry the avatar once, so that the order of moves
-//! matters.
+//! Rules of lock puzzles: doors that use up keys, and planks that carry the avatar only once, so that the order of
+//! moves matters.
 
 use engine::Game;
 use std::fmt::Write;
@@ -9,9 +9,9 @@ use std::fmt::Write;
 pub struct LockRules {
     /// The number of kinds of keys, each with its own doors: up to [`LockRules::KINDS`].
     kinds: usize,
-    /// `true` if there are planks, floor that carries the avatar only once.
+    /// `true` if there are planks, which are floor that carries the avatar only once.
     has_planks: bool,
-    /// `true` if the player wins by collecting all gems; otherwise by reaching the exit.
+    /// `true` if the player wins by collecting all gems, and `false` if the player wins by reaching the exit.
     has_gems: bool,
 }
 
@@ -29,14 +29,19 @@ impl LockRules {
     /// The characters of the game's levels.
     pub const SYMBOLS: &str = ".wpbgklde";
 
-    /// The characters of floor, wall, avatar, plank and goal in levels of [`LockRules::game`].
+    /// The character of floor in levels of [`LockRules::game`].
     pub(crate) const FLOOR: char = '.';
+    /// The character of walls.
     pub(crate) const WALL: char = 'w';
+    /// The character of the avatar.
     pub(crate) const AVATAR: char = 'p';
+    /// The character of planks.
     pub(crate) const PLANK: char = 'b';
+    /// The character of the goal, which is a gem or the exit.
     pub(crate) const GOAL: char = 'g';
-    /// The characters of keys and doors, by kind.
+    /// The characters of keys, by kind.
     pub(crate) const KEYS: [char; LockRules::KINDS] = ['k', 'l'];
+    /// The characters of doors, by kind.
     pub(crate) const DOORS: [char; LockRules::KINDS] = ['d', 'e'];
 
     /// Returns the number of kinds of keys.
@@ -44,7 +49,7 @@ impl LockRules {
         self.kinds
     }
 
-    /// Returns `true` if there are planks, floor that carries the avatar only once.
+    /// Returns `true` if there are planks, which are floor that carries the avatar only once.
     pub fn has_planks(self) -> bool {
         self.has_planks
     }
@@ -67,7 +72,7 @@ impl LockRules {
     /// Returns the game with plain names.
     ///
     /// # Panics
-    /// Never: all rules compile, as a test checks.
+    /// This function never panics, because all rules compile, as a test checks.
     pub fn game(self) -> Game {
         Game::from_source(&self.source()).expect("the rules compile")
     }
@@ -115,7 +120,7 @@ mod tests {
     use base::Seed;
     use engine::{Action, Outcome};
 
-    /// A key opens one door, in the tick before the avatar enters it; a plank carries the avatar once.
+    /// A key opens one door, in the tick before the avatar enters the door. A plank carries the avatar once.
     #[test]
     fn doors_use_up_keys_and_planks_carry_once() {
         let game = LockRules { kinds: 1, has_planks: true, has_gems: false }.game();

@@ -1,7 +1,7 @@
-//! The masked twin of a game: the same rules, without names, characters, colours or comments that reveal any meaning.
+//! The masked twin of a game, which has the same rules. Its names, characters, colours and comments reveal no meaning.
 //!
-//! A player who has read about games knows the purpose of a `key`; a player of the twin has to find it out. The names
-//! `wall` and `avatar` stay, since the engine depends on them.
+//! A player who has read about games knows the purpose of a `key`. A player of the twin must find out the purpose. The
+//! names `wall` and `avatar` stay, because the engine depends on them.
 
 use super::surface::{self, Symbols};
 use base::{Sampler, Seed};
@@ -21,9 +21,9 @@ pub struct Masked {
 }
 
 impl Masked {
-    /// Creates the masked twin of any game that compiles: sprite types are called `t1`, `t2` and so on in random order,
+    /// Creates the masked twin of any game that compiles. Sprite types are called `t1`, `t2` and so on in random order,
     /// level characters are drawn, and the colours that the game uses are permuted. Images and comments are removed.
-    /// All lines keep their order, so that both games play identically, including their state hashes.
+    /// All lines keep their order, so both games play identically, including their state hashes.
     pub fn of(description: &Description, seed: Seed) -> Masked {
         let mut sampler = seed.child("masked", 0).sampler();
         let mask = Mask::draw(description, &mut sampler);
@@ -35,7 +35,7 @@ impl Masked {
         Masked { description: masked, symbols: mask.symbols }
     }
 
-    /// Returns the rules.
+    /// Returns the rules of the masked game.
     pub fn description(&self) -> &Description {
         &self.description
     }
@@ -77,7 +77,7 @@ impl Mask {
         pool.truncate(used.len() - needed.len());
         pool.extend(needed);
         sampler.shuffle(&mut pool);
-        // A game with more characters than the pool keeps its last ones.
+        // A game with more characters than the pool keeps the last of its characters.
         let symbols = used.iter().enumerate().map(|(at, &symbol)| (symbol, *pool.get(at).unwrap_or(&symbol)));
         let symbols = symbols.chain(unmapped_builtins());
         Mask { names, symbols: Symbols(symbols.collect()), colors: colors.collect() }

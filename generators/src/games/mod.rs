@@ -1,7 +1,7 @@
-//! Games as text: kinds, English nouns, and twins with different names.
+//! Games as text: their kinds, English nouns, and twins with different names.
 //!
 //! Games themselves are composed of kernels ([`crate::kernels`]). A rethemed game takes its names from a scene, by the
-//! roles of its types (`casting.rs`) ([`crate::kernels`]); a masked one has names that say nothing.
+//! roles of its types (`casting.rs`). The names of a masked game have no meaning.
 
 pub(crate) mod blurb;
 mod casting;
@@ -27,7 +27,7 @@ use engine::Game;
 /// A game with its description in prose.
 #[derive(Clone, Debug)]
 pub struct GeneratedGame {
-    /// The rules, compiled without warnings from their printed text, as the rules of frozen games are.
+    /// The rules. They are compiled without warnings from their printed text, like the rules of frozen games.
     pub rules: Game,
     /// The title, in the terms of the game's scene.
     pub title: String,
@@ -37,7 +37,7 @@ pub struct GeneratedGame {
     pub goal: String,
     /// The kind of game.
     pub kind: Kind,
-    /// `true` if something moves even when the player does not act.
+    /// `true` if anything moves even while the player does nothing.
     pub real_time: bool,
     /// The kernel, its variants and the scene.
     pub patterns: Vec<String>,

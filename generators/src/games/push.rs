@@ -7,11 +7,11 @@ use std::fmt::Write;
 /// The destination of a kind of things.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
-    /// A drain: the thing disappears, the drain stays.
+    /// A drain: the thing disappears, and the drain stays.
     Drain,
-    /// A pit: both disappear. The avatar cannot cross the pit before that.
+    /// A pit: the thing and the pit disappear. The avatar cannot cross the pit before that.
     Pit,
-    /// A mat: the thing stays on the mat, and can be pushed off again.
+    /// A mat: the thing stays on the mat, and can be pushed off the mat again.
     Mat,
 }
 
@@ -20,10 +20,10 @@ enum End {
 pub struct PushRules {
     /// The destination of each kind of things.
     ends: [Option<End>; 2],
-    /// `true` if things of one kind cannot be pushed over the drains of the other kind, as they never can over its pits
-    /// and mats.
+    /// `true` if things of one kind cannot be pushed over the drains of the other kind. They can never be pushed over
+    /// the pits and mats of the other kind.
     exclusive: bool,
-    /// `true` if there are sills, cells that the avatar can enter and things cannot.
+    /// `true` if there are sills, which are cells that the avatar can enter and things cannot.
     has_sills: bool,
     /// `true` if there are strays, which wander at random and kill the avatar.
     has_strays: bool,
@@ -50,7 +50,7 @@ fn settled(kind: usize) -> &'static str {
 }
 
 impl PushRules {
-    /// All sets of rules, no two of which are near-duplicates; sets with two kinds of things come first.
+    /// All sets of rules, no two of which are near-duplicates. Sets with two kinds of things come first.
     pub const ALL: [PushRules; 15] = [
         rules(Drain, Some(Mat), false, true),
         rules(Drain, Some(Pit), true, true),
@@ -69,7 +69,7 @@ impl PushRules {
         rules(Drain, None, false, false),
     ];
 
-    /// All sets of rules with strays, none of which is a near-duplicate of another one or of one in [`PushRules::ALL`].
+    /// All sets of rules with strays. No set is a near-duplicate of a different set here or in [`PushRules::ALL`].
     pub const AMONG_STRAYS: [PushRules; 10] = [
         among_strays(Drain, Some(Mat), false, true),
         among_strays(Drain, Some(Pit), true, true),
@@ -86,7 +86,7 @@ impl PushRules {
     /// The characters of the game's levels.
     pub const SYMBOLS: &str = ".wAcbousyznk";
 
-    /// The number of ticks in which a stray moves by one cell.
+    /// The number of ticks in which a stray moves one cell.
     pub(crate) const COOLDOWN: usize = 3;
     /// The number of ticks in which the spark burns one cell of fuse.
     pub(crate) const BURN: usize = 25;
@@ -98,12 +98,15 @@ impl PushRules {
     /// The characters of the spark, the fuse and the keg, which occur only together with strays.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 'z', fuse: 'n', keg: 'k', wall: PushRules::WALL };
-    /// The characters of walls, the avatar and sills.
+    /// The character of walls.
     pub(crate) const WALL: char = 'w';
+    /// The character of the avatar.
     pub(crate) const AVATAR: char = 'A';
+    /// The character of sills.
     pub(crate) const SILL: char = 's';
-    /// The characters of things and their targets, by kind.
+    /// The characters of things, by kind.
     pub(crate) const THINGS: [char; 2] = ['c', 'b'];
+    /// The characters of the things' targets, by kind.
     pub(crate) const TARGETS: [char; 2] = ['o', 'u'];
 
     /// Returns `true` if there are strays, which makes the game stochastic.
@@ -145,7 +148,7 @@ impl PushRules {
     /// Returns the game with plain names.
     ///
     /// # Panics
-    /// Never: all rules compile, as a test checks.
+    /// This function never panics, because all rules compile, as a test checks.
     pub fn game(self) -> Game {
         Game::from_source(&self.source()).expect("the rules compile")
     }

@@ -1,6 +1,6 @@
 //! Rethemed games: the same rules under new names, characters, colours and texts.
 //!
-//! A player who knows a game by heart knows the purpose of its `conch`. The rethemed game has to be read again: the
+//! A player who knows a game by heart knows the purpose of its `conch`, but must read the rethemed game again. The
 //! names of its types depend on their use in the rules (`casting.rs`), and on a scene and words drawn at random.
 
 use super::blurb;
@@ -16,7 +16,7 @@ use engine::syntax::{MappingLine, SpriteLine};
 use engine::{Description, Game, SpriteType};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The directions that end the names of types that differ only in direction.
+/// The directions at the end of the names of types that differ only in direction.
 const DIRECTIONS: [&str; 4] = ["Up", "Left", "Down", "Right"];
 /// The prefix in the name of a type that another type turns into at its destination.
 const SETTLED: &str = "settled";
@@ -26,7 +26,7 @@ const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", 
 /// A game in a new scene, with the characters of its levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rethemed {
-    /// The rules. All lines keep their order, so that both games play identically, including their state hashes.
+    /// The rules. All lines keep their order, so both games play identically, including their state hashes.
     pub description: Description,
     /// The title in the new scene.
     pub title: String,
@@ -40,19 +40,19 @@ pub struct Rethemed {
 }
 
 impl Rethemed {
-    /// Rethemes a game: sprite types get words of one scene according to their use; level characters, colours, title
-    /// and texts follow. No name of the game is reused except `wall` and `avatar`, since the engine depends on them;
-    /// images and comments are removed. Cost: about that of analysing the game twice.
+    /// Rethemes a game. Sprite types get words of one scene according to their use. Level characters, colours, the
+    /// title and the texts follow from the scene. No name of the game is reused except `wall` and `avatar`, because the
+    /// engine depends on these two. Images and comments are removed. Cost: about that of analysing the game twice.
     ///
     /// # Errors
-    /// Returns [`GenerateError::Unsuitable`], whatever the seed, if the game does not compile with other names (because
-    /// it was loaded with the reference's recovery from faults), or if it uses up all characters.
+    /// Returns [`GenerateError::Unsuitable`], with any seed, in two cases. Either the game does not compile with other
+    /// names, because it was loaded with the reference's recovery from faults, or it uses up all characters.
     pub fn of(game: &Game, seed: Seed) -> Result<Rethemed, GenerateError> {
         Rethemed::retell(game, seed, false)
     }
 
-    /// Rethemes a game as [`Rethemed::of`] does, but also translates compound names, which consist of the names of
-    /// other types, directions and states: `sackPorter`, `signUp` and `settledCrate` become `loafBaker`, `doormatUp`
+    /// Rethemes a game like [`Rethemed::of`], but also translates compound names. A compound name consists of the names
+    /// of other types, directions and states: `sackPorter`, `signUp` and `settledCrate` become `loafBaker`, `doormatUp`
     /// and `settledTrunk`.
     ///
     /// # Errors
@@ -100,7 +100,7 @@ impl Rethemed {
     }
 }
 
-/// The stems of the words that must not be reused: lower case, without plural endings.
+/// The stems of the words that must not be reused, in lower case and without plural endings.
 struct OldNames(BTreeSet<String>);
 
 impl OldNames {
@@ -196,7 +196,7 @@ impl Assigner<'_> {
         self.of_roles(roles)
     }
 
-    /// Returns the new name of a compound: a direction or a state stays, and the name of a type becomes that type's new
+    /// Returns the new name of a compound. A direction or a state stays, and the name of a type becomes that type's new
     /// word.
     fn compound(&mut self, name: &str, roles: &[&'static str]) -> Option<String> {
         self.stems.as_ref()?;
@@ -288,7 +288,7 @@ fn recolor(
         let old = back.get(name).copied().unwrap_or(name);
         let role = assigned.get(old).map_or("rubble", |assignment| assignment.role);
         let own = palette::color(role, scene, &taken);
-        // Among several floors or walls, only the first gets the scene's colour.
+        // If there are several floors or walls, only the first gets the scene's colour.
         let color = if taken.contains(&own) { palette::color("rubble", scene, &taken) } else { own };
         taken.push(color);
         color
@@ -338,7 +338,7 @@ fn symbols(analysis: &Analysis, assigned: &BTreeMap<String, Assignment>) -> Resu
             .last()
             .and_then(|name| assigned.get(*name))
             .map_or("x", |assignment| assignment.word.as_str());
-        // Choose a character that differs from the old one, if there is one.
+        // Choose a character that differs from the old one, if possible.
         let avoided: Vec<char> = taken.iter().copied().chain([*old]).collect();
         let any = || ('!'..='~').find(|symbol| *symbol != '#' && !taken.contains(symbol));
         let new = palette::free_symbol(word, &avoided).or_else(any);

@@ -1,12 +1,12 @@
-//! The surface of a game: names, level characters, images and comments. Changes of the surface leave the rules as they
-//! are.
+//! The surface of a game: names, level characters, images and comments. Changes to the surface do not change the
+//! rules.
 
 use engine::Description;
 use engine::syntax::{MappingLine, SpriteLine, Trivia};
 use std::collections::BTreeMap;
 
-/// Returns the same rules with sprite types renamed, without comments and images. All lines keep their order, so that
-/// both games play identically, including their state hashes.
+/// Returns the same rules with sprite types renamed, without comments and images. All lines keep their order, so both
+/// games play identically, including their state hashes.
 pub(super) fn without_surface(description: &Description, names: &BTreeMap<String, String>) -> Description {
     let mut bare = description.renamed(names);
     bare.header.trivia = Trivia::default();
@@ -28,8 +28,8 @@ fn strip_lines(lines: &mut [SpriteLine]) {
     }
 }
 
-/// Returns the characters that the game's levels can use: the characters of the LevelMapping in its order, then the
-/// built-in characters whose type this game declares and which it does not map itself.
+/// Returns the characters that the game's levels can use. The characters of the LevelMapping come first, in its order.
+/// The built-in characters follow whose type this game declares and which it does not map itself.
 pub(super) fn symbols(description: &Description) -> Vec<char> {
     let own = description.mapping.iter().map(|line| line.symbol);
     own.chain(['w', 'A'].into_iter().filter(|&symbol| builtin(symbol, description).is_some())).collect()
@@ -59,8 +59,8 @@ pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item
     ['w', 'A'].into_iter().filter_map(undeclared)
 }
 
-/// Returns the built-in characters that this game maps itself. A twin has to map them too; otherwise they would get a
-/// meaning that nothing has in this game.
+/// Returns the built-in characters that this game maps itself. A twin must map them too. Otherwise they would get a
+/// built-in meaning that they do not have in this game.
 pub(super) fn mapped_builtins(description: &Description) -> impl Iterator<Item = char> {
     ['w', 'A'].into_iter().filter(|&symbol| unmapped(symbol, description).is_none())
 }
@@ -90,7 +90,7 @@ impl Symbols {
         text.chars().map(symbol).collect()
     }
 
-    /// Writes the game's LevelMapping with the new characters; built-in characters get lines of their own.
+    /// Writes the game's LevelMapping with the new characters. Each built-in character gets its own line.
     pub(super) fn write(&self, description: &mut Description) {
         let lines = self.0.iter().filter_map(|(&symbol, &new)| {
             let names = vec![builtin(symbol, description)?.into()];

@@ -1,4 +1,4 @@
-//! Rules of yards: the avatar carries parcels to depots, one at a time, between carts that follow signs, before a fuse
+//! Rules of yards. The avatar carries parcels to depots, one at a time, between carts that follow signs, before a fuse
 //! has burnt down.
 
 use crate::levels::FuseSymbols;
@@ -10,9 +10,9 @@ use std::fmt::Write;
 pub struct YardRules {
     /// The number of kinds of parcels, each with its own depot: up to [`YardRules::KINDS`].
     kinds: usize,
-    /// `true` if there are points: signs that reverse their direction whenever a cart has followed them.
+    /// `true` if there are points, which are signs that reverse their direction whenever a cart has followed them.
     has_points: bool,
-    /// `true` if there are wagons: carts that take two ticks per cell.
+    /// `true` if there are wagons, which are carts that take two ticks per cell.
     has_wagons: bool,
 }
 
@@ -30,9 +30,11 @@ impl YardRules {
     /// The characters of the game's levels.
     pub const SYMBOLS: &str = ".wAuldrvhcgypqoxsnk";
 
-    /// The characters of floor, wall and avatar in levels of [`YardRules::game`].
+    /// The character of floor in levels of [`YardRules::game`].
     pub(crate) const FLOOR: char = '.';
+    /// The character of walls.
     pub(crate) const WALL: char = 'w';
+    /// The character of the avatar.
     pub(crate) const AVATAR: char = 'A';
     /// The characters of signs, by direction: up, left, down and right.
     pub(crate) const SIGNS: [char; 4] = ['u', 'l', 'd', 'r'];
@@ -42,8 +44,9 @@ impl YardRules {
     pub(crate) const CARTS: [char; 2] = ['c', 'g'];
     /// The character of a stray.
     pub(crate) const STRAY: char = 'y';
-    /// The characters of parcels and depots, by kind.
+    /// The characters of parcels, by kind.
     pub(crate) const PARCELS: [char; YardRules::KINDS] = ['p', 'q'];
+    /// The characters of depots, by kind.
     pub(crate) const DEPOTS: [char; YardRules::KINDS] = ['o', 'x'];
     /// The characters of the spark, the fuse and the keg.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
@@ -51,7 +54,7 @@ impl YardRules {
     /// The number of ticks in which the spark burns one cell of fuse.
     pub(crate) const BURN: usize = 14;
 
-    /// The number of ticks in which a stray moves by one cell.
+    /// The number of ticks in which a stray moves one cell.
     pub(crate) const COOLDOWN: usize = 2;
 
     /// Returns the number of kinds of parcels.
@@ -80,7 +83,7 @@ impl YardRules {
     /// Returns the game with plain names.
     ///
     /// # Panics
-    /// Never: all rules compile, as a test checks.
+    /// This function never panics, because all rules compile, as a test checks.
     pub fn game(self) -> Game {
         Game::from_source(&self.source()).expect("the rules compile")
     }

@@ -1,4 +1,4 @@
-//! The drawing of inventions, which is the constructive method.
+//! Drawing inventions, which is the constructive method.
 
 use super::fiction::Noun;
 use super::genome::{Invention, apart};
@@ -11,21 +11,21 @@ use std::sync::OnceLock;
 
 /// The number of partitions that are drawn for a choice of mechanics.
 const PARTITIONS: usize = 24;
-/// The number of choices of mechanics before a draw fails.
+/// The maximum number of choices of mechanics in a draw.
 const CHOICES: u64 = 400;
 /// The maximum number of ports that one type fills.
 const MOST_PORTS: usize = 3;
-/// The number of sound draws among which the one with the least used couplings is chosen.
+/// The number of sound draws among which the draw with the least used couplings is chosen.
 const PROPOSALS: usize = 3;
-/// The number that is added to the uses of mechanics, and of endings, so that the first few uses change the weights
-/// little.
+/// The number that is added to the uses of mechanics, so that the first few uses change the weights little.
 const MECHANICS: u64 = 4;
+/// The number that is added to the uses of endings, so that the first few uses change the weights little.
 const ENDINGS: u64 = 12;
 
 /// The limits on the size of inventions.
 #[derive(Clone, Debug)]
 pub struct InventionConfig {
-    /// The maximum number of mechanics besides the ending; the minimum is 2.
+    /// The maximum number of mechanics besides the ending. The minimum is 2.
     pub mechanics: usize,
     /// The name of a mechanic that every draw contains if a sound draw with it is found; see [`Census::lead`].
     pub lead: Option<String>,
@@ -39,8 +39,8 @@ impl Default for InventionConfig {
 
 /// The number of games in which each mechanic, ending and coupling was used.
 ///
-/// A draw prefers the least used mechanics, endings and couplings, so that players of many months see all of them
-/// equally often.
+/// A draw prefers the least used mechanics, endings and couplings, so that people who play games of many months see all
+/// of them equally often.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Census {
     uses: BTreeMap<String, u32>,
@@ -52,7 +52,7 @@ impl Census {
         Census { uses: uses.clone() }
     }
 
-    /// Counts a game by its patterns, such as `mechanic/lock`; returns `false` if none of the patterns belongs to an
+    /// Counts a game by its patterns, such as `mechanic/lock`. Returns `false` if none of the patterns belongs to an
     /// invented game.
     pub fn count<'a>(&mut self, patterns: impl IntoIterator<Item = &'a str>) -> bool {
         let mut is_invented = false;
@@ -77,9 +77,9 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the name of the mechanic that leads the draws of a turn. All mechanics take turns, the least used first,
-    /// and ties are in the order of the seed. Games that are drawn independently of each other thus differ if their
-    /// turns do.
+    /// Returns the name of the mechanic that leads the draws of a turn. All mechanics take turns, starting with the
+    /// least used, and ties are in the order of the seed. Games that are drawn independently of each other thus differ
+    /// if their turns do.
     pub fn lead(&self, seed: Seed, turn: usize) -> &'static str {
         let mut names: Vec<&'static str> =
             Mechanic::endings(false).map(|mechanic| mechanic.name.as_str()).collect();
@@ -92,13 +92,12 @@ impl Census {
         self.uses.get(&format!("{kind}/{name}")).copied().unwrap_or_default()
     }
 
-    /// Returns the total number of uses of all couplings of an invention: the lower it is, the newer the invention
-    /// looks.
+    /// Returns the total number of uses of all couplings of an invention. A lower total makes an invention look newer.
     fn familiarity(&self, drawn: &Invention) -> u32 {
         drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
 
-    /// Draws a mechanic, or an ending, that is not in `others`, with a preference for the least used ones.
+    /// Draws a mechanic, or an ending, that is not in `others`. The least used mechanics and endings are preferred.
     pub(super) fn choose(
         &self,
         is_ending: bool,
@@ -108,8 +107,8 @@ impl Census {
         choose_one(is_ending, others, |mechanic| self.weight(mechanic), sampler)
     }
 
-    /// Returns the weight of a mechanic or ending in a draw. It falls with the square of its uses relative to the mean,
-    /// and compensates for mechanics that are seldom sound.
+    /// Returns the weight of a mechanic or ending in a draw. The weight falls with the square of the number of uses
+    /// relative to the mean, and compensates for mechanics that are seldom sound.
     fn weight(&self, mechanic: &Mechanic) -> u32 {
         let (kind, prior) =
             if mechanic.ending.is_some() { ("ending", ENDINGS) } else { ("mechanic", MECHANICS) };
@@ -121,10 +120,11 @@ impl Census {
     }
 }
 
-/// The number of samples that show how often each mechanic is part of a sound draw.
+/// The number of samples that measure how often each mechanic is part of a sound draw.
 const SAMPLES: u64 = 6_000;
-/// The rarity of a mechanic that is sound as often as the average, followed by the maximum rarity.
+/// The rarity of a mechanic that is sound as often as the average.
 const USUAL: u64 = 16;
+/// The maximum rarity of a mechanic.
 const RAREST: u64 = 64;
 
 /// Returns the factor by which a mechanic is drawn more often because it is seldom part of a sound draw. Cost: a third
@@ -154,7 +154,7 @@ fn rarity(name: &str) -> u64 {
     all.get(name).copied().unwrap_or(USUAL)
 }
 
-/// Returns `true` if two games, given by their patterns, have two mechanics in common: players would see the same game
+/// Returns `true` if two games, given by their patterns, have two mechanics in common. Players would see the same game
 /// again.
 pub fn share_idea(one: &[String], two: &[String]) -> bool {
     let shared = one.iter().filter(|pattern| pattern.starts_with("mechanic/") && two.contains(pattern));
@@ -171,7 +171,7 @@ impl Invention {
         let mut drawn: Vec<Invention> = drawn.take(PROPOSALS).collect();
         drawn.sort_by_key(|drawn| census.familiarity(drawn));
         let least = drawn.into_iter().find(|drawn| drawn.build().is_ok());
-        // No draw is sound if the lead fits nothing, or if the census favours mechanics that do not go together.
+        // No draw is sound if the lead fits nothing, or if the census favours mechanics that do not fit together.
         least.or_else(|| {
             let (any, all) = (InventionConfig { lead: None, ..config.clone() }, Census::default());
             let mut drawn =
@@ -189,8 +189,8 @@ impl Invention {
         Invention::of_choice(chosen, sampler, seed)
     }
 
-    /// Draws one choice of `count` mechanics, all equally often, and returns an invention with these mechanics if a
-    /// drawn partition is sound.
+    /// Draws one choice of `count` mechanics, with equal probability for all choices. Returns an invention with these
+    /// mechanics if a drawn partition is sound.
     pub(super) fn of_uniform_choice(count: usize, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let drawn = Invention::of_choice(choose(count, None, |_| 1, sampler)?, sampler, seed)?;
@@ -231,7 +231,7 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending by weight; the first mechanic is the lead, if there is one.
+/// Draws different mechanics and an ending by weight. If there is a lead, it is the first mechanic.
 fn choose(
     count: usize,
     lead: Option<&'static Mechanic>,
@@ -245,13 +245,13 @@ fn choose(
     Some(chosen)
 }
 
-/// Draws a partition: merges pairs of ports until every mechanic is linked, every mover has its motion and nothing is
-/// idle, and then perhaps one more pair.
+/// Draws a partition. Pairs of ports are merged until every mechanic is linked, every mover has its motion, and no port
+/// is idle. One more pair may then be merged.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
     completed(mechanics, apart(mechanics), sampler)
 }
 
-/// Completes a partition in which some ports are merged already, as [`partition`] does.
+/// Completes a partition in which some ports are already merged, in the same way as [`partition`].
 pub(super) fn completed(
     mechanics: &[&'static Mechanic],
     begun: Vec<u8>,
@@ -263,7 +263,7 @@ pub(super) fn completed(
         .filter(|(one, other)| can_merge(&draft.ports[*one], &draft.ports[*other]))
         .collect();
     sampler.shuffle(&mut pairs);
-    // Ports whose type would be useless alone choose first, then unlinked mechanics.
+    // Ports whose type would be useless alone are merged first, then unlinked mechanics.
     for port in 0..draft.ports.len() {
         if draft.is_needy(port) {
             draft.merge_one(&pairs, |one, other| one == port || other == port)?;
@@ -281,14 +281,14 @@ pub(super) fn completed(
 
 type Ported = (PortId, &'static Port);
 
-/// A partition that is being drawn.
+/// A partition under construction.
 struct Draft {
     partition: Vec<u8>,
     ports: Vec<Ported>,
 }
 
 impl Draft {
-    /// Returns `true` if the type of a port would be useless: a mover without motion, or a thing that nobody wants.
+    /// Returns `true` if the type of a port would be useless: a mover without motion, or a thing that nothing needs.
     fn is_needy(&self, port: usize) -> bool {
         let members = self.members(self.partition[port]);
         let Some(merged) = Merged::of(members) else { return false };
@@ -300,7 +300,7 @@ impl Draft {
         all.filter(|(_, other)| **other == class).map(|(port, _)| *port).collect()
     }
 
-    /// Returns a mechanic whose ports share no type with another mechanic, if there is one.
+    /// Returns a mechanic whose ports share no type with any other mechanic; `None` if there is no such mechanic.
     fn lonely(&self, mechanics: usize) -> Option<usize> {
         let types: Vec<Merged> = (0..=u8::MAX)
             .map_while(|class| (usize::from(class) < self.ports.len()).then(|| self.members(class)))

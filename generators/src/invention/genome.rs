@@ -16,7 +16,7 @@ use itertools::Itertools;
 /// An invented game as a list of choices.
 #[derive(Clone, Debug)]
 pub struct Invention {
-    /// The mechanics; the last one is the ending.
+    /// The mechanics. The last mechanic is the ending.
     pub(super) mechanics: Vec<&'static Mechanic>,
     /// The type of each port, in the order of [`ports`].
     pub(super) partition: Vec<u8>,
@@ -24,7 +24,7 @@ pub struct Invention {
     pub(super) values: Vec<Vec<u32>>,
     /// The seed of the nouns, the title and the story.
     pub(super) fiction: Seed,
-    /// The number of ticks after which the game is lost, if there is a limit.
+    /// The number of ticks after which the game is lost; `None` if there is no limit.
     pub(super) time: Option<u32>,
 }
 
@@ -37,7 +37,8 @@ pub struct Invented {
     pub joint: Vec<JointType>,
     /// The idiom of each type that boards can place, by its name.
     pub idioms: Vec<(String, Idiom)>,
-    /// For each mechanic except the ending, the types that only it has: without them, the game lacks the mechanic.
+    /// For each mechanic except the ending, the types that no other mechanic has. Without these types, the game lacks
+    /// the mechanic.
     pub own_types: Vec<Vec<String>>,
 }
 
@@ -46,18 +47,18 @@ pub struct Invented {
 pub struct JointType {
     /// The name of the type.
     pub name: String,
-    /// For each mechanic that does more than harm, its interactions about the type, by their indices in the
+    /// For each mechanic that does more than harm, its interactions that involve the type, by their indices in the
     /// rules.
     pub uses: Vec<Vec<usize>>,
 }
 
-/// The maximum number of rules that follow from bodies and never apply; games with more are rejected.
+/// The maximum number of rules that follow from bodies and never apply. Games with more such rules are rejected.
 const MOST_IDLE: usize = 8;
-/// The limit of ticks of an invention whose wins are not known yet.
+/// The tick limit of an invention whose wins are not known yet.
 const LONG: u32 = 399;
 
 impl Invention {
-    /// Builds an invention of some mechanics, of which the ending is the last.
+    /// Builds an invention of some mechanics, the last of which is the ending.
     ///
     /// # Errors
     /// Returns the condition that the invention does not meet.
@@ -74,7 +75,7 @@ impl Invention {
         Ok(invention)
     }
 
-    /// Tests the static conditions.
+    /// Checks the static conditions.
     ///
     /// # Errors
     /// Returns the first condition that the invention does not meet.
@@ -89,7 +90,7 @@ impl Invention {
         merged(&self.mechanics, &self.partition)
     }
 
-    /// Returns the names of the mechanics; the ending is the last.
+    /// Returns the names of the mechanics. The last mechanic is the ending.
     pub fn mechanics(&self) -> impl Iterator<Item = &'static str> {
         self.mechanics.iter().map(|mechanic| mechanic.name.as_str())
     }
@@ -114,7 +115,7 @@ impl Invention {
         ending.map_or(Kind::CollectAndAvoid, |(_, kind)| *kind)
     }
 
-    /// Returns the same rules with a different limit of ticks, or none.
+    /// Returns the same rules with a different tick limit, or without one.
     #[must_use]
     pub fn timed(&self, time: Option<u32>) -> Invention {
         Invention { time, ..self.clone() }
@@ -184,15 +185,15 @@ impl Invention {
         Ok(Invented { game, joint, idioms, own_types })
     }
 
-    /// Returns the digest of the rules without their words: inventions with the same key have the same rules.
+    /// Returns the digest of the rules without their words. Inventions with the same key have the same rules.
     pub fn key(&self) -> Digest {
         let names = self.mechanics().join(" ");
         Digest::of(format!("{names} {:?} {:?}", self.partition, self.values).as_bytes())
     }
 }
 
-/// Returns, for each mechanic whose port the type fills, the mechanic's interactions, except those that kill the player.
-/// Mechanics without others are left out: they are only a threat.
+/// Returns, for each mechanic whose port the type fills, the mechanic's interactions, except those that kill the
+/// player. Mechanics without any other interaction are left out, because they are only a threat.
 fn uses(merged: &Merged, written: &emit::Written) -> Vec<Vec<usize>> {
     let of_mechanic = |((mechanic, _), _): &(PortId, &Port)| -> Vec<usize> {
         let lines = written.description.interactions.iter().zip(&written.owners).enumerate();

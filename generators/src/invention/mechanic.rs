@@ -1,4 +1,4 @@
-//! Mechanics: files of clauses about ports.
+//! Mechanics, which are files of clauses about ports.
 
 use super::fiction::Predicates;
 use crate::games::Kind;
@@ -11,20 +11,20 @@ use std::sync::OnceLock;
 
 static FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/mechanics");
 
-/// The physical nature of a type: the class of its sprites, and the rules that follow from it.
+/// The physical nature of a type: the class of its sprites, and the rules that follow from this class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Body {
-    /// Picked up and held by the player.
+    /// A thing that the player picks up and holds.
     Item,
-    /// Pushed by the player.
+    /// A thing that the player pushes.
     Crate,
-    /// Stops the player, movers and crates.
+    /// A thing that stops the player, movers and crates.
     Solid,
-    /// Stops nobody.
+    /// Ground that stops nobody.
     Ground,
-    /// Moves by itself.
+    /// A thing that moves by itself.
     Mover,
-    /// Exists for one tick.
+    /// A thing that exists for one tick.
     Flash,
 }
 
@@ -102,7 +102,7 @@ pub(crate) struct Port {
     /// The bodies that can fill the port, from best to worst.
     pub(crate) bodies: Vec<Body>,
     pub(crate) tags: BTreeSet<Tag>,
-    /// The properties that a noun needs for the rules to make sense.
+    /// The properties that a noun needs so that the rules make sense.
     pub(crate) predicates: Predicates,
 }
 
@@ -124,7 +124,7 @@ pub(crate) enum Origin {
         /// `true` if other mechanics' rules about the port also apply to the state.
         is_still: bool,
     },
-    /// A separate thing with these predicates.
+    /// A separate thing whose noun has these predicates.
     Thing(Predicates),
 }
 
@@ -142,7 +142,7 @@ pub(crate) struct Mechanic {
     pub(crate) heroes: Option<Template>,
     pub(crate) hero: Option<Template>,
     pub(crate) terminations: Template,
-    /// The goal in words and the kind of game, for an ending.
+    /// The goal in words and the kind of game; `None` if the mechanic is not an ending.
     pub(crate) ending: Option<(String, Kind)>,
 }
 
@@ -189,17 +189,17 @@ impl Mechanic {
         })
     }
 
-    /// Returns the mechanics that are endings if `are` is `true`, otherwise those that are not.
+    /// Returns the mechanics that are endings if `are` is `true`, and all other mechanics otherwise.
     pub(crate) fn endings(are: bool) -> impl Iterator<Item = &'static Mechanic> {
         Mechanic::all().iter().filter(move |mechanic| mechanic.ending.is_some() == are)
     }
 
-    /// Returns `true` if the mechanic needs an avatar of its own.
+    /// Returns `true` if the mechanic needs its own avatar.
     pub(crate) fn has_hero(&self) -> bool {
         self.hero.is_some() || self.heroes.is_some()
     }
 
-    /// Parses a file.
+    /// Parses the file of a mechanic.
     ///
     /// # Errors
     /// Returns the first fault as a sentence.

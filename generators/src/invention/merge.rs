@@ -5,10 +5,10 @@ use super::mechanic::{Body, Mechanic, Port, Tag};
 use crate::boards::Idiom;
 use std::collections::BTreeSet;
 
-/// A port in the mechanics of a game: the index of the mechanic and the index of the port.
+/// A port in the mechanics of a game, as the index of the mechanic and the index of the port.
 pub(crate) type PortId = (usize, usize);
 
-/// A type that fills one or several ports.
+/// A type that fills one or more ports.
 #[derive(Clone, Debug)]
 pub(crate) struct Merged {
     pub(crate) ports: Vec<(PortId, &'static Port)>,
@@ -16,7 +16,7 @@ pub(crate) struct Merged {
 }
 
 impl Merged {
-    /// Merges ports; returns `None` if no body can fill all of them, or if two of them belong to the same mechanic.
+    /// Merges ports. Returns `None` if no body can fill all of them, or if two of them belong to the same mechanic.
     pub(crate) fn of(ports: Vec<(PortId, &'static Port)>) -> Option<Merged> {
         let mechanics: BTreeSet<usize> = ports.iter().map(|((mechanic, _), _)| *mechanic).collect();
         let (first, others) = ports.split_first()?;
@@ -35,8 +35,8 @@ impl Merged {
         self.ports.iter().filter(|(_, port)| port.tags.contains(&tag)).count()
     }
 
-    /// Returns `true` if an ending wants the type kept until the player takes it, so that any other loss of it ends the
-    /// game.
+    /// Returns `true` if an ending wants the type kept until the player takes it, so that any other loss of the type
+    /// ends the game.
     pub(crate) fn is_kept_for(&self, ending: usize) -> bool {
         let is_taken = |((mechanic, _), port): &(PortId, &Port)| {
             *mechanic == ending && port.tags.contains(&Tag::Goal) && port.tags.contains(&Tag::Removed)
@@ -54,7 +54,7 @@ impl Merged {
         self.ports.iter().fold(Predicates::default(), |all, (_, port)| all.with(port.predicates))
     }
 
-    /// Returns the idiom by which boards place the type, as far as its ports determine it.
+    /// Returns the idiom by which boards place the type, as far as the type's ports determine it.
     pub(crate) fn idiom(&self) -> Idiom {
         let is = |words: &[&str]| self.predicates().words().any(|word| words.contains(&word));
         match self.body {

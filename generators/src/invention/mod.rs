@@ -1,9 +1,9 @@
-//! Invention of rules: mechanics whose ports are merged, so that one type of thing has opposed uses.
+//! Invention of rules from mechanics with merged ports, so that one type of thing has opposed uses.
 //!
 //! A [`Mechanic`](mechanic::Mechanic) is a few clauses of VGDL about roles that are still open, its *ports*. An
-//! [`Invention`] takes mechanics and an ending, and merges ports into types, which is a partition of the ports.
-//! `soundness.rs` rejects partitions by their tags before anything is compiled, `emit/` writes the rules of the others,
-//! and `fiction/` finds nouns that fit everything a type does.
+//! [`Invention`] combines mechanics and an ending, and merges ports into types, which is a partition of the ports.
+//! `soundness.rs` rejects partitions by their tags before anything is compiled. `emit/` writes the rules of the
+//! remaining partitions, and `fiction/` finds nouns that fit everything a type does.
 
 mod draw;
 mod emit;

@@ -1,4 +1,4 @@
-//! Characteristics of inventions that are known before any board exists: the axes of an archive.
+//! Characteristics of inventions that are known before any board exists. They are the axes of an archive.
 
 use super::genome::Invention;
 use super::mechanic::{Body, Tag};
@@ -24,7 +24,7 @@ base::named_enum! {
 }
 
 impl Verb {
-    /// Returns the position in the list of all verbs.
+    /// Returns the verb's position in the list of all verbs.
     pub fn number(self) -> usize {
         Verb::ALL.into_iter().position(|verb| verb == self).unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! Static conditions on merged ports, by which partitions are rejected before rules are written.
+//! Static conditions on merged ports. They reject partitions before rules are written.
 
 use super::mechanic::{Body, Mechanic, Tag};
 use super::merge::Merged;
@@ -15,19 +15,19 @@ pub enum Unsound {
     Motion,
     /// A mechanic shares no type with the others.
     Unconnected,
-    /// A type is produced or carried, but nobody wants it.
+    /// A type is produced or carried, but nothing needs it.
     Idle,
     /// No type has opposed uses at a price.
     NoTension,
     /// The player cannot influence a mover.
     NoAgency,
-    /// The goal is met by losing things, or nothing removes it.
+    /// The goal is met by losing things, or nothing removes the goal.
     Goal,
     /// Nothing is harmful, and nothing can be lost.
     Harmless,
     /// There are too many types.
     TooMany,
-    /// More than one mechanic needs an avatar of its own.
+    /// More than one mechanic needs its own avatar.
     Avatar,
     /// No noun fits everything a type does.
     Noun,
@@ -88,19 +88,20 @@ pub(super) fn are_connected(mechanics: usize, types: &[Merged]) -> bool {
     group.iter().all(|at| *at == group[0])
 }
 
-/// Returns `true` if nobody wants or fears the type, or if it is merely carried or blocks like a wall.
+/// Returns `true` if nothing needs the type and nothing is harmed by it, or if it is merely carried or blocks like a
+/// wall.
 pub(super) fn is_idle(merged: &Merged) -> bool {
     let matters = [Tag::Tool, Tag::Goal, Tag::Harm, Tag::Bars, Tag::Road, Tag::Foe];
     let wanted = matters.iter().any(|tag| merged.has(*tag));
     let is_only_carried = merged.body == Body::Item && !merged.has(Tag::Tool) && !merged.has(Tag::Goal);
-    // A type that only blocks is no more than a wall.
+    // A type that only blocks is equivalent to a wall.
     let is_wall = merged.has(Tag::Bars)
         && ![Tag::Removed, Tag::Lost, Tag::Road, Tag::Tool, Tag::Goal].iter().any(|tag| merged.has(*tag));
     !wanted || is_only_carried || is_wall
 }
 
-/// Returns `true` if a goal can be achieved: the ending takes the type or requires it, or another mechanic removes it.
-/// A type that has to be removed must exist from the beginning, and not be produced.
+/// Returns `true` if a goal can be achieved. Either the ending takes or requires the type, or a different mechanic
+/// removes it. A type that must be removed must exist from the beginning, and must not be produced.
 fn has_honest_goal(merged: &Merged) -> bool {
     if merged.has(Tag::Goal) && merged.has(Tag::Made) && !merged.has(Tag::Tool) {
         return false;
@@ -108,7 +109,7 @@ fn has_honest_goal(merged: &Merged) -> bool {
     [Tag::Removed, Tag::Tool, Tag::Spent].iter().any(|tag| merged.has(*tag)) || !merged.has(Tag::Goal)
 }
 
-/// Returns `true` if different ports of a type want opposed things from the player, at a price.
+/// Returns `true` if different ports of a type place opposed demands on the player, at a price.
 pub(crate) fn is_opposed(merged: &Merged) -> bool {
     let ports = &merged.ports;
     let across = |one: Tag, other: Tag| {
@@ -125,7 +126,7 @@ pub(crate) fn is_opposed(merged: &Merged) -> bool {
         || across(Tag::Removed, Tag::Road)
 }
 
-/// Returns `true` if the player can do something about a mover other than keep away from it.
+/// Returns `true` if the player can influence a mover in some way other than keeping away from it.
 fn is_influenced(merged: &Merged) -> bool {
     merged.body != Body::Mover
         || merged.has(Tag::Led)
@@ -134,7 +135,7 @@ fn is_influenced(merged: &Merged) -> bool {
         || merged.has(Tag::Spent)
 }
 
-/// Returns `true` if a game can be lost by events in it.
+/// Returns `true` if events in a game can lose it.
 fn can_be_lost(types: &[Merged]) -> bool {
     types.iter().any(|merged| merged.has(Tag::Harm))
 }

@@ -7,8 +7,8 @@ use base::Seed;
 
 /// The estimated number of rule sets that the inventor can draw.
 ///
-/// A set is a choice of mechanics and an ending. For each number of mechanics, the choices are counted, and the
-/// fraction for which a game can be built is estimated from uniformly drawn choices. The result is a lower bound of the
+/// A rule set is a choice of mechanics and an ending. For each number of mechanics, the choices are counted, and the
+/// fraction for which a game can be built is estimated from uniformly drawn choices. The result is a lower bound on the
 /// number of rules, because most choices can be merged in several ways.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InventionSupply {
@@ -24,7 +24,7 @@ struct Stratum {
 }
 
 impl InventionSupply {
-    /// Estimates the number from `samples` choices for each number of mechanics. Cost: about 2 milliseconds per choice.
+    /// Estimates the supply from `samples` choices for each number of mechanics. Cost: about 2 milliseconds per choice.
     pub fn estimate(config: &InventionConfig, samples: u64, seed: Seed) -> InventionSupply {
         let [mechanics, endings] = [false, true].map(|are| Mechanic::endings(are).count() as f64);
         let stratum = |count: usize| {

@@ -17,17 +17,18 @@ enum Change {
     Number,
     /// Changes the type of a port.
     Merge,
-    /// Replaces a mechanic.
+    /// Replaces a mechanic by a different one.
     Mechanic,
 }
 
 /// The kinds of change with their weights.
 const CHANGES: [(Change, u32); 3] = [(Change::Mechanic, 4), (Change::Merge, 5), (Change::Number, 3)];
 
-/// Inventions as candidates of a search. They are drawn like constructive ones, mutated by changing numbers, a merge or
-/// a mechanic, and crossed by combining mechanics of both.
+/// Inventions as candidates of a search. They are drawn like constructive inventions, mutated by changing numbers, a
+/// merge or a mechanic, and crossed by combining mechanics of both parents.
 ///
-/// All candidates build: their rules compile without errors or warnings. Cost: some milliseconds per mutation.
+/// All candidates build, which means that their rules compile without errors or warnings. Cost: some milliseconds per
+/// mutation.
 #[derive(Clone, Debug, Default)]
 pub struct InventionVariation {
     config: InventionConfig,
@@ -35,12 +36,12 @@ pub struct InventionVariation {
 }
 
 impl InventionVariation {
-    /// Creates a variation that prefers what the census counts least.
+    /// Creates a variation that prefers the mechanics, endings and couplings with the lowest counts in the census.
     pub fn new(config: InventionConfig, census: Census) -> InventionVariation {
         InventionVariation { config, census }
     }
 
-    /// Returns a genome with one change of a kind, if the result is sound.
+    /// Returns a genome with one change of the given kind, if the result is sound.
     fn changed(&self, parent: &Invention, kind: Change, sampler: &mut Sampler) -> Option<Invention> {
         let mut child = parent.clone();
         match kind {
@@ -68,7 +69,7 @@ impl InventionVariation {
 }
 
 impl Invention {
-    /// Returns the same invention with a different mechanic at an index, whose ports are merged anew.
+    /// Returns the same invention with a different mechanic at an index. The ports of that mechanic are merged anew.
     fn replaced(&self, at: usize, mechanic: &'static Mechanic, sampler: &mut Sampler) -> Option<Invention> {
         let mut mechanics = self.mechanics.clone();
         if mechanics.iter().any(|other| other.name == mechanic.name) {
@@ -114,7 +115,7 @@ impl Variation for InventionVariation {
         parent.clone()
     }
 
-    /// Replaces a mechanic of one invention by a mechanic of the other.
+    /// Replaces a mechanic of one invention by a mechanic of the other invention.
     fn cross(&self, one: &Invention, two: &Invention, sampler: &mut Sampler) -> Invention {
         for _ in 0..ATTEMPTS {
             let at = sampler.below(one.mechanics.len());
@@ -137,7 +138,7 @@ mod tests {
     use crate::{Annealing, AnnealingConfig, Evaluation, MapElites, MapElitesConfig, Search};
     use std::collections::{BTreeMap, BTreeSet};
 
-    /// Requests candidates from a search, checks that each is feasible, and returns the number of different ones.
+    /// Requests candidates from a search, checks that each is feasible, and returns the number of different candidates.
     fn check(mut search: impl Search<Candidate = Invention>) -> usize {
         let mut keys = BTreeSet::new();
         for _ in 0..4 {

@@ -1,4 +1,4 @@
-//! The composition of a game's rules and words from a kernel, its numbers and a scene.
+//! The composition of a game's rules and words from a kernel, the kernel's numbers and a scene.
 
 use super::habits::Habits;
 use super::ways;
@@ -26,7 +26,7 @@ pub(crate) struct Choices<'a> {
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
-    /// The number of ticks after which the game is lost, if there is a limit and surviving is not the goal.
+    /// The number of ticks after which the game is lost; `None` if there is no limit, or if surviving is the goal.
     pub(crate) time: Option<u32>,
 }
 
@@ -40,11 +40,11 @@ pub(crate) struct Composed {
 }
 
 impl Choices<'_> {
-    /// Composes the game.
+    /// Composes the game from the choices.
     ///
     /// # Errors
-    /// Returns an error if the rules cannot be parsed with these numbers, or if the words name unknown types. Both are
-    /// faults of a kernel or a scene.
+    /// Returns an error if the rules cannot be parsed with these numbers, or if the words contain unknown types. Both
+    /// are faults of a kernel or a scene.
     pub(crate) fn compose(&self) -> Result<Composed, GenerateError> {
         let (description, problems) = syntax::parse(&self.rules());
         if let Some(problem) = problems.first() {
@@ -114,7 +114,7 @@ impl Choices<'_> {
     /// Gives every type a noun that no other type has.
     fn cast(&self, sampler: &mut Sampler) -> Result<Nouns, GenerateError> {
         let mut nouns = Nouns::new();
-        // The nouns of roles that types have only in some state.
+        // The nouns of roles that no type has except in some state.
         let mut shared = Nouns::new();
         let mut draw = |role: &str, taken: &Nouns| {
             let mut free = self.scene.nouns(role, &self.kernel.name).unwrap_or_default();
@@ -124,7 +124,7 @@ impl Choices<'_> {
             if free.is_empty() {
                 return Err(GenerateError::Unsuitable(missing()));
             }
-            // Prefer a noun of one word if there is one, as authors of small games do: `tarpaulin`, not `canvas sheet`.
+            // Prefer a noun of one word if possible, like the authors of small games: `tarpaulin`, not `canvas sheet`.
             let is_word = |noun: &&str| !noun.contains(|letter: char| letter.is_ascii_uppercase());
             if free.iter().any(is_word) {
                 free.retain(is_word);
@@ -177,7 +177,7 @@ impl Choices<'_> {
             .flat_map(|line| line.second.iter().chain([&line.first]))
             .map(|word| word.text.as_str())
             .collect();
-        // The language maps a type called `avatar` to `A`; in some kernels, a group of heroes has that name.
+        // The language maps a type called `avatar` to `A`. In some kernels, a group of heroes has that name.
         let hero = match names["hero"].as_str() {
             name if name != "avatar" && own.iter().all(|own| own != "avatar") => palette::symbol(name, &[]),
             _ => 'A',
@@ -203,8 +203,8 @@ impl Choices<'_> {
     }
 }
 
-/// Returns the same rules without groups of one type, which a form can leave of larger groups: the type replaces the
-/// group. A group with a class or parameters stays.
+/// Returns the same rules without groups of a single type, which a form can leave of larger groups. The type replaces
+/// the group. A group with a class or parameters stays.
 fn without_lone_groups(mut description: Description) -> Description {
     let lone = |line: &SpriteLine| line.class.is_none() && line.params.is_empty() && line.children.len() == 1;
     let groups: BTreeMap<String, String> = description
@@ -228,7 +228,7 @@ fn without_lone_groups(mut description: Description) -> Description {
     description.renamed(&groups)
 }
 
-/// Returns `true` if a line of rules sets a limit of ticks after which the game is lost.
+/// Returns `true` if a rule sets a tick limit after which the game is lost.
 fn is_limit(line: &str) -> bool {
     line.contains("Timeout") && line.contains("win=False")
 }

@@ -1,4 +1,4 @@
-//! Genomes of games: the choices that make a game of a kernel.
+//! Genomes of games: the choices from which a game of a kernel is made.
 
 use super::compose::Choices;
 use super::habits::{Habits, STILL};
@@ -11,10 +11,11 @@ use base::{Sampler, Seed};
 use engine::{Description, Game, syntax};
 use std::collections::BTreeSet;
 
-/// The assumed number of ticks of a game whose levels nobody has played yet.
+/// The assumed length, in ticks, of a game whose levels nobody has played yet.
 const LONG: u32 = 400;
 
-/// Games of another form for one of a kernel as such: forms were written because kernels end alike.
+/// The weight of a different form relative to the kernel itself. It is greater than 1 because forms were written to
+/// vary the endings of similar kernels.
 const OTHER_FORM: u32 = 2;
 
 /// A game as a list of choices: a kernel with its variants and numbers, and a scene with its nouns.
@@ -30,7 +31,7 @@ pub struct KernelGenome {
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
-    /// The number of ticks after which the game is lost, if there is a limit.
+    /// The number of ticks after which the game is lost; `None` if there is no limit.
     pub(crate) time: Option<u32>,
 }
 
@@ -48,8 +49,8 @@ impl KernelGenome {
     }
 
     /// Draws a game of the kernel called `name`, in a form that `is_open` accepts and in a scene that is not in
-    /// `taken`. If all fitting scenes are taken, uses one of them. Returns `None` if there is no such kernel or if no
-    /// form is open.
+    /// `taken`. If all fitting scenes are taken, one of them is used again. Returns `None` if there is no such kernel,
+    /// or if no form is open.
     pub fn of_kernel(
         name: &str,
         is_open: impl Fn(Option<&str>) -> bool,
@@ -65,8 +66,8 @@ impl KernelGenome {
         Some(KernelGenome { scene, ..drawn })
     }
 
-    /// Returns games of each form of a kernel, with all variants (if it has any) and without variants; empty if there
-    /// is no such kernel.
+    /// Returns games of each form of a kernel, with all variants (if it has any) and without variants. The list is
+    /// empty if there is no such kernel.
     pub fn all_of(kernel: &str) -> Vec<KernelGenome> {
         let named = Kernel::all().iter().filter(|other| other.name == kernel);
         let mut sampler = Seed::from_text("all").sampler();
@@ -82,7 +83,7 @@ impl KernelGenome {
         all
     }
 
-    /// The same rules with other numbers, points and sizes.
+    /// Returns the same rules with different numbers, points and sizes.
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
         let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());
@@ -90,7 +91,7 @@ impl KernelGenome {
         KernelGenome { values, habits, ..self.clone() }
     }
 
-    /// Returns the same rules with the nouns of a scene; `None` if the scene lacks some noun.
+    /// Returns the same rules with the nouns of a scene; `None` if the scene lacks a noun.
     pub fn named(&self, scene: &str, nouns: Seed) -> Option<KernelGenome> {
         let scene = Scene::of(self.kernel).find(|other| other.name == scene)?;
         let genome = KernelGenome { scene, nouns, ..self.clone() };
@@ -103,7 +104,7 @@ impl KernelGenome {
         KernelGenome::in_form(form, sampler)
     }
 
-    /// Draws a game of a form; the form must have a scene.
+    /// Draws a game of a form. The form must have a scene.
     pub(crate) fn in_form(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
         let scenes: Vec<&'static Scene> = Scene::of(kernel).collect();
         let variants = (0..kernel.variants.len()).filter(|_| sampler.ratio(1, 3)).collect();
@@ -152,18 +153,19 @@ impl KernelGenome {
         named.map_or_else(Vec::new, forms)
     }
 
-    /// The names of all kernels, those of a kind together.
+    /// Returns the names of all kernels, grouped by kind.
     pub fn kernels() -> impl Iterator<Item = &'static str> {
         let of_kind = |kind: Kind| Kernel::all().iter().filter(move |kernel| kernel.kind == kind);
         Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
     }
 
-    /// Returns `true` if the game always has a limit of ticks, and not only if it would not end without one.
+    /// Returns `true` if the game always has a tick limit, and not only if it would not end without a limit.
     pub fn has_clock(&self) -> bool {
         self.habits.has_clock
     }
 
-    /// Returns the same game with a different limit of ticks or none. A goal to survive for some ticks is unchanged.
+    /// Returns the same game with a different tick limit, or without one. A goal to survive for some ticks is
+    /// unchanged.
     #[must_use]
     pub fn timed(&self, ticks: Option<u32>) -> KernelGenome {
         KernelGenome { time: ticks, ..self.clone() }
@@ -222,11 +224,12 @@ fn drawn(forms: Vec<&'static Kernel>, sampler: &mut Sampler) -> Option<&'static 
     Some(forms[sampler.weighted(&weights)?])
 }
 
-/// Builds the game of a kernel file for its author: in one of the kernel's forms, with or without its variants, and in
-/// a scene or with the type names as nouns.
+/// Builds the game of a kernel file for the file's author. The game is in one of the kernel's forms, with or without
+/// its variants, and has the nouns of a scene or the type names as nouns.
 ///
 /// # Errors
-/// Returns the errors in the file or in its rules, or an error if there is no such form or the scene does not fit.
+/// Returns the errors in the file or in its rules. Also returns an error if there is no such form, or if the scene
+/// does not fit.
 pub fn preview(
     name: &str,
     text: &str,

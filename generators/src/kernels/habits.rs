@@ -11,7 +11,7 @@ pub(crate) struct Habits {
     pub(crate) unit: u32,
     /// The player's colour, unless the floor or the walls have the same one.
     pub(crate) hero: &'static str,
-    /// `true` if the game always has a limit of ticks, and not only if it would not end without one.
+    /// `true` if the game always has a tick limit, and not only if it would not end without a limit.
     pub(crate) has_clock: bool,
 }
 
@@ -40,8 +40,8 @@ impl Habits {
     }
 }
 
-/// Removes the penalty for the hero's death, which ends the game. Penalties for actions that can be repeated are their
-/// price, and stay.
+/// Removes the penalty for the hero's death, because that death ends the game. Penalties for actions that can be
+/// repeated are the price of these actions, and stay.
 fn drop_penalty_of_death(line: &mut InteractionLine) {
     let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
     if line.first.text == "hero" && line.effect.text.starts_with("kill") {

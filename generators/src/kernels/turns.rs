@@ -14,7 +14,8 @@ pub fn kinds() -> impl Iterator<Item = Kind> {
     Kind::ALL.iter().copied().filter(has_kernel)
 }
 
-/// The order in which kernels take turns: each kernel has one turn before any has a second, and kinds alternate.
+/// The order in which kernels take turns. Each kernel has one turn before any kernel has a second, and kinds
+/// alternate.
 #[derive(Clone, Debug)]
 pub struct Turns {
     order: Vec<&'static Kernel>,

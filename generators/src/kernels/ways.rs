@@ -1,12 +1,12 @@
-//! Obstacles of types that find paths (`PathChaser`), which the first line of a game has to list.
+//! Obstacles of types that find paths (`PathChaser`). The first line of a game must list these obstacles.
 
 use super::habits::STILL;
 use engine::Description;
 use engine::syntax::{Param, SpriteLine};
 
-/// Lists the obstacles in the game's header: all types that stop every path-finding type and stay in place, because the
-/// map of paths is made only once, when a level begins (spec page 01, section 8). Leaves games without path-finding
-/// types unchanged.
+/// Lists the obstacles in the game's header. These are all types that stop every path-finding type and stay in place,
+/// because the map of paths is made only once, when a level begins (spec page 01, section 8). Games without
+/// path-finding types stay unchanged.
 pub(crate) fn set_obstacles(description: &mut Description) {
     let mut seekers = Vec::new();
     find_seekers(&description.sprites, &[], &mut seekers);
@@ -46,7 +46,8 @@ pub(crate) fn set_obstacles(description: &mut Description) {
     description.header.params.push(Param::new("obs", obstacles));
 }
 
-/// Adds, for each path-finding type, the names by which rules refer to it: its own and those of the types above it.
+/// Adds, for each path-finding type, the names by which rules refer to it: its own name and the names of the types
+/// above it.
 fn find_seekers<'a>(lines: &'a [SpriteLine], above: &[&'a str], seekers: &mut Vec<Vec<&'a str>>) {
     for line in lines {
         let names = [above, &[line.name.text.as_str()]].concat();

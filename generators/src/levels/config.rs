@@ -5,9 +5,9 @@ use engine::SpriteType;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The minimum number of columns and rows; with fewer, the border leaves no room inside.
+/// The minimum number of columns and rows. With fewer, the border leaves no room inside.
 const MIN_SIDE: usize = 4;
-/// The maximum number of columns and rows; the cost of a level grows with the square of its cells.
+/// The maximum number of columns and rows. The cost of a level grows with the square of its number of cells.
 const MAX_SIDE: usize = 64;
 
 base::with_defaults! {
@@ -15,14 +15,15 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct LevelConfig {
-        /// The minimum and maximum number of columns, including the border; between 4 and 64.
+        /// The minimum and maximum number of columns, including the border, from 4 to 64.
         pub columns: (usize, usize) = (10, 18),
-        /// The minimum and maximum number of rows, including the border; between 4 and 64.
+        /// The minimum and maximum number of rows, including the border, from 4 to 64.
         pub rows: (usize, usize) = (8, 11),
-        /// The difficulty from 0.0 (easiest) to 1.0 (hardest): more dangers, longer paths, fewer aids.
+        /// The difficulty from 0.0 (easiest) to 1.0 (hardest). Harder levels have more dangers, longer paths and fewer
+        /// aids.
         pub difficulty: f64 = 0.5,
-        /// The minimum and maximum fraction of cells with more than floor, from 0.0 to 1.0; met if the rules leave room
-        /// for it.
+        /// The minimum and maximum fraction of cells that hold more than floor, from 0.0 to 1.0. The fraction is met if
+        /// the rules leave room for it.
         pub cover: Option<(f64, f64)> = None,
         /// The exact numbers of sprites of some types, as far as there is room for them.
         #[serde(skip)]
@@ -48,7 +49,7 @@ impl LevelConfig {
         }
     }
 
-    /// Returns a description of the first problem, if there is one.
+    /// Returns a description of the first problem; `None` if the configuration is valid.
     pub(crate) fn problem(&self) -> Option<String> {
         for (name, (low, high)) in [("columns", self.columns), ("rows", self.rows)] {
             if low < MIN_SIDE || low > high || high > MAX_SIDE {

@@ -20,7 +20,7 @@ pub struct Examples {
     pub(crate) closed: bool,
     /// The number of examples with left-right symmetric walls.
     mirrored: usize,
-    /// The character of empty cells, if it differs from the one that the rules suggest.
+    /// The character of empty cells; `None` if it is the character that the rules suggest.
     pub(crate) base: Option<u8>,
     /// The number of open cells, by the arrangement of walls around them; see [`nook`].
     pub(crate) nooks: [usize; NOOKS],
@@ -33,7 +33,7 @@ pub struct Examples {
 struct Sketch {
     columns: usize,
     rows: usize,
-    /// The fraction of all cells with more than floor.
+    /// The fraction of all cells that hold more than floor.
     cover: f64,
     /// The fraction of the cells inside the border that are walls.
     walls: f64,
@@ -97,7 +97,7 @@ impl Examples {
         (!levels.is_empty()).then_some(examples)
     }
 
-    /// Analyses one level; returns `true` if its border consists of walls, except for a few cells.
+    /// Analyses one level. Returns `true` if the level's border consists of walls, except for a few cells.
     fn add(
         &mut self,
         analysis: &Analysis,
@@ -112,7 +112,7 @@ impl Examples {
         let border = || (0..grid.len()).filter(|&cell| grid.on_border(cell));
         let closed = palette.wall.is_some()
             && border().filter(|&cell| wall[cell]).count() * 10 >= border().count() * 8;
-        // A thing that is set into the wall around a board makes no hole in it.
+        // A thing set into the wall around a board makes no hole in the wall.
         let let_in = |cell: usize| closed && grid.on_border(cell) && cells[cell] != palette.base;
         let whole: Vec<bool> = (0..grid.len()).map(|cell| wall[cell] || let_in(cell)).collect();
         self.patterns.learn(grid, &whole);
@@ -173,7 +173,7 @@ impl Examples {
         (counts[0], counts[counts.len() / 2], counts[counts.len() - 1])
     }
 
-    /// Returns `true` if, on average, sprites of type `one` stand lower than sprites of type `two` by a third of the
+    /// Returns `true` if sprites of type `one` stand lower than sprites of type `two` on average, by a third of the
     /// board, or if either type does not occur.
     pub(crate) fn is_below(&self, one: SpriteType, two: SpriteType) -> bool {
         match (self.placement(one).height(), self.placement(two).height()) {
@@ -234,7 +234,7 @@ fn range(values: impl Iterator<Item = usize> + Clone) -> (usize, usize) {
     (values.clone().min().unwrap_or(0), values.max().unwrap_or(0))
 }
 
-/// Returns the most common character that the avatar can walk over without getting anything.
+/// Returns the most common character that the avatar can walk over without any effect.
 fn commonest(analysis: &Analysis, levels: &[Level]) -> Option<u8> {
     let mut counts = [0usize; 128];
     for &symbol in levels.iter().flat_map(|level| level.cells()) {
@@ -245,8 +245,8 @@ fn commonest(analysis: &Analysis, levels: &[Level]) -> Option<u8> {
     symbols.max_by_key(|&symbol| (counts[usize::from(symbol)], std::cmp::Reverse(symbol)))
 }
 
-/// Returns the characters that place only visible floor, except the one of the empty cell, each with the rarest of its
-/// types.
+/// Returns the characters that place only visible floor, except the character of the empty cell. Each character comes
+/// with the rarest of its types.
 fn decor(analysis: &Analysis, palette: &Palette, levels: &[Level]) -> Vec<(u8, SpriteType)> {
     let game = analysis.game();
     let seen = |symbol: &u8| levels.iter().any(|level| level.cells().contains(symbol));

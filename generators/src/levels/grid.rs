@@ -34,14 +34,14 @@ impl Grid {
         cell / self.columns
     }
 
-    /// Returns the cell at an offset, if it is on the board.
+    /// Returns the cell at an offset; `None` if the offset leads off the board.
     pub(crate) fn shift(self, cell: usize, (dx, dy): (i32, i32)) -> Option<usize> {
         let x = usize::try_from(self.x(cell) as i32 + dx).ok().filter(|&x| x < self.columns)?;
         let y = usize::try_from(self.y(cell) as i32 + dy).ok().filter(|&y| y < self.rows)?;
         Some(self.at(x, y))
     }
 
-    /// Returns the cells of a rectangle with the top left corner `cell`, row by row, as far as they are on the board.
+    /// Returns the cells of a rectangle with the top left corner `cell` that lie on the board, row by row.
     pub(crate) fn block(self, cell: usize, (columns, rows): (usize, usize)) -> impl Iterator<Item = usize> {
         let (right, bottom) = (self.x(cell) + columns, self.y(cell) + rows);
         let (right, bottom) = (right.min(self.columns), bottom.min(self.rows));
@@ -74,8 +74,8 @@ impl Grid {
         self.x(one).abs_diff(self.x(two)) + self.y(one).abs_diff(self.y(two))
     }
 
-    /// Returns the distance in steps of every cell from the nearest cell of `from` through open cells; [`FAR`] if there
-    /// is no path. The cells of `from` need not be open. Cost: O(cells).
+    /// Returns the distance in steps of every cell from the nearest cell of `from` through open cells. Cells without a
+    /// path have the distance [`FAR`]. The cells of `from` need not be open. Cost: O(cells).
     pub(crate) fn flood(self, from: &[usize], open: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut steps = vec![FAR; self.len()];
         let mut queue: VecDeque<usize> = from.iter().copied().collect();
@@ -108,7 +108,7 @@ impl Grid {
         Some(way)
     }
 
-    /// Returns the connected regions of open cells from largest to smallest; regions of equal size are ordered by their
+    /// Returns the connected regions of open cells from largest to smallest. Regions of equal size are ordered by their
     /// first cells. Cost: O(cells).
     pub(crate) fn regions(self, open: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let mut seen = vec![false; self.len()];
@@ -136,7 +136,7 @@ impl Grid {
         regions
     }
 
-    /// Turns up to `walls` cells of floor into walls; the remaining floor stays connected. Cost: O(cells · walls).
+    /// Turns up to `walls` cells of floor into walls. The remaining floor stays connected. Cost: O(cells · walls).
     pub(crate) fn wall_off(self, is_floor: &mut [bool], walls: usize, sampler: &mut Sampler) {
         let mut inner: Vec<usize> = (0..self.len()).filter(|&cell| is_floor[cell]).collect();
         sampler.shuffle(&mut inner);
@@ -147,15 +147,15 @@ impl Grid {
         }
     }
 
-    /// Returns `true` if the open cells next to `cell` would be disconnected without it. Cost: mostly O(1), otherwise
-    /// O(cells).
+    /// Returns `true` if the open cells next to `cell` would be disconnected without `cell`. Cost: mostly O(1),
+    /// otherwise O(cells).
     pub(crate) fn is_cut(self, cell: usize, open: impl Fn(usize) -> bool) -> bool {
         let beside: Vec<usize> = self.beside(cell).filter(|&next| open(next)).collect();
         if beside.len() < 2 {
             return false;
         }
-        // Runs of open cells around the cell that share a side with it. If there is only one run, all neighbours are
-        // connected around the cell.
+        // These are runs of open cells around the cell that share a side with it. If there is only one run, all
+        // neighbours are connected around the cell.
         let around = self.around(cell).map(|next| next.is_some_and(&open));
         let runs = (0..8).filter(|&at| around[at] && !around[(at + 7) % 8]).filter(|&at| {
             let run = (0..8).map(|more| (at + more) % 8).take_while(|&place| around[place]);

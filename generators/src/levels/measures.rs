@@ -13,37 +13,38 @@ const HALF: f64 = 4.0;
 const NEAR: f64 = 4.0;
 
 base::named_enum! {
-    /// A static measure of a level, from 0.0 to 1.0. A fraction of nothing is 0.0.
+    /// A static measure of a level, from 0.0 to 1.0. A fraction without a denominator is 0.0.
     pub enum LevelMeasure {
         /// The fraction of cells that are neither empty nor ground.
         Cover = "cover",
-        /// The fraction of cells that the avatar, as it starts, can never enter or clear.
+        /// The fraction of cells that the avatar a level starts with can never enter or clear.
         Walls = "walls",
         /// The mean number of open neighbours of the cells that the avatar can reach on foot, divided by four. Locks
-        /// count as open; deadly cells do not.
+        /// count as open, and deadly cells do not.
         Openness = "openness",
         /// The distance in steps to the farthest cell that the avatar can reach on foot, as a fraction of the number of
-        /// reachable cells: 1.0 in a single corridor, small in a hall.
+        /// reachable cells. It is 1.0 in a single corridor, and small in a hall.
         Linearity = "linearity",
-        /// The nearness of harm: s / (s + 4), where each cell with something harmful contributes the mean of two terms
-        /// to s. The terms are 4 / (4 + d) for its Manhattan distance d to the avatar and the same for the nearest goal
-        /// thing (or for the avatar again, if there is none). Things that stay in place and spawn nothing count half.
+        /// The nearness of harm, as s / (s + 4). Each cell with something harmful contributes the mean of two terms to
+        /// s. The first term is 4 / (4 + d) for its Manhattan distance d to the avatar. The second term is the same for
+        /// the nearest goal thing, or for the avatar again if there is no goal thing. Things that stay in place and
+        /// spawn nothing count half.
         Pressure = "enemy pressure",
-        /// The number of goal things as n / (n + 4), where n is the number of cells with an exit or with things that
-        /// must be removed for a win or must be protected.
+        /// The number of goal things, as n / (n + 4). Here, n is the number of cells with an exit, or with things that
+        /// must be removed for a win or protected.
         Goals = "goal things",
         /// The left-right symmetry: 1.0 minus the distance ([`LevelSimilarity::distance`]) between the level and its
         /// mirror image, without a shift.
         LeftRight = "left-right symmetry",
         /// The up-down symmetry, computed like the left-right symmetry.
         UpDown = "up-down symmetry",
-        /// The fraction of walls, not counting the border, that have no wall next to them: high if walls are scattered
-        /// rather than built.
+        /// The fraction of walls, not counting the border, that have no wall next to them. It is high if walls are
+        /// scattered rather than built.
         Sprinkle = "sprinkle",
     }
 }
 
-/// A calculator of the measures of one game's levels.
+/// A calculator for the measures of one game's levels.
 #[derive(Clone, Debug)]
 pub struct LevelMeasures {
     similarity: LevelSimilarity,
@@ -57,10 +58,11 @@ struct Mark {
     is_avatar: bool,
     is_ground: bool,
     is_wall: bool,
-    /// `true` if the avatar can walk there sooner or later.
+    /// `true` if the avatar can walk onto the character sooner or later.
     is_open: bool,
     is_goal: bool,
-    /// The degree of harm: 1.0 for harmful things that move or spawn, 0.5 for other harmful things, 0.0 for harmless things.
+    /// The degree of harm: 1.0 for harmful things that move or spawn, 0.5 for other harmful things, and 0.0 for
+    /// harmless things.
     harm: f64,
 }
 

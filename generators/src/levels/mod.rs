@@ -1,4 +1,4 @@
-//! Level generators for any game: the roles of sprite types (such as wall, danger, collectable, key or spawner) are
+//! Level generators for any game. The roles of sprite types (such as wall, danger, collectable, key or spawner) are
 //! derived from the rules.
 
 mod config;

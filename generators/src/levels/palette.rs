@@ -3,20 +3,20 @@
 use engine::analysis::{EffectSummary, Harm, Lock, Motion, Removal, Role};
 use engine::{Analysis, SpriteType};
 
-/// The effect of a level character on the movement of the avatar as it starts.
+/// The effect of a level character on the movement of the avatar that a level starts with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Walk {
-    /// The avatar can enter.
+    /// The avatar can enter the cell.
     Open,
-    /// The avatar cannot enter.
+    /// The avatar cannot enter the cell.
     Blocked,
-    /// The obstacle can be shot away first.
+    /// The avatar can first shoot the obstacle away.
     Breakable,
-    /// The avatar pushes the thing.
+    /// The avatar pushes the thing in the cell.
     Pushed,
-    /// The thing kills or wounds the avatar.
+    /// The thing in the cell kills or wounds the avatar.
     Deadly,
-    /// The thing is locked: an index into [`Analysis::locks`].
+    /// The cell is locked. The number is an index into [`Analysis::locks`].
     Locked(usize),
 }
 
@@ -27,13 +27,13 @@ pub(crate) struct Palette {
     pub(crate) base: u8,
     /// The types in an empty cell.
     pub(crate) ground: Vec<SpriteType>,
-    /// The character of walls, if the game has any that structure a board.
+    /// The character of walls; `None` if the game has no walls that structure a board.
     pub(crate) wall: Option<u8>,
     /// `true` if something could leave the board without a ring of walls.
     pub(crate) ring: bool,
-    /// The avatars with their characters, which place as few other things as possible.
+    /// The avatars with their characters. These characters place as few other things as possible.
     pub(crate) avatars: Vec<(SpriteType, u8)>,
-    /// The best character of each type, without an avatar.
+    /// The best character of each type that places no avatar.
     symbols: Vec<Option<u8>>,
     /// The effect of each character on walking.
     walk: Vec<Walk>,
@@ -69,8 +69,8 @@ impl Palette {
         })
     }
 
-    /// Returns `true` if a character can represent the empty cell from the avatar's point of view: nothing in the cell
-    /// can be collected, hurts, or blocks.
+    /// Returns `true` if a character can represent the empty cell from the avatar's point of view. Nothing in the cell
+    /// may be collected, hurt the avatar or block it.
     pub(crate) fn is_bearable(analysis: &Analysis, symbol: u8) -> bool {
         let places = analysis.game().places(symbol);
         let plain = |stype: &SpriteType| match analysis.role(*stype) {
@@ -98,7 +98,7 @@ impl Palette {
     }
 }
 
-/// Returns the characters of avatars with the fewest other sprites; there are several only if they place different
+/// Returns the characters of avatars with the fewest other sprites. There are several only if they place different
 /// avatars.
 fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
     let game = analysis.game();
@@ -124,8 +124,9 @@ fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
     Some(list)
 }
 
-/// Returns the character of the empty cell. The choices, in order, are floor that the avatar also stands on; `.`, if it
-/// is harmless enough to be walked on; exactly what the avatar stands on; and a space.
+/// Returns the character of the empty cell. The first choice is floor that the avatar also stands on, and the second is
+/// `.`, if it is harmless enough to be walked on. The third is exactly the ground that the avatar stands on, and the
+/// last is a space.
 fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
     let game = analysis.game();
     let under: Vec<SpriteType> =
@@ -196,8 +197,8 @@ fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option
     symbols.filter(|&symbol| !holds_avatar(analysis, symbol)).min_by_key(|&symbol| cost(symbol))
 }
 
-/// Returns the type that structures boards: among the types that always block the avatar, the one that stops the most
-/// other types.
+/// Returns the type that structures boards. Among the types that always block the avatar, this is the one that stops
+/// the most other types.
 fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     let moves = |stype: &SpriteType| {
         let facts = analysis.facts(*stype);

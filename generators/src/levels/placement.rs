@@ -11,7 +11,7 @@ pub(crate) const USUAL: u32 = 16;
 /// The number of arrangements of walls next to a cell: see [`nook`].
 pub(crate) const NOOKS: usize = 6;
 
-/// The statistics of where sprites of one type stand.
+/// The statistics of the positions of sprites of one type.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Placement {
     seen: usize,
@@ -25,13 +25,13 @@ pub(crate) struct Placement {
     beside: BTreeMap<(usize, SpriteType), usize>,
     /// The keys of `beside` that almost always occur next to the type.
     companions: Vec<(usize, SpriteType)>,
-    /// The number of sprites with another one of the type in the cell mirrored from left to right.
+    /// The number of sprites with a sprite of the same type in the cell mirrored from left to right.
     mirrored: usize,
-    /// The number of sprites with another one of the type next to them.
+    /// The number of sprites with a sprite of the same type next to them.
     grouped: usize,
-    /// The number of boards with at least three sprites of the type, followed by the number of rows in which they stand
-    /// on these boards.
+    /// The number of boards with at least three sprites of the type.
     crowds: usize,
+    /// The number of rows in which sprites of the type stand, on the boards that `crowds` counts.
     rows: usize,
 }
 
@@ -50,7 +50,7 @@ impl Bands {
         self.down[band(grid.y(cell), grid.rows)] += 1;
     }
 
-    /// Returns the weight of a cell; the average is 1.0.
+    /// Returns the weight of a cell. The average weight is 1.0.
     fn weigh(&self, grid: Grid, cell: usize) -> f64 {
         let share = |counts: &[usize; BANDS], at: usize| {
             let seen: usize = counts.iter().sum();
@@ -61,7 +61,7 @@ impl Bands {
     }
 }
 
-/// An example.
+/// An example level, with the data for recording its sprites.
 pub(crate) struct Scene<'a> {
     pub(crate) grid: Grid,
     pub(crate) wall: &'a [bool],
@@ -110,7 +110,7 @@ impl Placement {
     }
 
     /// Derives the companions, after all examples have been recorded. `total` counts the sprites of a type in all
-    /// `cells`; `plain` selects types that are everywhere.
+    /// `cells`, and `plain` selects types that are everywhere.
     pub(crate) fn conclude(
         &mut self,
         cells: usize,
@@ -119,8 +119,8 @@ impl Placement {
     ) {
         let seen = self.seen;
         let telling = |&(&(_, other), &count): &(&(usize, SpriteType), &usize)| {
-            // At least four times out of five, and much more often than expected at random, with a larger margin for
-            // few samples.
+            // The companion must occur at least four times out of five, and much more often than expected at random,
+            // with a larger margin for few samples.
             let lift = if seen >= 3 { 3 } else { 10 };
             count * 5 >= seen * 4 && count * cells >= lift * total(other) * seen && !plain(other)
         };
@@ -133,9 +133,9 @@ impl Placement {
         self.companions.iter().map(|&(at, stype)| (WAYS[at], stype))
     }
 
-    /// Returns the weight of a cell according to the positions of such sprites in the examples; [`USUAL`] on average.
-    /// The weight is never 0, since examples are few. `nooks` holds the frequency of nooks among open cells; `model` is
-    /// the example that the board follows.
+    /// Returns the weight of a cell according to the positions of such sprites in the examples. The average weight is
+    /// [`USUAL`]. The weight is never 0, because examples are few. `nooks` holds the frequency of nooks among open
+    /// cells, and `model` is the example that the board follows.
     pub(crate) fn weigh(
         &self,
         grid: Grid,
@@ -147,8 +147,8 @@ impl Placement {
         if self.seen == 0 {
             return USUAL;
         }
-        // The positions of different things are often correlated, so the one example counts most and all examples count
-        // a little.
+        // The positions of different things are often correlated, so the example `model` counts most, and all examples
+        // count a little.
         let own = self.each[model];
         let place = if own == Bands::default() { self.bands } else { own }.weigh(grid, cell) * 0.7
             + self.bands.weigh(grid, cell) * 0.3;
@@ -192,7 +192,7 @@ impl Placement {
         self.crowds > 0 && self.rows <= 2 * self.crowds
     }
 
-    /// Returns the fraction of sprites with another one of the type next to them.
+    /// Returns the fraction of sprites with a sprite of the same type next to them.
     pub(crate) fn grouped(&self) -> f64 {
         self.grouped as f64 / self.seen.max(1) as f64
     }
@@ -210,8 +210,8 @@ fn side(grid: Grid, cell: usize) -> Option<usize> {
 /// The index of niches among the nooks.
 pub(crate) const NICHE: usize = 4;
 
-/// Classifies the number and arrangement of walls, or edges, next to a cell: none, one, two opposite, two at a corner,
-/// three, or four.
+/// Classifies the number and arrangement of walls, or edges, next to a cell. The classes are none, one, two opposite,
+/// two at a corner, three, and four.
 pub(crate) fn nook(grid: Grid, wall: &[bool], cell: usize) -> usize {
     let [up, left, down, right] = WAYS.map(|way| grid.shift(cell, way).is_none_or(|next| wall[next]));
     match u8::from(up) + u8::from(left) + u8::from(down) + u8::from(right) {

@@ -7,15 +7,16 @@ use engine::analysis::Role;
 use engine::{Analysis, Level};
 use itertools::Itertools;
 
-/// The number of symmetries of a board: bit 0 mirrors left and right, bit 1 up and down, bit 2 swaps columns and rows.
+/// The number of symmetries of a board. Bit 0 mirrors left and right, bit 1 mirrors up and down, and bit 2 swaps
+/// columns and rows.
 const SYMMETRIES: usize = 8;
-/// The value for cells outside the smaller of two levels, where there is no character.
+/// The value for cells outside the smaller of two levels, which have no character.
 const OUTSIDE: u8 = 0;
 
 /// Compares levels of one game up to rotations and reflections.
 ///
-/// Rules may distinguish directions (things that fall, or drive from left to right), so the image of a level need not
-/// play like the level; the image still does not count as a new level.
+/// Rules may distinguish directions, as for things that fall, or drive from left to right. The image of a level
+/// therefore need not play like the level, but still does not count as a new level.
 #[derive(Clone, Debug)]
 pub struct LevelSimilarity {
     /// For each character, the first character that places the same sprites.
@@ -24,7 +25,7 @@ pub struct LevelSimilarity {
     rank: [u8; 128],
     /// For each character, the weight of a cell in which two levels differ.
     weight: [u32; 128],
-    /// For each character, `true` if it gives a board its shape, as walls do.
+    /// For each character, `true` if it gives a board its shape, like a wall.
     structure: [bool; 128],
 }
 
@@ -67,9 +68,9 @@ impl LevelSimilarity {
         LevelSimilarity { class, rank, weight, structure }
     }
 
-    /// Returns a digest that is the same for two levels if and only if they are equal up to the eight symmetries of the
-    /// board, and up to characters that place the same sprites, either in this game or in a game that differs only in
-    /// names and characters. Cost: O(cells).
+    /// Returns a digest that is the same for two levels if and only if they are equal up to two changes. The changes
+    /// are the eight symmetries of the board, and characters that place the same sprites. The two levels may also
+    /// belong to games that differ only in names and characters. Cost: O(cells).
     pub fn digest(&self, level: &Level) -> Digest {
         let (grid, mut cells) = self.classes(level);
         cells.iter_mut().for_each(|cell| *cell = self.rank[usize::from(*cell)]);
@@ -83,27 +84,28 @@ impl LevelSimilarity {
     }
 
     /// Returns the distance between two levels, from 0.0 for equal levels (up to symmetry) to 1.0 for levels that agree
-    /// only in their ground: the minimum over the symmetries of
+    /// only in their ground. The distance is the minimum over the symmetries of
     ///
     /// ```text
     ///   Σ weight of the cells that differ  /  Σ weight of all cells
     /// ```
     ///
-    /// with both levels aligned at the top left. A cell weighs 0 if both levels have ground there, or both the same wall
-    /// on their border; 1 if it is wall, soil or ground in both, or lies outside one of them; otherwise 2. So levels that
-    /// are mostly empty are similar only if their few things are. Symmetric in its two arguments. Cost: O(cells).
+    /// with both levels aligned at the top left. A cell weighs 0 if both levels have ground there, or both have the
+    /// same wall on their border. A cell weighs 1 if it is wall, soil or ground in both, or lies outside one of them.
+    /// Any other cell weighs 2. Two levels that are mostly empty are therefore similar only if their few things are
+    /// similar. The distance is symmetric in its two arguments. Cost: O(cells).
     pub fn distance(&self, one: &Level, two: &Level) -> f64 {
         let (one, two) = (self.classes(one), self.classes(two));
         let turned = |fixed: &(Grid, Vec<u8>), (grid, cells): &(Grid, Vec<u8>)| {
             let distances = (0..SYMMETRIES).map(|at| self.share(fixed, &image(*grid, cells, at)));
             distances.fold(1.0, f64::min)
         };
-        // The images of a level that is not square have different sides, so both directions are compared.
+        // The images of a level that is not square have swapped sides, so both directions are compared.
         turned(&one, &two).min(turned(&two, &one))
     }
 
-    /// Returns the similarity of a level to its left-right or up-down mirror image: 1.0 minus their distance without
-    /// further symmetries. Cost: O(cells).
+    /// Returns the similarity of a level to its left-right or up-down mirror image. The similarity is 1.0 minus the
+    /// distance between the two without further symmetries. Cost: O(cells).
     pub(super) fn mirror(&self, level: &Level, symmetry: Mirror) -> f64 {
         let (grid, cells) = self.classes(level);
         1.0 - self.share(&(grid, cells.clone()), &image(grid, &cells, symmetry as usize))

@@ -5,7 +5,7 @@ use generators::{Annealing, AnnealingConfig, Evaluation, Search, Variation};
 
 const BITS: usize = 48;
 
-/// Bit strings; a neighbour differs in one or two bits.
+/// Bit strings. A neighbour of a bit string differs from it in one or two bits.
 struct Bits;
 
 impl Variation for Bits {
@@ -26,7 +26,7 @@ impl Variation for Bits {
     }
 }
 
-/// Evaluates a bit string. It is feasible with at most 12 ones in the lower half; the objective rewards ones that fill
+/// Evaluates a bit string. It is feasible with at most 12 ones in the lower half. The objective rewards ones that fill
 /// groups of four. The optimum is 12 + 24 ones in nine full groups.
 fn judge(bits: &u64) -> Evaluation {
     let lower = (bits & 0xFF_FFFF).count_ones() as f64;

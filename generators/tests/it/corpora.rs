@@ -1,4 +1,4 @@
-//! Games in folders: the corpus games and, if they are available, public ones.
+//! Games in folders: the corpus games and, if available, public games.
 
 use engine::{Game, Level};
 use std::fs;
@@ -9,7 +9,8 @@ pub(crate) fn own() -> Vec<PathBuf> {
     folders("../corpora")
 }
 
-/// Returns the folders of public games, sorted. Prints a message and returns nothing if they are missing.
+/// Returns the folders of public games, sorted. If they are missing, prints a message and returns an empty
+/// list.
 pub(crate) fn public() -> Vec<PathBuf> {
     folders("../../shared/gvgai/games")
 }
@@ -30,12 +31,12 @@ pub(crate) fn name_of(folder: &Path) -> String {
     folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// Returns the text of the game in a folder, if there is one.
+/// Returns the text of the game in a folder; `None` if there is no game.
 pub(crate) fn source_in(folder: &Path) -> Option<String> {
     ["game.vgdl", "game.txt"].iter().find_map(|name| fs::read_to_string(folder.join(name)).ok())
 }
 
-/// Returns the game in a folder, if the engine can play it.
+/// Returns the game in a folder; `None` if the engine cannot play it.
 pub(crate) fn game_in(folder: &Path) -> Option<Game> {
     Game::from_source(&source_in(folder)?).ok()
 }

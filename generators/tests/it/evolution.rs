@@ -40,7 +40,7 @@ const BATCHES: usize = 75;
 const BATCH: usize = 40;
 
 /// A judge that requires a long path to the hatch, two to four rats, walls that are built rather than scattered, and
-/// that every gem can be reached.
+/// a path to every gem.
 struct Judge {
     measures: LevelMeasures,
     /// The minimum symmetry between the left and right halves.
@@ -114,12 +114,12 @@ fn axes() -> Vec<Axis> {
 struct Figures {
     /// The number of feasible candidates in each fifth of all batches.
     feasible: Vec<usize>,
-    /// All evaluated candidates, in the grid.
+    /// All evaluated candidates, as an archive.
     archive: Archive<Level>,
 }
 
 impl Figures {
-    /// Evaluates the levels that `ask` returns, and passes it the results.
+    /// Evaluates the levels that `ask` returns, and passes the results to `ask`.
     fn of(judge: &Judge, mut ask: impl FnMut(Vec<(Level, Evaluation)>) -> Vec<Level>) -> Figures {
         let (mut archive, mut feasible, mut told) = (Archive::new(axes(), 0), vec![0; 5], Vec::new());
         for batch in 0..BATCHES {
@@ -144,12 +144,13 @@ fn asks(search: &mut impl Search<Candidate = Level>, told: Vec<(Level, Evaluatio
     search.ask(BATCH)
 }
 
-/// Returns the mean over the runs.
+/// Returns the mean of a figure over the runs.
 fn mean(runs: &[Figures], figure: impl Fn(&Figures) -> f64) -> f64 {
     runs.iter().map(figure).sum::<f64>() / runs.len() as f64
 }
 
-/// Returns a row with the feasible candidates by fifth of the run, the best objective, the coverage and the QD score.
+/// Returns a table row with the feasible candidates by fifth of the run, the best objective, the coverage and the QD
+/// score.
 fn table(name: &str, runs: &[Figures]) -> String {
     let fifths: Vec<String> =
         (0..5).map(|fifth| format!("{:.0}", mean(runs, |run| run.feasible[fifth] as f64))).collect();
@@ -163,7 +164,7 @@ fn table(name: &str, runs: &[Figures]) -> String {
 struct Contest {
     constructive: Vec<Figures>,
     elites: Vec<Figures>,
-    /// MAP-Elites without infeasible candidates in its archive.
+    /// The results of MAP-Elites without infeasible candidates in its archive.
     without_pockets: Vec<Figures>,
 }
 

@@ -15,7 +15,7 @@ fn search(config: MapElitesConfig, seed: u64) -> MapElites<'static, Slopes> {
     MapElites::new(&Slopes, Slopes::key, axes(), config, seed)
 }
 
-/// The means of random numbers cluster in the middle; illumination reaches the corners and smooths its candidates.
+/// The means of random numbers cluster in the middle. Illumination reaches the corners and smooths its candidates.
 #[test]
 fn far_more_is_illuminated_than_by_random_sampling() {
     for seed in 0..3 {

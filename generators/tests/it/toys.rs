@@ -1,11 +1,11 @@
-//! Toy problems for tests of the searches: variations whose best candidates are known.
+//! Toy problems for tests of the searches. They are variations whose best candidates are known.
 
 use base::{Digest, Sampler, Seed};
 use generators::{Evaluation, Search, Variation};
 
-/// Rows of eight numbers from 0 to 100. The measures are the means of the two halves; the objective is the similarity
-/// of the numbers within each half. Every cell can be filled with an objective near 1. Feasible rows begin and end with
-/// numbers that differ by at least 10.
+/// Rows of eight numbers from 0 to 100. The measures are the means of the two halves, and the objective is the
+/// similarity of the numbers within each half. Every cell can be filled with an objective near 1. Feasible rows begin
+/// and end with numbers that differ by at least 10.
 pub(crate) struct Slopes;
 
 impl Slopes {
@@ -52,7 +52,7 @@ impl Variation for Slopes {
     }
 }
 
-/// Requests and evaluates a number of batches; returns all candidates with their evaluations.
+/// Requests and evaluates a number of batches. Returns all candidates with their evaluations.
 pub(crate) fn run<S: Search>(
     search: &mut S,
     judge: impl Fn(&S::Candidate) -> Evaluation,

@@ -21,7 +21,7 @@ static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     folders.iter().map(load).collect()
 });
 
-/// Returns the game and the level for a seed. They need not load.
+/// Returns the game and the level for a seed. The two need not load.
 pub fn game(seed: Seed) -> (String, String) {
     let mut sampler = seed.child("game", 0).sampler();
     let (source, level, changes) = match sampler.below(10) {
@@ -52,7 +52,7 @@ pub fn game(seed: Seed) -> (String, String) {
     (text.source(), text.level())
 }
 
-/// Returns a piece of a level, so that short episodes see much of it.
+/// Returns a piece of a level, so that short episodes cover much of the piece.
 fn cropped(level: &str, sampler: &mut Sampler) -> String {
     let rows: Vec<&str> = level.lines().collect();
     let width = rows.first().map_or(0, |row| row.len());
@@ -340,7 +340,7 @@ impl Text {
         sampler.choose(&self.names).clone()
     }
 
-    /// Makes one change.
+    /// Makes one random change.
     fn change(&mut self, sampler: &mut Sampler) {
         match sampler.below(20) {
             0 | 1 => {

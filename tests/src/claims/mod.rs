@@ -50,13 +50,13 @@ pub struct Claim {
 /// The condition of an ending, as its sentence states it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum When {
-    /// There are at most this many sprites of these types.
+    /// There is at most the given number of sprites of these types.
     AtMost(Vec<SpriteType>, i64),
-    /// There are at least this many sprites of these types.
+    /// There is at least the given number of sprites of these types.
     AtLeast(Vec<SpriteType>, i64),
-    /// There are exactly this many sprites of these types.
+    /// There is exactly the given number of sprites of these types.
     Exactly(Vec<SpriteType>, i64),
-    /// This number of ticks has been played.
+    /// The given number of ticks has been played.
     Ticks(i64),
 }
 
@@ -69,13 +69,13 @@ pub enum Provided {
     Score,
     /// The score is 0.
     NoScore,
-    /// The counters are not all the same.
+    /// The counters have different values.
     Difference,
-    /// The counters are all the same.
+    /// All counters have the same value.
     NoDifference,
-    /// The first counter has this value.
+    /// The first counter has the given value.
     Value(i32),
-    /// The first counter does not have this value.
+    /// The first counter does not have the given value.
     OtherValue(i32),
 }
 
@@ -97,11 +97,11 @@ pub struct Ending {
     pub win: bool,
     /// The condition of the ending.
     pub when: When,
-    /// The number of types that the counted sprites must have, if it matters.
+    /// The number of types that the counted sprites must have; `None` if it does not matter.
     pub kinds: Option<usize>,
-    /// The additional condition.
+    /// The additional condition of the ending.
     pub provided: Provided,
-    /// The exception under which the ending does not count.
+    /// The exception under which the ending does not count; `None` if there is no exception.
     pub unless: Option<Unless>,
 }
 
@@ -112,32 +112,33 @@ pub enum Tie {
     Lost,
     /// The game is won.
     Won,
-    /// Nothing is claimed, or the claim is not understood here.
+    /// The claim is missing, or not understood here.
     Open,
 }
 
 /// The meaning of a claim, as far as an episode can refute it.
 #[derive(Clone, Debug)]
 pub enum Fact {
-    /// These are all ways to win and lose before the last tick, and each of them ends the game.
+    /// These endings are all ways to win and lose before the last tick, and each of them ends the game.
     Endings(Vec<Ending>, Tie),
     /// The game is never won (`true`) or lost (`false`), except in its first tick.
     Unattainable(bool),
     /// The level is never won (`true`) or lost (`false`), even in its first tick.
     OutOfReach(bool),
-    /// The episode is over in its first tick, with this outcome if one is given.
+    /// The episode is over in its first tick, with the given outcome if there is one.
     OverAtOnce(Option<bool>),
     /// The interaction with this index never happens.
     Silent(usize),
-    /// No sprite ever holds more than this amount of a resource.
+    /// No sprite ever holds more than the given amount of a resource.
     HeldAtMost(SpriteType, i64),
     /// There is never a sprite of the type.
     Absent(SpriteType),
-    /// Sprites of these types are the only ones.
+    /// Only sprites of these types ever exist.
     OnlyTypes(Vec<SpriteType>),
     /// A rule about the first type concerns only sprites of these types.
     OnlyMembers(SpriteType, Vec<SpriteType>),
-    /// Sprites of the first types never meet sprites of the second types, or the edge if `None`.
+    /// Sprites of the first types never meet sprites of the second types. If the second types are `None`, sprites of
+    /// the first types never meet the edge.
     NeverMeet(Vec<SpriteType>, Option<Vec<SpriteType>>),
     /// All avatars are of these types.
     OnlyAvatars(Vec<SpriteType>),
@@ -149,7 +150,7 @@ pub enum Fact {
     Single(Vec<SpriteType>),
     /// There are never more sprites of these types than at the start.
     OnlyFalls(Vec<SpriteType>),
-    /// There are never more than this number of sprites of these types.
+    /// The number of sprites of these types never exceeds the given number.
     CountAtMost(Vec<SpriteType>, i64),
     /// The sprites that the level places in these cells stay there.
     Permanent(Vec<(SpriteType, usize)>),
@@ -157,11 +158,12 @@ pub enum Fact {
     GoalNeverHolds(usize),
     /// Sprites of the type never reach the cell.
     NeverAt(SpriteType, usize),
-    /// Between two ticks, the sprites of each type are only in these cells. Indexed by type and cell.
+    /// Between two ticks, the sprites of each type are only in these cells. The list is indexed by type and cell.
     Within(Vec<Vec<bool>>),
-    /// Avatars visit at most this many cells of the board.
+    /// Avatars visit at most the given number of cells of the board.
     CellsVisited(usize),
-    /// Sprites of the first types never move onto sprites of the second types, or off the board if `None`.
+    /// Sprites of the first types never move onto sprites of the second types. If the second types are `None`, sprites
+    /// of the first types never move off the board.
     CannotEnter(Vec<SpriteType>, Option<Vec<SpriteType>>),
     /// Observations never show sprites of the type.
     Unseen(SpriteType),
@@ -179,7 +181,7 @@ pub enum Fact {
     AllShown,
     /// The game plays the same without the parameter at this position in the text.
     Ignored(usize),
-    /// No episode at all wins, because all states were searched.
+    /// No episode at all wins, because an exhaustive search has found no win.
     SearchedInVain,
 }
 
@@ -232,13 +234,13 @@ pub struct Case {
     pub text: String,
     /// The policy with which the game was loaded.
     pub policy: Policy,
-    /// The game.
+    /// The loaded game.
     pub game: Game,
-    /// The level.
+    /// The loaded level.
     pub level: Level,
     /// The analysis of the game.
     pub analysis: Analysis,
-    /// The reach in the level.
+    /// The reach of the sprites in the level.
     pub reach: Reach,
 }
 
@@ -254,11 +256,11 @@ impl Case {
     }
 }
 
-/// A false claim.
+/// A claim that an episode refutes, with its game.
 pub struct Fault {
-    /// The refuted claim.
+    /// The claim that was refuted.
     pub claim: Claim,
-    /// The contradiction.
+    /// The observation that contradicts the claim.
     pub found: String,
     /// The text of the game.
     pub source: String,
@@ -295,7 +297,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Adds the counts of a different run.
+    /// Adds the counts of another run.
     #[must_use]
     pub fn and(mut self, other: Tally) -> Tally {
         (0..2).for_each(|at| self.games[at] += other.games[at]);
@@ -335,7 +337,7 @@ impl fmt::Display for Tally {
     }
 }
 
-/// Returns the claims of a case that its episodes refute, each once.
+/// Returns the claims of a case that its episodes refute. Each claim is returned once.
 pub fn faults(case: &Case, claims: &[Claim], plays: &[Play]) -> Vec<Fault> {
     let fault = |claim: &Claim| {
         let refuted = plays.iter().find_map(|play| Some((claim.fact.refuted_by(case, play)?, play)));

@@ -6,7 +6,7 @@ use engine::{Action, Meeting, Outcome, SpriteRecord, SpriteType, State, Watch};
 
 /// The state at the end of a tick.
 pub struct Frame {
-    /// All sprites, including dead avatars, by creation number.
+    /// All sprites, including dead avatars, ordered by creation number.
     pub sprites: Vec<SpriteRecord>,
     /// The interactions executed in the tick.
     pub meetings: Vec<Meeting>,
@@ -14,11 +14,11 @@ pub struct Frame {
     pub lines: Vec<usize>,
     /// The type of the player's avatar.
     pub avatar: Option<SpriteType>,
-    /// The outcome.
+    /// The outcome of the episode so far.
     pub outcome: Outcome,
-    /// The score.
+    /// The score at the end of the tick.
     pub score: f64,
-    /// The counters.
+    /// The values of the counters.
     pub counters: Vec<i32>,
 }
 
@@ -26,7 +26,7 @@ pub struct Frame {
 pub struct Play {
     /// The seed of the game's randomness.
     pub seed: Seed,
-    /// The actions.
+    /// The actions of the episode.
     pub actions: Vec<Action>,
     /// The states at the start and at the end of each tick.
     pub frames: Vec<Frame>,
@@ -59,7 +59,7 @@ impl Watch for Seen {
     }
 }
 
-/// The maximum number of sprites in a recorded state. The episode stops when it is exceeded.
+/// The maximum number of sprites in a recorded state. The episode stops when this number is exceeded.
 const SPRITES: usize = 400;
 
 impl Play {
@@ -94,7 +94,7 @@ impl Play {
         Play::record(case, seed, |_| actions.next())
     }
 
-    /// Plays at random. Keys are often held down, as by players.
+    /// Plays at random. Keys are often held down, as people do.
     pub fn random(case: &Case, seed: Seed, ticks: usize) -> Play {
         let mut sampler = seed.child("actions", 0).sampler();
         let (mut held, mut left, mut played) = (Action::Nil, 0, 0);
@@ -135,7 +135,8 @@ impl Play {
     }
 }
 
-/// Returns episodes of a case: idle, at random, towards the terminations, and sometimes a long one.
+/// Returns episodes of a case. Some are idle, some random and some play towards the terminations. Some cases
+/// also have a long episode.
 pub fn plays(case: &Case, seed: Seed) -> Vec<Play> {
     let mut sampler = seed.child("plays", 0).sampler();
     let mut plays = vec![

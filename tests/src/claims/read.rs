@@ -177,8 +177,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns `true` if the level uses a character that is mapped in every game, but that this game does not use. Claims assume
-    /// that no level does.
+    /// Returns `true` if the level uses a character that is mapped in every game, but that this game does not use.
+    /// Claims assume that no level uses such a character.
     fn uses_idle_default(&self, symbol: u8) -> bool {
         let facts = |&stype: &SpriteType| self.case.analysis.facts(stype);
         let is_idle =
@@ -255,7 +255,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the types that can occur, other than avatars, without a line of their own.
+    /// Returns the types that can occur without their own line, other than avatars.
     fn others(&self, guide: &Guide) -> Vec<SpriteType> {
         let analysis = &self.case.analysis;
         let has_line = |stype: SpriteType| {
@@ -472,10 +472,10 @@ impl Reader<'_> {
             "parent-sprite" if !message.contains("the player's") => {
                 named(0).map(Fact::Stands).into_iter().collect()
             }
-            // A different type may be the player's.
+            // The player's avatar may have a different type.
             "lost-avatar" if self.case.analysis.avatars().is_empty() => vec![Fact::DeadKeys],
             "ignored-parameter" => {
-                // The reference's recovery may have changed what the position points to.
+                // The reference's recovery may have changed the meaning of the position.
                 let strict = self.case.policy == Policy::Strict;
                 strict.then_some(Fact::Ignored(warning.span.start)).into_iter().collect()
             }

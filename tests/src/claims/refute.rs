@@ -43,14 +43,14 @@ impl Frame {
     }
 }
 
-/// Returns the complete ticks of an episode: their numbers from 1, the states before, and the states after.
+/// Returns the complete ticks of an episode. Each has its number, counted from 1, the state before and the state after.
 fn ticks(play: &Play) -> impl Iterator<Item = (usize, &Frame, &Frame)> {
     let pairs = play.frames.windows(2).enumerate();
     pairs.map(|(at, pair)| (at + 1, &pair[0], &pair[1])).filter(|(.., after)| after.is_whole())
 }
 
 impl Fact {
-    /// Returns the contradiction between the claim and an episode of the case, if there is one.
+    /// Returns the contradiction between the claim and an episode of the case; `None` if there is none.
     pub fn refuted_by(&self, case: &Case, play: &Play) -> Option<String> {
         let name = |stype: SpriteType| case.game.name(stype);
         let ended = play.frames.last().map_or(Outcome::Ongoing, |frame| frame.outcome);
@@ -262,7 +262,7 @@ impl Fact {
     }
 }
 
-/// Returns a wanted sprite whose position has changed in the tick.
+/// Returns a sprite that `wanted` accepts and whose position has changed in the tick.
 fn moved<'a>(
     before: &Frame,
     after: &'a Frame,
@@ -274,7 +274,7 @@ fn moved<'a>(
     })
 }
 
-/// Returns the cell of the sprite's top left corner, if it is on the board.
+/// Returns the cell of the sprite's top left corner; `None` if the corner is not on the board.
 fn cell_of(case: &Case, play: &Play, record: &SpriteRecord) -> Option<usize> {
     let (column, row) = (record.rect.x.div_euclid(play.block), record.rect.y.div_euclid(play.block));
     let inside = column >= 0 && row >= 0 && (column as usize) < case.level.columns();
@@ -296,7 +296,7 @@ fn cells_of(case: &Case, play: &Play, record: &SpriteRecord) -> Vec<usize> {
 /// Returns the first difference between two episodes with the same actions.
 fn differs(case: &Case, one: &Play, two: &Play, with: &str) -> Option<String> {
     let equal = |one: &Frame, two: &Frame| {
-        // Compare as text if they differ, because some speeds are NaN.
+        // Compare the sprites as text if they differ, because some speeds are NaN.
         let same = |one: &[SpriteRecord], two: &[SpriteRecord]| {
             one == two || format!("{one:?}") == format!("{two:?}")
         };
@@ -360,7 +360,8 @@ impl Ending {
     }
 }
 
-/// Checks that every end of an episode is announced, that every announced ending ends the episode, and that the result is right.
+/// Checks that every end of an episode is announced, that every announced ending ends the episode, and that the result
+/// is correct.
 fn refute_endings(case: &Case, endings: &[Ending], tie: &Tie, play: &Play) -> Option<String> {
     ticks(play).find_map(|(tick, before, frame)| {
         let holds =
@@ -390,7 +391,7 @@ fn refute_endings(case: &Case, endings: &[Ending], tie: &Tie, play: &Play) -> Op
     })
 }
 
-/// The effects that do not move or turn anything, so that a barrier stays a barrier in a tick with them.
+/// The effects that do not move or turn anything. A barrier stays a barrier in a tick with these effects.
 const STILL_EFFECTS: [&str; 8] = [
     "stepBack",
     "collectResource",
@@ -402,7 +403,7 @@ const STILL_EFFECTS: [&str; 8] = [
     "subtractHealthPoints",
 ];
 
-/// Finds a sprite that moves onto one that was there before and that has not moved.
+/// Finds a sprite that moves onto a barrier that was there before and has not moved.
 fn refute_barrier(
     case: &Case,
     play: &Play,
@@ -441,7 +442,7 @@ fn refute_barrier(
             };
             let others =
                 before.sprites.iter().filter(|record| second.contains(&stype(record)) && record.id != is.id);
-            // A sprite that is put back after its move was away when the other sprite came.
+            // A sprite that is put back after its move was elsewhere when the other sprite came.
             let put_back =
                 |other: &SpriteRecord| after.meetings.iter().any(|meeting| meeting.first == stype(other));
             let mut others = others.filter(|record| !put_back(record)).filter(|record| {

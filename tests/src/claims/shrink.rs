@@ -25,7 +25,7 @@ pub fn shrunk(fault: Fault) -> Fault {
     }
 }
 
-/// Returns the same kind of fault in a changed game, if it is still there.
+/// Returns the same kind of fault in a changed game; `None` if the fault is gone.
 pub fn again(
     source: &str,
     level: &str,

@@ -1,4 +1,4 @@
-//! Batches: each lane plays the same episode as by itself, on any number of threads.
+//! Batches: each lane plays the same episode as it would by itself, on any number of threads.
 
 use agents::{Batch, BatchError};
 use base::{Sampler, Seed};

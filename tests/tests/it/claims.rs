@@ -11,9 +11,9 @@ use tests::claims::{Case, Claim, Ending, Fact, Fault, Policy, Provided, Tally, T
 use tests::claims::{faults, games, read, shrink};
 use tests::sweep;
 
-/// The number of generated games in a sweep, each under both policies.
+/// The number of generated games in a sweep. Each is loaded under both policies.
 const GAMES: usize = 40_000;
-/// One game out of this many is searched.
+/// The number of games of which one is searched.
 const SEARCHED: usize = 10;
 /// The number of forward-model calls per search.
 const CALLS: u64 = 3000;
@@ -85,7 +85,7 @@ const KINDS: [&str; 12] = [
     "the level cannot be won",
 ];
 
-/// A game in which everything occurs that the checks look for.
+/// A game that contains everything that the checks look for.
 const ZOO: &str = "\
 BasicGame square_size=10
     SpriteSet

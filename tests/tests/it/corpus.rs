@@ -1,5 +1,5 @@
-//! Properties of every game, tested on the corpus: clones, hashes, replays, terminal states, prints. Compare OpenSpiel's basic
-//! tests. `robustness.rs` tests generated games.
+//! Properties of every game, tested on the corpus: clones, hashes, replays, terminal states, prints. They correspond to
+//! OpenSpiel's basic tests. `robustness.rs` tests generated games.
 
 use base::{Sampler, Seed};
 use engine::{Action, Episode, Game, Level, Outcome, State, syntax};

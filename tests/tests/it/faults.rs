@@ -1,4 +1,4 @@
-//! Single faults in valid files. Each must be reported at its line, and most with the right fix.
+//! Single faults in valid files. Each fault must be reported at its line, and most faults with the right fix.
 //!
 //! The faults are drawn with a seed over the corpus games, [`EACH`] of each kind.
 
@@ -29,7 +29,8 @@ pub(crate) struct Fault {
     what: String,
 }
 
-/// A generator of one kind of fault. Returns `None` if the randomly chosen item does not allow it.
+/// A generator of one kind of fault. The generator returns `None` if the randomly chosen item does not allow such a
+/// fault.
 type FaultMaker = fn(&Sound, &mut Sampler) -> Option<Fault>;
 
 const KINDS: [(&str, FaultMaker); 6] = [
@@ -173,7 +174,7 @@ fn in_game(sound: &Sound, game: String, lines: Vec<usize>, repairs: &[&str], wha
 fn typo(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let token = *sampler.choose(&tokens);
-    // Change only names. For a parameter that is its key, and lists are left unchanged.
+    // Change only names. For a parameter, the name is its key, and lists stay unchanged.
     let word = token.text.split('=').next().unwrap_or_default();
     if word.len() < 4 || !word.chars().all(|c| c.is_ascii_alphanumeric()) {
         return None;
@@ -310,7 +311,7 @@ fn wrong_type(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, game, vec![token.line], &[&format!("{key}=")], format!("{key}={value} → {key}={wrong}"))
 }
 
-/// Changes a valid character into an invalid one: in a level, in a mapping, in an arrow or a parameter.
+/// Changes a valid character into an invalid one in a level, in a mapping, in an arrow or in a parameter.
 fn wrong_character(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     match sampler.below(4) {

@@ -1,5 +1,5 @@
-//! Automatic fixes: each removes its problem and introduces no new error. Tested on the single faults of `faults.rs` and the
-//! examples in `docs/reference/diagnostics/`.
+//! Automatic fixes. Each fix removes its problem and introduces no new error. The tests use the single faults of
+//! `faults.rs` and the examples in `docs/reference/diagnostics/`.
 
 use crate::faults;
 use crate::pages::examples;
@@ -7,7 +7,7 @@ use editor::{Edit, Fix, Problem, Severity, applied, level_problems, problems};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The number of problems that have a fix, and of those that were fixed.
+/// The number of problems that have a fix, and the number of problems that were fixed.
 #[derive(Default)]
 struct Tally {
     faults: usize,

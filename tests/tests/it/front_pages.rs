@@ -2,7 +2,7 @@
 
 use tests::read;
 
-/// The greatest length of a front page, in lines.
+/// The maximum length of a front page, in lines.
 const LINES: [(&str, usize); 3] = [("README.md", 100), ("ARCHITECTURE.md", 130), ("CHANGELOG.md", 150)];
 
 #[test]
@@ -16,7 +16,7 @@ fn front_pages_are_short() {
     }
 }
 
-/// Rows `| step | file | functions |` of the walk from the seed to the release.
+/// The test reads the rows `| step | file | functions |` of the walk from the seed to the release.
 #[test]
 fn contributing_names_functions_that_exist() {
     let page = read("CONTRIBUTING.md");

@@ -43,15 +43,15 @@ fn played(name: &str) -> PlayMeasures {
     PlayMeasures::of(&analysis, &recording, Seed::from_text("measures")).expect("an episode")
 }
 
-/// The jars wait for their porter, who can lose only because of the clock. The hounds of the bog do not wait, and catch an avatar
-/// that stays in place.
+/// The jars wait for their porter, who can lose only because of the clock. The hounds of the bog do not wait, and catch
+/// an avatar that stays in place.
 #[test]
 fn measures_match_play_of_a_puzzle_and_a_flight() {
     let (jars, bog) = (played("quiet-jars"), played("bog-lantern"));
     assert_eq!((jars.chance, jars.drama, jars.lead_changes), (0.0, 0.0, 0.0), "{jars:?}");
     // Jars are pushed and come to rest.
     assert!(jars.mechanics >= 2, "{jars:?}");
-    // In the bog, something moves in most ticks, and the movements are random. Among the jars, only the pushed ones move.
+    // In the bog, something moves in most ticks, and the movements are random. Among the jars, only pushed jars move.
     assert!(bog.pace > 0.5 && bog.chance > 0.1 && bog.drama > 0.3, "{bog:?}");
     assert!(bog.density < jars.density, "{jars:?} {bog:?}");
 }

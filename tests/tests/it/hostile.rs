@@ -1,7 +1,7 @@
-//! The hostile set (`tests/suite/hostile/`): each case has the result that its file states, under both policies for loading a
-//! game.
+//! The hostile set (`tests/suite/hostile/`). Each case has the result that its file states, under both policies for
+//! loading a game.
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-tests --test it hostile` rewrites the results; review the diff like code.
+//! `BLESS=1 cargo test -p infinite-arcade-tests --test it hostile` rewrites the results. Review the diff like code.
 
 use tests::hostile::Case;
 

@@ -3,7 +3,7 @@
 use engine::limits;
 use tests::read;
 
-/// The constants with their names.
+/// Defines the constants with their names.
 macro_rules! constants {
     ($($name:ident)*) => { [$((stringify!($name), limits::$name as usize)),*] };
 }

@@ -1,5 +1,6 @@
-//! Novelty of games: irrelevant changes leave the form of a game unchanged, relevant ones change it, and the duplicate distance
-//! is between the distances of renumbered copies and of different games (docs/explanation/novelty.md).
+//! Novelty of games. Irrelevant changes leave the form of a game unchanged, and relevant changes alter it. The
+//! duplicate distance is between the distances of renumbered copies and of different games
+//! (docs/explanation/novelty.md).
 
 use base::Seed;
 use engine::Game;
@@ -18,7 +19,7 @@ fn all() -> Vec<(String, Game)> {
     as_reference().into_iter().filter_map(strictly).collect()
 }
 
-/// Returns the games of [`all`], and also those that load only as in the reference.
+/// Returns the games of [`all`], and also the games that load only as in the reference.
 fn as_reference() -> Vec<(String, Game)> {
     let of = |folder: &Path| games(folder).into_iter().map(|(name, game, _)| (name, game));
     let mut all: Vec<(String, Game)> = of(&workspace_root().join("corpora")).collect();
@@ -148,7 +149,7 @@ fn hand_written_games_are_not_duplicates() {
     let forms = forms(&all);
     let near = |one: usize| (0..one).filter(|&two| forms[one].1.is_near(&forms[two].1)).count();
     let pairs: usize = (0..forms.len()).map(near).sum();
-    // By any measure, some public games are copies of others.
+    // By any measure, some public games are copies of other public games.
     assert!(pairs <= forms.len() / 10, "{pairs}");
     let corpus = games(&workspace_root().join("corpora")).len();
     assert!((0..corpus).all(|at| near(at) == 0));

@@ -3,20 +3,20 @@
 //!
 //! A page is prose around fenced blocks, which run from top to bottom:
 //!
-//! - `vgdl` is a game, `level` a level of the last game; `level seed=7` starts its episode from that seed, 0 by
-//!   default.
-//!   Games are loaded strictly, those in a `vgdl as-reference` block as the reference does.
-//! - `actions` plays: `right use*3 nil`.
-//! - `expect` states the results: `tick 2, score 1, won`; then, optionally, facts about the oldest sprite of a type,
-//!   `key: count 2; at 3,1; facing left; speed 0.5; health 2; size 1x1; holds coin 3` (cells); then, optionally, the
-//!   board in level characters. A cell shows the character that places just the sprites in it, or else its topmost
-//!   sprite.
-//! - `diagnostics` lists the problems of the block above it, each with line and column; without it there must be none
-//!   (but examples need not say how they are won and lost).
+//! - `vgdl` is a game, and `level` is a level of the last game. `level seed=7` starts the level's episode from that
+//!   seed instead of the default 0. Games are loaded strictly, except that a game in a `vgdl as-reference` block is
+//!   loaded as the reference does.
+//! - `actions` plays actions, such as `right use*3 nil`.
+//! - `expect` states the results, such as `tick 2, score 1, won`. Facts about the oldest sprite of a type may follow,
+//!   such as `key: count 2; at 3,1; facing left; speed 0.5; health 2; size 1x1; holds coin 3` (in cells). The board in
+//!   level characters may follow last. A cell shows the character that places exactly the sprites in the cell, or else
+//!   its topmost sprite.
+//! - `diagnostics` lists the problems of the block above it, each with line and column. Without this block, there must
+//!   be no problems, except that examples need not say how they are won and lost.
 //!
 //! `BLESS=1 cargo test -p infinite-arcade-tests --test it pages` writes the actual results into the `expect` and
-//! `diagnostics` blocks; a value of `?` in a fact, and a board of one `?`, are filled in. Review the diff before
-//! accepting it.
+//! `diagnostics` blocks. It also fills in a value of `?` in a fact, and a board that consists of a single `?`. Review
+//! the diff before accepting it.
 
 use engine::{Action, Chance, Diagnostic, Game, Level, Outcome, Severity, SpriteClass, SpriteRecord, State};
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
@@ -123,8 +123,8 @@ fn every_diagnostic_code_has_a_page() {
     assert!(problems.is_empty(), "\n{problems}");
 }
 
-/// Returns the output that the page about a code must show: the code in a list of problems or, if no small example causes it, the
-/// whole output for a file that is created here.
+/// Returns the output that the page about a code must show. This is the code in a list of problems. If no small example
+/// causes the problem, it is the whole output for a file that is created here.
 fn shown(code: &str) -> String {
     let source = match code {
         "not-text" => "BasicGame\u{7}\n".to_owned(),
@@ -151,8 +151,8 @@ fn repaired(page: &str) -> Vec<Diagnostic> {
     last.map_or(Vec::new(), |block| block.problems(game.as_ref()))
 }
 
-/// Returns the codes in the engine's source. A code is the first argument of a problem's constructor, or in the statement
-/// `let code = …;` above it.
+/// Returns the codes in the engine's source. A code is the first argument of a problem's constructor, or is in the
+/// statement `let code = …;` above the constructor.
 fn codes() -> BTreeSet<String> {
     let mut codes = BTreeSet::new();
     for (file, text) in rust_files().into_iter().filter(|(file, _)| file.starts_with("engine/src")) {
@@ -179,7 +179,8 @@ fn pages(folder: &'static str) -> impl Iterator<Item = String> {
     files.filter(move |file| file.starts_with(folder) && file.ends_with(".md"))
 }
 
-/// Returns the strictly loaded games and the levels on the pages in a folder: the page, the game, and the level if there is one.
+/// Returns the strictly loaded games and the levels on the pages in a folder, as the page, the game, and the level if
+/// there is one.
 pub(crate) fn examples(folder: &'static str) -> Vec<(String, String, Option<String>)> {
     let mut examples = Vec::new();
     for page in pages(folder) {
@@ -200,7 +201,7 @@ fn games(page: &str) -> impl Iterator<Item = &str> {
     page.split("```vgdl").skip(1).filter_map(|rest| rest.split("```").next())
 }
 
-/// Returns the first line that differs, as stated and as it actually is.
+/// Returns the first line that differs, in its stated and its actual form.
 fn first_difference(said: &str, is: &str) -> String {
     let at = said
         .lines()

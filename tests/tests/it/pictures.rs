@@ -1,4 +1,4 @@
-//! Every game that loads can be drawn. Tested on the hostile games and the corpus, in every format.
+//! Every game that loads can be drawn. The test uses the hostile games and the corpus, in every format.
 
 use base::Seed;
 use engine::{Action, Analysis, Game, Level, syntax};
@@ -11,7 +11,7 @@ use tests::hostile::Case;
 use tests::sweep::VARIABLE;
 use tests::workspace_root;
 
-/// Draws the first tick, and in a sweep also the start. A picture with too many pixels may be rejected.
+/// Draws the first tick, and in a sweep also the start. An image with too many pixels may be rejected.
 fn draw(name: &str, game: &Game, level: &Level) {
     let analysis = Analysis::of(game);
     let looks = Looks::of(&analysis);
@@ -45,7 +45,7 @@ fn draw(name: &str, game: &Game, level: &Level) {
 fn hostile_games_can_be_drawn() {
     let mut drawn = 0;
     for case in Case::all() {
-        // A picture does not depend on the policy that loaded the game.
+        // An image does not depend on the policy that loaded the game.
         let game = Game::from_source(&case.source).or_else(|_| Game::from_source_as_reference(&case.source));
         let Ok(game) = game else { continue };
         let Some(Ok(level)) = case.level.as_ref().map(|text| game.level(text)) else { continue };
@@ -55,7 +55,7 @@ fn hostile_games_can_be_drawn() {
     assert!(drawn > 40, "{drawn}");
 }
 
-/// Any two visible types differ in form, in mark, clearly in colour, or in the number of dots.
+/// Checks that any two visible types differ in form, in mark, clearly in colour, or in the number of dots.
 fn assert_distinct(name: &str, looks: &Looks) {
     let shown: Vec<_> = looks.shown().collect();
     for (at, &one) in shown.iter().enumerate() {

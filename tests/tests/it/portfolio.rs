@@ -4,7 +4,7 @@ use agents::{PortfolioConfig, Solution, solve};
 use base::Seed;
 use engine::{Analysis, Game};
 
-/// A moth that reaches the door in time only with some seeds.
+/// A game with a moth that reaches the door in time only with some seeds.
 const MOTH: &str = "BasicGame\n  SpriteSet\n    door > Immovable\n    moth > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    d > door\n    m > moth\n  InteractionSet\n    moth wall > stepBack\n    avatar wall > stepBack\n    door moth > killSprite\n  TerminationSet\n    SpriteCounter stype=door win=True\n    Timeout limit=4 win=False\n";
 
 #[test]

@@ -1,4 +1,5 @@
-//! The prose of the book and of the front pages: phrases that a native editor replaces, and long sentences.
+//! The prose of the book and of the front pages. It must not contain long sentences, or phrases that a native editor
+//! replaces.
 
 use std::path::Path;
 
@@ -7,11 +8,11 @@ use tests::{read, workspace_files};
 /// The pages at the root.
 const FRONT_PAGES: [&str; 4] = ["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "README.md"];
 
-/// Pages whose words are those of the code: generated, or output of programs.
+/// Pages whose words come from the code, because they are generated or show the output of programs.
 const GENERATED: [&str; 4] =
     ["docs/SUMMARY.md", "docs/lab/gallery.md", "docs/reference/commands.md", "docs/reference/recipe-keys.md"];
 
-/// The greatest length of a sentence, in words.
+/// The maximum length of a sentence, in words.
 const WORDS: usize = 35;
 
 /// Phrases in lower case, each with the words to write instead.
@@ -94,8 +95,8 @@ fn for_each_page(look: &mut dyn FnMut(&str, &str)) {
     assert!(count > 200, "{count} pages");
 }
 
-/// Returns the paragraphs, items and headings of a page, each with the number of its first line and as plain words. Cells of tables
-/// count if wanted; code never does.
+/// Returns the paragraphs, items and headings of a page as plain words, each with the number of its first line. Cells
+/// of tables are included if wanted. Code is never included.
 fn blocks(page: &str, with_tables: bool) -> Vec<(usize, String)> {
     let mut blocks: Vec<(usize, String)> = Vec::new();
     let mut is_open = false;
@@ -137,7 +138,7 @@ fn item(text: &str) -> Option<&str> {
     numbered.or_else(|| ["- ", "* ", "+ "].iter().find_map(|mark| text.strip_prefix(mark)))
 }
 
-/// Returns a text without marks: code is one word, and a link is its text.
+/// Returns a text without marks. Code becomes one word, and a link becomes its text.
 fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut rest = text;
@@ -161,7 +162,7 @@ fn plain(text: &str) -> String {
     text.replace(['*', '['], "")
 }
 
-/// Returns the sentences of a text. Items between `·` count by themselves.
+/// Returns the sentences of a text. Items between `·` count as separate sentences.
 fn sentences(text: &str) -> impl Iterator<Item = &str> {
     text.split(" · ").flat_map(|part| {
         let mut starts = vec![0];

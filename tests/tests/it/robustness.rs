@@ -1,5 +1,5 @@
-//! Short runs of the checks that `tools/fuzz/` runs for a long time: any text, any level, any actions. Every run uses the same
-//! inputs.
+//! Short runs of the checks that `tools/fuzz/` runs for a long time, on any text, any level and any actions. Every run
+//! uses the same inputs.
 
 use base::Sampler;
 use engine::syntax::Section;
@@ -129,7 +129,7 @@ fn the_dictionary_has_every_word() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Tests structurally valid games, and shrinks a failure to the simplest one.
+    /// Tests structurally valid games, and shrinks a failing game to the simplest one.
     #[test]
     fn any_game_plays(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
         robustness::play(&bytes);

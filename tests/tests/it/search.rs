@@ -1,8 +1,8 @@
 //! Systematic search: tests that its proofs hold.
 //!
-//! Small levels are searched exhaustively in three ways, which distinguish states by [`State::search_key`], by the key of the
-//! search, and by the full data that this key hashes. All three must find the same states, except for data that the key leaves
-//! out, and the same wins.
+//! Small levels are searched exhaustively in three ways. The three searches distinguish states by
+//! [`State::search_key`], by the key of the search, and by the full data that this key hashes. All three must find the
+//! same states, except for data that the key leaves out, and the same wins.
 
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use base::Seed;
@@ -23,7 +23,7 @@ fn game(sprites: &str, mapping: &str, rules: &str, ends: &str) -> Game {
     Game::from_source(&source).unwrap_or_else(|problems| panic!("{problems}\n{source}"))
 }
 
-/// Returns a game of crates that fall into drains.
+/// Returns a game in which crates fall into drains.
 fn drains() -> Game {
     game(
         "crate > Passive\ndrain > Immovable\nhero > MovingAvatar",
@@ -33,7 +33,7 @@ fn drains() -> Game {
     )
 }
 
-/// Returns a game of crates that stay on plates, where they turn into a different type.
+/// Returns a game in which crates stay on plates and turn into a different type there.
 fn plates() -> Game {
     game(
         "tile > Immovable hidden=True\nplate > Immovable\nblock > Passive\n  crate >\n  stowed >\nhero > MovingAvatar",
@@ -53,7 +53,7 @@ fn keys() -> Game {
     )
 }
 
-/// Returns a game of carts that drive to and fro.
+/// Returns a game in which carts drive to and fro.
 fn carts() -> Game {
     game(
         "cart > Missile orientation=RIGHT speed=1 cooldown=2\nflag > Immovable\nhero > MovingAvatar",
@@ -63,7 +63,7 @@ fn carts() -> Game {
     )
 }
 
-/// Returns a game of hunters that follow paths to the hero, and draw random numbers only if there is no path.
+/// Returns a game in which hunters follow paths to the hero. Hunters draw random numbers only if there is no path.
 fn hunters() -> Game {
     let plain = game(
         "hunter > PathChaser stype=hero cooldown=2\nflag > Immovable\nhero > MovingAvatar",
@@ -144,8 +144,8 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Returns all reachable states of the ongoing game, distinguished by `tell`, and the minimum number of actions that win. The
-    /// search is breadth first.
+    /// Returns all reachable states of the ongoing game, distinguished by `tell`, and the minimum number of actions
+    /// that win. The search is breadth first.
     fn reached<T: Ord>(&self, tell: impl Fn(&State) -> T) -> (BTreeMap<T, Vec<u64>>, Option<usize>) {
         let words = |state: &State| self.abstraction.words(self.analysis, state);
         let mut met = BTreeMap::from([(tell(&self.start), words(&self.start))]);
@@ -234,8 +234,8 @@ fn wins_are_the_shortest_and_proofs_are_right() {
     }
 }
 
-/// Pruned states are lost: no win can be reached from any state that [`Pushes`] prunes, and no state needs fewer ticks than its
-/// bound.
+/// Pruned states are lost. No win can be reached from any state that [`Pushes`] prunes, and no state needs fewer ticks
+/// than its bound.
 #[test]
 fn push_distances_are_lower_bounds() {
     for (name, game, levels) in cases().into_iter().take(2) {
@@ -281,8 +281,8 @@ fn bounded_searches_keep_limits_and_are_unknown() {
     assert_eq!(small.answer, Answer::OutOfMemory);
 }
 
-/// The characters `A` and `w` stand for `avatar` and `wall` in every game. A level that relies on this is searched like a level
-/// of a game that maps them explicitly, whatever else the game does.
+/// The characters `A` and `w` stand for `avatar` and `wall` in every game. A level that relies on these defaults is
+/// searched like a level of a game that maps the characters explicitly.
 #[test]
 fn default_characters_are_searched_like_written_ones() {
     let ends = "SpriteCounter stype=pear win=True\nSpriteCounter stype=avatar win=False";

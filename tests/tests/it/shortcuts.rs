@@ -1,5 +1,5 @@
-//! Shortcuts of a step: sprites that a step skips because their movement is predicted are where they would be without the
-//! shortcut.
+//! Shortcuts of a step. Sprites that a step skips because their movement is predicted are at the same positions as
+//! without the shortcut.
 
 use base::{Sampler, Seed};
 use engine::{Action, Game, Level, Limit, Outcome, State};
@@ -9,7 +9,7 @@ use tests::any_game::any_game;
 use tests::choices::Choices;
 use tests::{games, public_games, sweep, workspace_root};
 
-/// Plays random actions twice, with and without shortcuts. The two episodes must not differ in anything.
+/// Plays random actions twice, with and without shortcuts. The two episodes must not differ in any way.
 fn play(name: &str, game: &Game, level: &Level, ticks: usize) {
     let mut sampler = Seed::from_text(name).child("actions", 0).sampler();
     play_actions(name, game, level, (0..ticks).map(|_| *sampler.choose(&Action::ALL)));
@@ -171,7 +171,7 @@ fn shortcuts_change_nothing_for_walks_into_walls() {
     assert!(played * 100 > cases * 97, "{played} of {cases}");
 }
 
-/// An effect moves the avatar against a wall after the rule that puts it back has run. No rule runs again.
+/// An effect moves the avatar against a wall after the rule that puts the avatar back has run. No rule runs again.
 #[test]
 fn a_move_against_a_wall_is_not_put_back_later() {
     let source = "\
@@ -252,7 +252,8 @@ BasicGame square_size=10
     assert_eq!(state.score(), 4.0);
 }
 
-/// A kite off the board moves onto it, where a rule puts it back. It is on the board when the rules of the edge run.
+/// A kite off the board moves onto the board, where a rule puts it back. The kite is on the board when the rules of the
+/// edge run.
 #[test]
 fn sprites_off_the_board_do_not_sleep() {
     let source = "\
@@ -276,7 +277,7 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Ongoing);
 }
 
-/// A door briefly moves one arrow to the other, and both are put back to their positions until the door is gone.
+/// A door briefly moves one arrow to the other, and both arrows are put back to their positions until the door is gone.
 #[test]
 fn sprites_do_not_sleep_on_briefly_blocked_cells() {
     let source = "\
@@ -332,7 +333,7 @@ BasicGame
     assert_eq!((state.outcome(), state.tick()), (Outcome::Stopped(Limit::SpawnIntoUpdatedType), 2));
 }
 
-/// The avatar's own update stops the tick. Then no other sprite is updated, even if it flies.
+/// The avatar's own update stops the tick. No other sprite is then updated, even if it flies.
 #[test]
 fn a_stop_by_the_avatar_ends_the_updates() {
     let source = "\

@@ -28,10 +28,10 @@ struct Expect {
     /// The words that the reason and the evidence must contain.
     #[serde(default)]
     words: Vec<String>,
-    /// The criteria to check. Empty means all.
+    /// The criteria to check. If empty, all criteria are checked.
     #[serde(default)]
     ask: CriterionSet,
-    /// The criteria's settings that differ from the defaults of these tests.
+    /// The settings of the criteria that differ from the defaults of these tests.
     #[serde(default)]
     criteria: toml::Table,
 }

@@ -17,17 +17,20 @@ use rayon::prelude::*;
 /// Passes if every executed interaction matters: with its consequences disabled but its random draws kept ([`Game::without`]),
 /// some outcome or score changes.
 ///
-/// There are three tests, from cheapest to most expensive: recorded episodes that execute the rule are replayed without
-/// it; futures from just before its execution are played with and without it, with the same seeds; and the episode of a
-/// searching player that plays without the rule is replayed with it. One change is enough. If no test shows a change,
-/// the answer is unknown. The criterion fails only if a rule is proved idle: on every level, all sequences of actions
-/// end and score alike without it. Rules on walls and the edge of the screen are guards. They are reported but never
-/// fail, since sprites that they remove far from the player may never matter.
+/// There are three tests, from cheapest to most expensive. First, recorded episodes that execute the rule are replayed
+/// without it. Second, futures from just before the rule's execution are played with and without the rule, with the
+/// same seeds. Third, a searching player plays an episode without the rule, and the episode is replayed with the rule.
+/// One change is enough for a pass. If no test shows a change, the answer is unknown. The criterion fails only if a
+/// rule is proved idle, which means that on every level, all sequences of actions end and score alike without the rule.
+/// Rules on walls and the edge of the screen are guards. Guards are reported but never fail, because sprites that they
+/// remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RulesMatter {
-    /// The number of forward-model calls per interaction; a proof that it is idle may take up to a quarter more.
+    /// The number of forward-model calls per interaction. A proof that an interaction is idle may take up to a quarter
+    /// more.
     calls: u64,
-    /// The total number of forward-model calls of all interactions, if limited; tests that do not fit are skipped.
+    /// The maximum total number of forward-model calls of all interactions; `None` for no limit. Tests that do not fit
+    /// are skipped.
     total: Option<u64>,
 }
 
@@ -35,8 +38,9 @@ pub(crate) struct RulesMatter {
 const FUTURES: u64 = 8;
 /// The number of ticks of a future.
 const DEPTH: usize = 60;
-/// The number of calls per decision of the searching player, and its look-ahead in ticks.
+/// The number of calls per decision of the searching player.
 const DECISION: Budget = Budget(300);
+/// The look-ahead of the searching player, in ticks.
 const LOOK_AHEAD: u32 = 20;
 /// The maximum number of ticks of an episode of the searching player.
 const PLAY: usize = 400;
@@ -45,11 +49,11 @@ const PROOF: u64 = 4;
 
 /// The result of disabling one interaction.
 enum Effect {
-    /// Something ends differently without the interaction.
+    /// An outcome or a score changes without the interaction.
     Matters,
-    /// No test shows a change in outcome or score; `differs` is `true` if the sprites differ in some test.
+    /// No test shows a change in outcome or score. `differs` is `true` if the sprites differ in some test.
     Unshown { differs: bool },
-    /// It is proved that all episodes end and score the same, in this number of states.
+    /// It is proved that all episodes end and score the same. The value is the number of states in the proof.
     Idle(usize),
 }
 
@@ -115,7 +119,7 @@ impl GameValidator for RulesMatter {
 }
 
 impl RulesMatter {
-    /// Tests one of `lines` rules.
+    /// Tests one rule. The number of tested rules is `lines`.
     fn try_without(&self, case: GameCase<'_>, line: usize, uses: &[Use], lines: usize) -> (Effect, u64) {
         let without = case.game.without(line);
         let share = self.total.map(|total| total / lines.max(1) as u64);
@@ -151,7 +155,7 @@ impl RulesMatter {
             if matters {
                 return (Effect::Matters, calls);
             }
-            // Half of the calls are kept for the searching player.
+            // Half of the calls are reserved for the searching player.
             if calls >= most / 2 {
                 break;
             }
@@ -200,7 +204,8 @@ impl RulesMatter {
     }
 }
 
-/// Returns advice for a rule that should move back sprites, if these never move and the rule's partner is the avatar.
+/// Returns advice for a rule that should move back sprites, if these sprites never move and the rule's partner is the
+/// avatar.
 fn swapped(case: GameCase<'_>, line: usize) -> Option<String> {
     let GameCase { game, analysis, .. } = case;
     let written = &game.description().interactions[line];
@@ -240,8 +245,8 @@ fn result_of(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]
     (state.outcome(), state.score())
 }
 
-/// Futures of an episode, with keys held and with random keys, from just before a rule is executed for the first time,
-/// played with and without the rule.
+/// Futures of an episode from just before the first execution of a rule. They are played with and without the rule,
+/// with keys held and with random keys.
 struct Futures<'a> {
     with: &'a Game,
     without: &'a Game,
@@ -251,10 +256,10 @@ struct Futures<'a> {
 }
 
 impl Futures<'_> {
-    /// Returns whether some future ends differently without the rule, whether the board ever looks different, and the
-    /// calls.
+    /// Returns `true` first if some future ends differently without the rule, and second if the board ever looks
+    /// different. Also returns the number of calls.
     fn compare(&self, seed: Seed) -> (bool, bool, u64) {
-        // A state carries predictions of its own game, so each game replays the prefix to get a state of its own.
+        // A state carries predictions of its own game, so each game replays the prefix to get its own state.
         let before = [self.with, self.without].map(|game| {
             let mut state = game.start(self.recorded.level, self.episode.seed);
             self.episode.actions[..self.tick].iter().for_each(|&action| {
@@ -275,7 +280,7 @@ impl Futures<'_> {
                 break;
             }
         }
-        // Holding each key, or no key, shows what a rule does to an avatar that goes on or waits.
+        // Holding each key, or no key, shows the effect of a rule on an avatar that moves on or waits.
         let held = self.held_keys(&before[0]);
         for number in 0..FUTURES + held.len() as u64 {
             let key = held.get(number as usize).copied();
@@ -306,13 +311,13 @@ impl Futures<'_> {
         (false, differs, calls)
     }
 
-    /// Returns the keys to hold: no key, and each key that the avatar has.
+    /// Returns the keys to hold: no key, and each key that the avatar can use.
     fn held_keys(&self, state: &State) -> Vec<Action> {
         let keys = self.with.actions(state).iter().copied().filter(|&key| key != Action::Nil);
         [Action::Nil].into_iter().chain(keys).collect()
     }
 
-    /// Returns the observable state, without the internal memory of its rules.
+    /// Returns the observable state, without the internal memory of the rules.
     fn observable(&self, state: &State) -> (Vec<SpriteRecord>, Vec<i32>, (Outcome, f64)) {
         (self.with.records(state), state.counters().to_vec(), result(state))
     }
@@ -395,7 +400,8 @@ mod tests {
         assert!(advice[1].starts_with("these tests are no proof"), "{advice:?}");
     }
 
-    /// A boat carries the avatar: without the rule, a player that waits on it drowns, and players that hurry do not.
+    /// A boat carries the avatar. Without the rule, a player that waits on the boat drowns, but players that hurry do
+    /// not.
     #[test]
     fn a_carrier_matters_to_an_avatar_that_waits() {
         let source = "BasicGame\n  SpriteSet\n    wall > Immovable\n    pond > Immovable\n    raft > Missile orientation=RIGHT speed=0.2\n    nest > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    ~ > pond\n    r > pond raft\n    n > nest\n  InteractionSet\n    avatar wall > stepBack\n    avatar EOS > stepBack\n    raft EOS > wrapAround\n    avatar raft > shieldFrom stype=pond ftype=killSprite\n    avatar raft > pullWithIt\n    avatar pond > killSprite\n    nest avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=nest win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=150 win=False\n";

@@ -13,10 +13,10 @@ use std::collections::BTreeSet;
 
 /// Passes if some way of playing survives the first ticks.
 ///
-/// On a deterministic level, all action sequences are searched, tick by tick, with equivalent states counted once: if
-/// no state is left, that is a proof. In a stochastic game, the search is repeated for several known seeds: if even a
-/// player who knows the random draws dies, death is unavoidable. Doing nothing may be deadly: that is reported, but is
-/// not a failure.
+/// On a deterministic level, all action sequences are searched tick by tick, and equivalent states are counted once.
+/// If no state is left, death is proved to be unavoidable. In a stochastic game, the search is repeated for several
+/// known seeds. If even a player who knows the random draws dies, death is unavoidable. If doing nothing is deadly,
+/// that is reported, but is not a failure.
 #[derive(Clone, Copy, Debug)]
 pub struct NoEarlyDeath {
     /// The number of ticks to survive.
@@ -29,7 +29,7 @@ pub struct NoEarlyDeath {
     pub share: f64,
 }
 
-/// The maximum number of states to expand in one tick; beyond it, the answer is unknown instead of no.
+/// The maximum number of states to expand in one tick. If there are more states, the answer is unknown instead of no.
 const MAX_STATES: usize = 2000;
 /// The number of random episodes to try before a search.
 const RANDOM_PLAYS: u64 = 24;
@@ -40,7 +40,7 @@ struct Survival {
     survived: bool,
     /// `true` if all ways of playing were searched.
     complete: bool,
-    /// The longest episode found; `idle` is the episode of doing nothing.
+    /// The longest episode found. `idle` is the episode in which the player does nothing.
     longest: Episode,
     idle: Episode,
     calls: u64,
@@ -135,7 +135,8 @@ impl NoEarlyDeath {
         Some(Evidence { text, board: None, ..cause })
     }
 
-    /// Looks for a way to survive with one seed: doing nothing, random actions, then an exhaustive search.
+    /// Looks for a way to survive with one seed. It tries doing nothing, then random actions, then an exhaustive
+    /// search.
     fn survival(&self, case: Case<'_>, seed: &SeedPath) -> Survival {
         let idle = self.play_start(case, seed, |_| Action::Nil);
         let mut calls = idle.actions.len() as u64;
@@ -180,8 +181,8 @@ impl NoEarlyDeath {
         episode
     }
 
-    /// Searches all action sequences, tick by tick, until one survives. Returns the longest one, whether all were
-    /// tried, and the calls.
+    /// Searches all action sequences, tick by tick, until one survives. Returns the longest sequence, `true` if all
+    /// sequences were tried, and the number of calls.
     fn search(&self, case: Case<'_>, seed: Seed) -> (Vec<Action>, bool, u64) {
         let game = case.game;
         let mut layer = vec![(game.start(case.level, seed), Vec::new())];

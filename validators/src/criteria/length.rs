@@ -1,4 +1,4 @@
-//! The `length` criterion, which checks that a level is neither over at once nor endless.
+//! The `length` criterion, which checks that a level neither ends at once nor takes too long.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -18,7 +18,7 @@ pub(crate) struct LengthWithin {
     most: usize,
 }
 
-/// The beginning of the reason for a win that takes too long; a shorter win may exist.
+/// The beginning of the reason for a win that takes too long. A shorter win may exist.
 const TOO_LONG: &str = "the shortest win found takes";
 
 /// Turns a failure into an unknown answer if a shorter win may exist, because the search did not prove the shortest

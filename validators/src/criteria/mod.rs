@@ -1,7 +1,7 @@
 //! The judges of the criteria, except for gates.
 //!
-//! The module of a criterion has its judge, the constant `QUESTION`, and a function `judge` that creates the judge for
-//! a [`Setting`].
+//! The module of a criterion has the criterion's judge, the constant `QUESTION`, and a function `judge` that creates
+//! the judge for a [`Setting`].
 
 mod ablation;
 mod early_death;

@@ -16,7 +16,7 @@ use engine::{Episode, Outcome};
 pub struct NotIdle {
     /// The number of episodes to play.
     pub plays: u32,
-    /// The maximum number of ticks of an episode, at which it is stopped; then a pass becomes unknown.
+    /// The maximum number of ticks of an episode. If the limit stops an episode, a pass becomes unknown.
     pub ticks: usize,
 }
 

@@ -17,7 +17,7 @@ pub struct NotRandom {
     pub plays: u32,
     /// The maximum fraction of episodes that may be won.
     pub most: f64,
-    /// The maximum number of ticks of an episode, at which it is stopped; then a pass becomes unknown.
+    /// The maximum number of ticks of an episode. If the limit stops an episode, a pass becomes unknown.
     pub ticks: usize,
 }
 

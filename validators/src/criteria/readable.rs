@@ -10,15 +10,15 @@ use engine::analysis::{Analysis, Reach, Role};
 use engine::{Game, Level, SpriteType};
 use itertools::Itertools;
 
-/// Passes if every visible type has a character of its own, and nothing decisive is hidden.
+/// Passes if every visible type has its own character, and nothing decisive is hidden.
 ///
-/// A type that counts towards a win or a loss, or affects the avatar, fails if it is `hidden`, or if the level places
-/// it only under sprites that cover it. A hidden type that only creates others (a spawner) is reported, but is not a
-/// failure; covered types that decide nothing are scenery.
+/// A type that counts towards a win or a loss, or that affects the avatar, fails if it is `hidden`. It also fails if
+/// the level places it only under sprites that cover it. A hidden type that only creates other sprites (a spawner) is
+/// reported, but is not a failure. Covered types that decide nothing are scenery.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Readable;
 
-/// The number of printable characters excluding space: one for each visible type.
+/// The number of printable characters, excluding the space. Each visible type needs one of them.
 const CHARACTERS: usize = 94;
 
 pub(crate) const QUESTION: &str = "can the player see everything that decides the game?";
@@ -113,7 +113,7 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     faults
 }
 
-/// Returns `true` if some character shows the type, even if this level does not use the character: players can then
+/// Returns `true` if some character shows the type, even if this level does not use the character. Players can then
 /// learn what the type looks like.
 fn shown_elsewhere(game: &Game, stype: SpriteType, over: impl Fn(u8) -> Option<SpriteType>) -> bool {
     (b'!'..=b'~').any(|symbol| game.places(symbol).contains(&stype) && over(symbol).is_none())
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn decisive_types_must_be_visible() {
         check(GAME, "A.gr", None, 0);
-        // The type is hidden, but it only creates others.
+        // The type is hidden, but only creates other sprites.
         check(GAME, "Ang.", None, 1);
         // Some character shows gems, so players can recognize them.
         check(GAME, "A.xg", None, 0);

@@ -15,7 +15,7 @@ use engine::{Game, Level, SpriteType};
 /// Passes if every interaction is executed, and a sprite of every type is present, in some recorded episode of the
 /// game.
 ///
-/// Rules and types that never occurred and provably cannot occur in any of the levels are a failure; if they might
+/// Rules and types that never occurred and provably cannot occur in any of the levels are a failure. If they might
 /// occur, the answer is unknown. Rules on the edge of the screen are reported but never fail, because walls can make
 /// these guards idle.
 #[derive(Clone, Copy, Debug, Default)]
@@ -100,7 +100,7 @@ pub struct RulesShown {
 impl RulesShown {
     /// Counts the rules and types in the episodes of the levels' validators, and in the panel's random walks for
     /// missing rules. The same arguments give the same answer on any number of threads. Cost: twice that of the
-    /// episodes, at most 100,000 ticks per level each, and up to 400 walks of 40 random actions on each level.
+    /// episodes, with at most 100,000 ticks per level each, and up to 400 walks of 40 random actions on each level.
     pub fn of(game: &Game, levels: &[Level], reports: &[Report], seed: Seed) -> RulesShown {
         let episodes = record(game, levels, reports, seed, u64::MAX);
         let usage = Usage::of(game, &recorded(levels, &episodes));
@@ -119,7 +119,7 @@ pub(crate) fn with_count(first: &str, others: usize) -> String {
     }
 }
 
-/// Returns the types that the file declares, that can have sprites, and that never had one.
+/// Returns the types that the file declares, and that can have sprites but never had one.
 fn unused_types(game: &Game, usage: &Usage) -> Vec<SpriteType> {
     own_types(game).into_iter().filter(|stype| !usage.types[stype.index()]).collect()
 }

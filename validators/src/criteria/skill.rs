@@ -10,29 +10,31 @@ use agents::{Play, Stopped};
 use engine::Outcome;
 use statistics::{Interval, Z95};
 
-/// Passes if stronger players win more, or score more, than players that do not look ahead, by a margin and
-/// significantly (the 95% interval of the difference is above 0). One player of the ladder and one held-out player must
-/// show this, so that a level is not fitted to the players that found it.
+/// Passes if stronger players win more, or score more, than players that do not look ahead. The difference must reach a
+/// margin and be significant, which means that its 95% interval is above 0. One player of the ladder and one held-out
+/// player must show this, so that a level is not fitted to the players that found it.
 ///
-/// On a deterministic level, a witness counts as a held-out player that always wins. So a puzzle that is too deep for
-/// every player of the ladder still shows skill, if players that do not look ahead lose it.
+/// On a deterministic level, a witness counts as a held-out player that always wins. A puzzle that is too deep for
+/// every player of the ladder therefore still shows skill, if players that do not look ahead lose it.
 #[derive(Clone, Debug)]
 pub(crate) struct SkillPays {
     /// The players and the limits of their episodes.
     players: LadderConfig,
     /// The minimum difference in win rate.
     wins: f64,
-    /// The minimum difference in mean score, as a fraction of the range of all scores, which is sufficient instead.
+    /// The minimum difference in mean score, as a fraction of the range of all scores. Reaching this difference
+    /// suffices instead of `wins`.
     scores: f64,
-    /// The number of forward-model calls after which an episode is stopped; then a failure becomes unknown.
+    /// The number of forward-model calls after which an episode is stopped. If an episode is stopped, a failure becomes
+    /// unknown.
     play_calls: u64,
-    /// `true` to stop after a round of episodes, from the third round on, if skill pays by a stricter boundary or if no
-    /// player is far ahead of the baseline: more episodes would seldom change the answer. `cargo xtask judging` counts
-    /// how often they would.
+    /// `true` to allow stopping after a round of episodes, from the third round on. The judge stops if skill pays by a
+    /// stricter boundary, or if no player is far ahead of the baseline, because more episodes would seldom change the
+    /// answer. `cargo xtask judging` counts how often they would.
     sequential: bool,
 }
 
-/// A boundary that an advantage has to cross.
+/// A boundary that an advantage must cross.
 #[derive(Clone, Copy)]
 struct Boundary {
     /// The normal quantile for win rates.
@@ -68,7 +70,7 @@ struct Advantage {
 /// The answer from the episodes so far.
 struct Answer {
     ladder: Ladder,
-    /// The advantages of the players of the ladder, then those of held-out players.
+    /// The advantages of the ladder's players, then those of the held-out players.
     advantages: [Vec<Advantage>; 2],
     /// `true` if a win is known.
     won: bool,
@@ -106,7 +108,7 @@ impl Validator for SkillPays {
         };
         let Answer { ladder, advantages: [advantages, held], won, shown, accepted } = answer;
         let unsure = advantages.iter().chain(&held).any(|advantage| advantage.unsure);
-        // If no player ever wins and all score the same, the players are too weak to give an answer.
+        // If no player ever wins and all players score the same, the players are too weak to give an answer.
         let telling = played.plays.iter().flatten().any(is_won) || range(&played) > 0.0;
         let verdict = if shown && accepted {
             Verdict::pass()
@@ -249,7 +251,7 @@ mod tests {
     use base::Seed;
     use engine::Game;
 
-    /// A walk past something that wanders and kills; a player that stands still is safe, and never wins.
+    /// A game with a path past something that wanders and kills. A player that stands still is safe, but never wins.
     const GAME: &str = "\
 BasicGame
     SpriteSet
@@ -273,7 +275,8 @@ BasicGame
         Timeout limit=40 win=False
 ";
 
-    /// Judges a level in full and sequentially: the verdicts are the same, and the sequential one takes fewer episodes.
+    /// Judges a level both in full and sequentially. The verdicts must be the same, and the sequential judgement must
+    /// take fewer episodes.
     #[track_caller]
     fn check(level: &str, strong: &str, passes: bool) {
         let game = Game::from_source(GAME).unwrap();

@@ -8,12 +8,13 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
 
-/// Passes if, over all levels together, both the strongest player of the ladder and the strongest held-out player win
-/// more often than the best player that does not look ahead, by a margin that even the lower end of Newcombe's 95%
-/// interval of the difference reaches. One level has too few episodes for such a test; five have enough.
+/// Passes if, over all levels together, two players win more often than the best player that does not look ahead.
+/// These are the strongest player of the ladder and the strongest held-out player. Even the lower end of Newcombe's
+/// 95% interval of the difference must reach the margin. One level has too few episodes for such a test, but five
+/// levels have enough.
 ///
-/// In a game whose levels all have a win and are all deterministic, a player that knows the solutions counts as a
-/// player of the ladder and as a held-out player. No cost: the episodes are those of the criterion `skill`.
+/// If all levels of a game have a win and are deterministic, a player that knows the solutions counts as a player of
+/// the ladder and as a held-out player. There is no cost, because the episodes are those of the criterion `skill`.
 #[derive(Clone, Copy, Debug)]
 pub struct SkillOverall {
     /// The margin, as a difference between win rates.
@@ -30,12 +31,12 @@ struct Total {
 }
 
 impl Total {
-    /// Returns the fraction of its episodes that the player wins.
+    /// Returns the fraction of episodes that the player wins.
     fn share(&self) -> f64 {
         self.wins as f64 / self.plays.max(1) as f64
     }
 
-    /// Extrapolates by `times` as many further episodes, won at the rate `share`.
+    /// Extrapolates the total by `times` times as many further episodes, won at the rate `share`.
     fn extrapolated(&self, times: f64, share: f64) -> Total {
         let plays = (self.plays as f64 * times).round();
         let wins = self.wins + (plays * share).round() as u64;
@@ -100,10 +101,10 @@ impl GameValidator for SkillOverall {
 }
 
 impl SkillOverall {
-    /// Returns `true` if the game, judged by the first of its `levels` levels, cannot be expected to meet the margin:
-    /// it would miss the margin even if the strong players went on to win at the upper end of Wilson's 95% interval of
-    /// their win rate so far. `planned` means that all levels are deterministic and have a win. If all levels are
-    /// given, the answer is that of the criterion.
+    /// Returns `true` if the game cannot be expected to meet the margin, judged by the first of its `levels` levels.
+    /// Such a game would miss the margin even if the strong players went on to win at the upper end of Wilson's 95%
+    /// interval of their win rate so far. `planned` means that all levels are deterministic and have a win. If all
+    /// levels are given, the answer is that of the criterion.
     pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool, levels: usize) -> bool {
         let ahead = levels.saturating_sub(ladders.len()) as f64 / ladders.len().max(1) as f64;
         sides(ladders, planned).is_some_and(|(baseline, sides)| {
@@ -114,8 +115,8 @@ impl SkillOverall {
     }
 }
 
-/// Returns the best player that does not look ahead, and the strongest players of the ladder and of the held-out ones;
-/// `None` if one of them is missing.
+/// Returns the best player that does not look ahead, the strongest player of the ladder and the strongest held-out
+/// player; `None` if one of them is missing.
 fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     let rungs = totals(ladders, |ladder| &ladder.rungs);
     let held_out = totals(ladders, |ladder| &ladder.held_out);
@@ -132,7 +133,7 @@ fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     Some((baseline, sides))
 }
 
-/// Sums the results of each player over all levels; all ladders have the same players.
+/// Sums the results of each player over all levels. All ladders must have the same players.
 fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<PlayerResult>) -> Vec<Total> {
     let first = ladders.first().map_or(&[][..], |ladder| of(ladder));
     let total = |(at, result): (usize, &PlayerResult)| {
@@ -147,7 +148,7 @@ fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<PlayerResult>) -> Ve
     first.iter().enumerate().map(total).collect()
 }
 
-/// Returns the player with the highest win rate; among equals, the first of the ladder.
+/// Returns the player with the highest win rate. Among equals, returns the first player of the ladder.
 fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
     totals.fold(None, |best: Option<&Total>, total| match best {
         Some(best) if best.share() >= total.share() => Some(best),
@@ -161,7 +162,7 @@ mod tests {
     use base::Seed;
     use engine::Game;
 
-    /// A game in which the player fetches the gem; in the stochastic variant, a player that stands still is caught
+    /// A game in which the player fetches the gem. In the stochastic variant, a player that stands still is caught
     /// sooner or later.
     const GAME: &str = "BasicGame
     SpriteSet
@@ -183,7 +184,7 @@ mod tests {
         Timeout limit=12 win=False
 ";
 
-    /// A level of six steps, with a detour for a player that goes straight.
+    /// A level of six steps, which requires a detour from players that go straight.
     const FAR: &str = "wwwwwww\nwA   ww\nww w  w\nwr w gw\nwwwwwww\n";
 
     #[track_caller]

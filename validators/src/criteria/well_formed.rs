@@ -12,7 +12,7 @@ use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteCla
 /// Passes if the game can be won in principle, is not over in its first tick, and does nothing that makes the engine
 /// stop.
 ///
-/// The types `Game` and `Level` already guarantee that the text is VGDL and that the level fits it.
+/// The types `Game` and `Level` already guarantee that the text is VGDL and that the level fits the game.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WellFormed;
 
@@ -90,7 +90,7 @@ fn path_finder(game: &Game) -> Option<Line> {
     Line::sprite(game, name)
 }
 
-/// The number of seeds with which a game must be over in its first tick to count as over at once.
+/// The number of seeds with which a game must end in its first tick to count as over at once.
 const STARTS: u64 = 8;
 
 /// Returns `true` if every first action ends the game in its first tick, with several seeds, so that nobody can play.

@@ -16,10 +16,11 @@ use engine::describe::{self, plural};
 /// Passes if the portfolio ([`agents::solve`]) finds a win, which becomes the witness. In a deterministic game, the
 /// search may also prove that there is no win, or that the win found is the shortest.
 ///
-/// The level is analysed before the search: if the analysis shows that a win is out of reach
+/// The level is analysed before the search. If the analysis shows that a win is out of reach
 /// ([`engine::analysis::Reach`]), the level fails without a search. For designers, the panel adds the chain of causes.
 ///
-/// No win within the budget is `Unknown`, never `Fail`: an interrupted search proves nothing.
+/// If no win is found within the budget, the verdict is `Unknown`, never `Fail`, because an interrupted search proves
+/// nothing.
 #[derive(Clone, Debug)]
 pub(crate) struct Winnable(PortfolioConfig);
 
@@ -90,7 +91,7 @@ fn out_of_reach(Case { game, level, analysis, .. }: Case<'_>, reach: &Reach) -> 
 /// The maximum number of types to list.
 const MAX_NAMED: usize = 3;
 
-/// Describes the state closest to a win that any episode can reach.
+/// Describes the state closest to a win among the states that episodes can reach.
 fn nearest_to_a_win(
     Case { game, level, analysis, seed, .. }: Case<'_>,
     actions: &[Action],

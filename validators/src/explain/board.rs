@@ -1,4 +1,4 @@
-//! Boards in characters, for reasons and reports: each type has its own character.
+//! Boards in characters, for reasons and reports. Each type has its own character.
 
 use engine::{Game, SpriteType, State};
 use serde::Serialize;
@@ -55,15 +55,16 @@ impl Board {
 /// Characters for types that no level character places alone, in order of preference.
 const SPARE: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@#$%&*+=?!";
 
-/// The character for types when no other one is left.
+/// The character for types when no other character is left.
 const OTHER: char = '·';
 
 /// Returns a character for every type with a class, and the set of these characters that come from the LevelMapping. A
-/// type gets the character that places it on top, or else the first free character of its name, then of the alphabet.
+/// type gets the character that places it on top. If there is none, it gets the first free character of its name, or
+/// else of the alphabet.
 fn symbols(game: &Game) -> (Vec<(SpriteType, char)>, BTreeSet<char>) {
     let mut free: BTreeSet<char> = ('!'..='~').collect();
     let mut symbols: Vec<(SpriteType, char)> = Vec::new();
-    // Characters that place fewer sprites say more about the topmost one.
+    // Characters that place fewer sprites say more about the topmost sprite.
     let mut mapped: Vec<(usize, char, SpriteType)> = Vec::new();
     for symbol in '!'..='~' {
         let placed = game.places(symbol as u8);

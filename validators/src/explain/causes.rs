@@ -1,5 +1,5 @@
-//! Explanations for levels that cannot be won: the chain of causes that the analysis proves, from the termination back
-//! to the first obstacle.
+//! Explanations for levels that cannot be won. An explanation is the chain of causes that the analysis proves, from
+//! the termination back to the first obstacle.
 
 use crate::case::Case;
 use crate::evidence::{Evidence, Line};
@@ -11,10 +11,10 @@ use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_r
 
 /// The maximum number of chains to report, one per winning termination.
 const MAX_CHAINS: usize = 3;
-/// The maximum number of cells of a level times interactions for which a swapped rule is searched.
+/// The maximum product of a level's cells and interactions for which a swapped rule is searched.
 const MAX_EFFORT: usize = 1 << 18;
 
-/// Rewrites the failure of a level that is proved to be unwinnable: adds the chain of causes, and the rule whose sides
+/// Rewrites the failure of a level that is proved to be unwinnable. Adds the chain of causes, and the rule whose sides
 /// are most likely swapped. Leaves other findings unchanged. Cost: several analyses of the level, one per rule.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let Case { game, level, analysis, .. } = case;
@@ -24,7 +24,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let mut evidence = Vec::new();
     let effort = level.cells().len() * game.description().interactions.len();
     if analysis.can_win() && effort <= MAX_EFFORT {
-        // If no level can be won, the game's own warnings report it.
+        // If no level can be won, the game's own warnings report that.
         let text = level.to_string();
         let wins = |game: &Game| {
             let level = game.level(&text);
@@ -58,7 +58,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     finding.evidence = evidence;
 }
 
-/// Returns a sentence in the form for the end of another sentence.
+/// Returns a sentence in a form that can end a different sentence.
 pub(crate) fn lower(sentence: &str) -> String {
     let mut characters = sentence.trim_end_matches('.').chars();
     characters.next().map_or(String::new(), |first| first.to_lowercase().chain(characters).collect())
@@ -72,7 +72,7 @@ struct Explanation<'a> {
 }
 
 impl Explanation<'_> {
-    /// Returns the termination, with the first sprite that would have to be removed.
+    /// Returns the termination, with the first sprite that would need to be removed.
     fn ending(&self, chain: &Chain, sentence: &str) -> Evidence {
         let goal = &self.analysis.goals()[chain.goal];
         let cell = match &chain.cause {
@@ -114,7 +114,7 @@ impl Explanation<'_> {
         self.links.push(Evidence::new(text).advise(advice));
     }
 
-    /// Adds removals that cost more of a resource than there is.
+    /// Adds removals that cost more of a resource than is available.
     fn unpaid(&mut self, unpaid: &Unpaid) {
         let Unpaid { target, removals, resource, each, most, removing, taking } = unpaid;
         let (game, name) = (self.analysis.game(), self.name(*resource).to_owned());
@@ -275,7 +275,7 @@ impl Explanation<'_> {
         }
     }
 
-    /// Returns the type if the level places it in the cell, or else the topmost type there.
+    /// Returns the type if the level places it in the cell, or else the topmost type in the cell.
     fn standing(&self, cell: usize, stype: SpriteType) -> SpriteType {
         let places = self.analysis.game().places(self.level.cells()[cell]);
         let known = places.contains(&stype) || places.is_empty();
@@ -290,13 +290,13 @@ impl Explanation<'_> {
         format!("the {}", self.name(stype))
     }
 
-    /// Returns the acting sprite in words: the avatar, whatever its name, or sprites of a type.
+    /// Returns the acting sprite in words. This is the avatar, under any name, or sprites of a type.
     fn acting(&self, stype: SpriteType) -> String {
         let own = self.analysis.avatars().iter().any(|avatar| self.analysis.applies(stype, avatar.stype));
         if own { "the avatar".to_owned() } else { self.the(stype) }
     }
 
-    /// Returns the column and row of a cell, from 1.
+    /// Returns the column and row of a cell, counted from 1.
     fn place(&self, cell: usize) -> (usize, usize) {
         (cell % self.level.columns() + 1, cell / self.level.columns() + 1)
     }

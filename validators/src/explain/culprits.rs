@@ -1,7 +1,8 @@
-//! The search for the line of a game that is responsible for a level that cannot be won, or whose win was not found.
+//! The search for the line of a game that is responsible for a level that cannot be won, or for a level without a known
+//! win.
 //!
 //! One line of the game is changed at a time, and a search looks for a win of the changed game. A win proves that the
-//! changed game can be won; it proves that the change is necessary only if the original level is proved unwinnable.
+//! changed game can be won. It proves that the change is necessary only if the original level is proved unwinnable.
 
 use crate::case::Case;
 use crate::criteria::is_guard;
@@ -15,20 +16,20 @@ use engine::{Analysis, Description, Episode, Game, Meeting, SpriteType};
 
 /// The divisor of the budget of `winnable` that gives the total for all these searches.
 const SHARE: u64 = 2;
-/// The fraction of a search that may foresee all randomness, in a stochastic game.
+/// The fraction of a search's budget that may foresee all randomness, in a stochastic game.
 const FORESIGHT: f64 = 0.4;
 /// The maximum number of lines to report.
 const MAX_NAMED: usize = 3;
 /// The maximum number of searches.
 const MAX_TRIALS: u64 = 200;
-/// The speed of a sprite that carries others, at which it takes several ticks to leave a cell.
+/// The speed of a sprite that carries others. At this speed, the sprite takes several ticks to leave a cell.
 const CARRYING_SPEED: &str = "0.2";
 
 /// The beginning of the sentence about a line without which, or with which, the level can be won.
 pub(crate) const CAN_BE_WON: &str = "it can be won ";
 
 /// Adds to a finding of `winnable` the lines that keep the level from being won, as far as searches of games without
-/// them show it. Leaves other findings unchanged. Cost: half the budget of the search.
+/// them show it. Other findings stay unchanged. Cost: half the budget of the search.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) {
     let is_open = match &finding.verdict {
         Verdict::Pass { .. } => return,
@@ -56,7 +57,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
 /// A variant of the game that differs in one line.
 struct Changed {
     game: Game,
-    /// The original line, or the new one.
+    /// The original line, or the new line.
     line: Line,
     /// The description of the change, which follows [`CAN_BE_WON`].
     how: String,
@@ -94,12 +95,12 @@ struct Trials<'a> {
 }
 
 impl Trials<'_> {
-    /// Returns the evidence for all changes that let the level be won, from most to least informative.
+    /// Returns the evidence for all changes with which the level can be won, from most to least informative.
     fn all(&mut self) -> Vec<Evidence> {
         let repairs: Vec<Changed> = self.carriers().into_iter().chain(self.leavers()).collect();
         let dropped = self.dropped();
-        // A swapped push is the most frequent mistake of this kind, and correcting it keeps all other rules as they
-        // are.
+        // A swapped push is the most frequent mistake of this kind, and correcting the push keeps all other rules as
+        // they are.
         let is_push = |(line, _): &(usize, Changed)| {
             let mut encounters = self.case.analysis.encounters().iter();
             encounters.any(|other| other.line == *line && other.does(|effect| *effect == EffectSummary::Push))
@@ -119,7 +120,7 @@ impl Trials<'_> {
             return found;
         }
         let mut lines = Vec::new();
-        // Walls keep the avatar out of many cells: without them, more than the cause is gone.
+        // Walls keep the avatar out of many cells. Without walls, more than the cause is gone.
         let analysis = self.case.analysis;
         let is_wall = |line: Option<usize>| line.is_some_and(|line| is_guard(analysis, line));
         let (walls, others): (Vec<_>, Vec<_>) = dropped.into_iter().partition(|(line, _)| is_wall(*line));
@@ -138,7 +139,7 @@ impl Trials<'_> {
             if found.len() >= MAX_NAMED {
                 break;
             }
-            // A rule that is merely in the way is not a swapped one.
+            // A rule that is merely in the way is not swapped.
             if !lines.contains(&line) {
                 found.extend(self.won(changed, &mut waiting).map(Won::evidence));
             }
@@ -198,7 +199,7 @@ impl Trials<'_> {
     }
 
     /// Returns the games with the two sides of one interaction swapped. Rules by which a wall stops the avatar are not
-    /// swapped, since the avatar would walk through walls.
+    /// swapped, because the avatar would then walk through walls.
     fn swapped(&self) -> Vec<(usize, Changed)> {
         let game = self.case.game;
         let lines = &game.description().interactions;
@@ -277,15 +278,16 @@ impl Trials<'_> {
         game.sprite_types().filter(carries).filter_map(slowed).collect()
     }
 
-    /// Returns the evidence about a rule without which the level can be won: where it would act in that win, and
-    /// whether it is enough to move the rule further down, or to shield the avatar from it.
+    /// Returns the evidence about a rule without which the level can be won. The evidence states where the rule would
+    /// act in that win. It also states whether moving the rule further down, or shielding the avatar from it, is
+    /// enough.
     fn without_rule(&mut self, line: usize, won: Won) -> Vec<Evidence> {
         let game = self.case.game;
         let (place, others) = self.first_meeting(line, &won);
         let mut seen = vec![won.evidence()];
         let written = &game.description().interactions[line];
         let name = Line::interaction(game, line).text;
-        // Insert it below the last shield from it, or at the end.
+        // Insert the rule below the last rule that shields from it, or at the end.
         let shields = |other: &InteractionLine| {
             let value = |key: &str| other.params.iter().find(|param| param.key.text == key);
             other.effect.text == "shieldFrom"
@@ -346,7 +348,7 @@ impl Trials<'_> {
         Some(Changed { game: changed, line: rule, how, advice })
     }
 
-    /// Returns where a disabled rule would first act in a win, and the names of the other types there.
+    /// Returns the position at which a disabled rule would first act in a win, and the names of the other types there.
     fn first_meeting(&self, line: usize, won: &Won) -> (Option<Evidence>, Vec<String>) {
         let (case, game) = (self.case, &won.changed.game);
         let mut state = game.start(case.level, won.episode.seed);

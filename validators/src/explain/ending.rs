@@ -1,4 +1,4 @@
-//! The ending of an episode, and the lines that caused it, for the reason of a verdict.
+//! The ending of an episode, and the lines that caused the ending, for the reason of a verdict.
 
 use crate::evidence::{Evidence, Line};
 use crate::explain::board::Board;
@@ -14,12 +14,12 @@ pub(crate) struct Ending {
     outcome: Outcome,
     /// The termination that holds, as an index into the description's terminations.
     termination: Option<usize>,
-    /// The interaction of the last tick that caused the ending: it removed the avatar, or the sprite that had to be
+    /// The interaction of the last tick that caused the ending. It removed the avatar, or the sprite that had to be
     /// removed.
     cause: Option<Meeting>,
     /// The board before the last tick.
     before: Option<Board>,
-    /// The last action.
+    /// The last action of the episode.
     action: Option<Action>,
 }
 

@@ -10,19 +10,19 @@ use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Passes if sprites that move by themselves, not counting the player's shots, sweep at least [`Gates::sweep`] cells
-/// each, on average; and if, on at least [`Gates::met_levels`] of the levels that have such sprites, one comes into or
-/// next to a cell of the win's route, and next to the player. If contact with them can kill, they must also cause at
-/// least [`Gates::foe_losses`] of the losses of careless players.
+/// Passes if two conditions are met. Sprites that move by themselves, not counting the player's shots, must sweep at
+/// least [`Gates::sweep`] cells each, on average. On at least [`Gates::met_levels`] of the levels with such sprites,
+/// one must also come into or next to a cell of the win's route, and next to the player. If contact with them can kill,
+/// a third condition applies: they must cause at least [`Gates::foe_losses`] of the losses of careless players.
 ///
 /// The sprites are observed in the shortest known wins and in careless episodes. A sprite counts if it lived for twenty
-/// ticks. They cause a loss if, in the tick of the loss, the avatar meets one of them or something that they make.
-/// Games in which nothing moves by itself pass. Cost: that of the careless episodes, and an inspection of all sprites
-/// in each tick.
+/// ticks. The sprites cause a loss if, in the tick of the loss, the avatar meets one of them or something that they
+/// make. Games in which nothing moves by itself pass. Cost: that of the careless episodes, and an inspection of all
+/// sprites in each tick.
 #[derive(Clone, Debug)]
 pub(crate) struct ActorsMatter(Gates);
 
-/// The minimum number of ticks that a measured sprite lives.
+/// The minimum number of ticks that a sprite must live to be measured.
 const LIFE: usize = 20;
 
 pub(crate) const QUESTION: &str = "does what moves by itself come in the player's way?";
@@ -105,11 +105,11 @@ struct Actors<'a> {
 struct Watched {
     /// The number of cells swept by each sprite that lived long enough.
     sweeps: Vec<f64>,
-    /// `true` if there were any such sprites.
+    /// `true` if any sprites that move by themselves were present.
     present: bool,
-    /// `true` if one came into or next to a cell of the avatar's route.
+    /// `true` if such a sprite came into or next to a cell of the avatar's route.
     crossed: bool,
-    /// `true` if one came next to the avatar.
+    /// `true` if such a sprite came next to the avatar.
     near: bool,
     /// `true` if the avatar met a foe in the last tick.
     last: bool,

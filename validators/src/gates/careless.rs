@@ -8,15 +8,15 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// The limit of an episode's ticks is this multiple of the ticks of the win, plus [`GRACE`].
+/// The multiple of the win's ticks that limits the ticks of an episode. [`GRACE`] is added to the product.
 const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
-/// The number of episodes of a closer look, as a multiple of those of the first look: before a gate fails because of a
-/// few episodes, it requests more.
+/// The number of episodes of a closer look, as a multiple of the number in the first look. Before a gate fails because
+/// of a few episodes, it requests more episodes.
 pub(super) const CLOSER: u32 = 4;
 
-/// The episodes of careless players, which are played when the first gate requests them, and shared by all gates.
+/// The episodes of careless players. They are played when the first gate requests them, and shared by all gates.
 pub(crate) struct CarelessPlays<'a> {
     game: &'a Game,
     seed: Seed,
@@ -26,19 +26,20 @@ pub(crate) struct CarelessPlays<'a> {
 }
 
 impl<'a> CarelessPlays<'a> {
-    /// Creates the record for a game with `levels` levels; no episode has been played yet.
+    /// Creates the record for a game with `levels` levels. No episode has been played yet.
     pub(crate) fn new(game: &'a Game, levels: usize, seed: Seed) -> CarelessPlays<'a> {
         let (plays, closer) = (vec![OnceLock::new(); levels], vec![OnceLock::new(); levels]);
         CarelessPlays { game, seed, levels: plays, closer }
     }
 
-    /// Returns the episodes of careless players on a level. Cost, once: one call per action and tick.
+    /// Returns the episodes of careless players on a level. The first call costs one forward-model call per action and
+    /// tick.
     pub(super) fn plays(&self, won: WonLevel<'_>, gates: &Gates) -> &[Episode] {
         self.levels[won.number].get_or_init(|| self.numbered_plays(won, gates, 0..gates.careless_plays))
     }
 
-    /// Returns the win rate of careless players on a level, from [`CLOSER`] times as many episodes. Cost, once: that of
-    /// these episodes.
+    /// Returns the win rate of careless players on a level, from [`CLOSER`] times as many episodes. The first call
+    /// costs as much as these episodes.
     pub(super) fn closer_win_share(&self, won: WonLevel<'_>, gates: &Gates) -> f64 {
         *self.closer[won.number].get_or_init(|| {
             let first = gates.careless_plays;
@@ -69,8 +70,8 @@ impl WonLevel<'_> {
     }
 }
 
-/// Plays the episodes with these numbers by the nearest-goal player, with a fraction of slips, on a level that is won
-/// in `ticks` ticks. Cost: one call per action and tick.
+/// Plays the numbered episodes by the nearest-goal player, with a fraction of slips, on a level that is won in `ticks`
+/// ticks. Cost: one call per action and tick.
 pub(super) fn nearest_goal(
     game: &Game,
     level: &Level,
@@ -88,8 +89,8 @@ pub(super) fn nearest_goal(
     numbers.into_par_iter().map(run).collect()
 }
 
-/// Returns the fraction of careless episodes on a level that the rules end with a win or a loss; the others got stuck.
-/// Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
+/// Returns the fraction of careless episodes on a level that the rules end with a win or a loss. All other episodes got
+/// stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
 pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
     let numbers = 0..gates.careless_plays;
     let plays = nearest_goal(game, level, win.actions.len(), gates.careless_slips, numbers, seed);

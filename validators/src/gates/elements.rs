@@ -12,11 +12,11 @@ pub(super) struct Element {
     /// The text of the rule, or the name of the type.
     pub(super) text: String,
     line: Option<Line>,
-    /// The indices of the levels on which the element occurs: the type is placed, or a recorded episode executes the
-    /// rule.
+    /// The indices of the levels on which the element occurs. A type occurs if it is placed, and a rule occurs if a
+    /// recorded episode executes it.
     pub(super) levels: Vec<usize>,
     pub(super) without: Game,
-    /// `true` if the element is a type, so that levels have to be parsed again without it.
+    /// `true` if the element is a type, so that levels must be parsed again without it.
     pub(super) is_type: bool,
     /// `true` if removing the element shifts the random draws, so that later events differ at random.
     pub(super) shifts: bool,
@@ -38,9 +38,9 @@ impl Element {
     }
 }
 
-/// Returns the elements of a game: its interactions, except guards ([`Guards`]) and interactions by which a wall keeps
-/// sprites other than avatars in bounds; and the types that some level places, except avatars, walls, background, and
-/// types that an ending counts.
+/// Returns the elements of a game, which are interactions and types. Interactions exclude guards ([`Guards`]) and
+/// interactions by which a wall keeps sprites other than avatars in bounds. Types are those that some level places,
+/// except avatars, walls, background, and types that an ending counts.
 ///
 /// `executed` lists the rules that are executed in addition to those of the recording, by level.
 pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]) -> Vec<Element> {
@@ -97,7 +97,7 @@ pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]
     rules.chain(types).collect()
 }
 
-/// Returns the game whose levels do not place a type; `None` if it does not compile.
+/// Returns the game whose levels do not place a type; `None` if the game does not compile.
 fn without_type(game: &Game, stype: SpriteType) -> Option<Game> {
     let mut description = game.description().clone();
     for line in &mut description.mapping {

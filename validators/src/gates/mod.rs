@@ -1,7 +1,7 @@
-//! Gates: criteria of a game with its levels in order that measure what people observe in play. `docs/reference/gates.md`
-//! explains each gate, with the evidence for its thresholds.
+//! Gates, which are criteria of a game with its levels in order that measure what people observe in play.
+//! `docs/reference/gates.md` explains each gate, with the evidence for its thresholds.
 //!
-//! A gate examines the shortest known win of each level; levels without a known win are left out. The figure of a
+//! A gate examines the shortest known win of each level. Levels without a known win are left out. The figure of a
 //! finding is for tables: [`Finding::figure`].
 
 pub(crate) mod actors_matter;
@@ -30,7 +30,7 @@ use crate::validator::GameCase;
 use crate::verdict::{Finding, Verdict};
 use engine::Outcome;
 
-/// Returns the levels with a known win, in order; `None` if there are none.
+/// Returns the levels with a known win, in order; `None` if no level has a known win.
 fn won_levels<'a>(case: GameCase<'a>) -> Option<Vec<WonLevel<'a>>> {
     let won = |(number, recorded): (usize, &crate::Recorded<'a>)| {
         let wins = recorded.episodes.iter().filter(|episode| episode.outcome == Outcome::Won);
@@ -49,7 +49,7 @@ fn without_subject(why: &str) -> Finding {
 /// The message of a gate for games without a known win.
 const NO_WIN: &str = "skipped: no win of any level is known";
 
-/// Returns the finding of a gate, which fails if there are problems; the most important one comes first.
+/// Returns the finding of a gate. The gate fails if there are problems. The most important problem comes first.
 fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -> Finding {
     let verdict = match problems.first() {
         None => Verdict::pass(),

@@ -17,23 +17,25 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards, and placed
-/// types, except avatars, walls, background and types that an ending counts. An element matters if, on at least
-/// [`Gates::needed_levels`] of the levels on which it occurs, one of the following is true of the game without it
-/// (tests from cheapest to most expensive):
+/// types, except avatars, walls, background and types that an ending counts. An element matters if one of the following
+/// is true of the game without the element, on at least [`Gates::needed_levels`] of the levels on which the element
+/// occurs. The tests go from cheapest to most expensive:
 ///
-/// 1. the shortest known win no longer wins, or wins [`Gates::plan_change`] earlier, so that different actions are needed;
+/// 1. the shortest known win no longer wins, or wins [`Gates::plan_change`] earlier, so that different actions are
+///    needed;
 /// 2. at least [`Gates::plan_change`] of the careless episodes change between win and loss, so that players who do not
 ///    foresee everything do better or worse;
-/// 3. a search that foresees the random draws of the win finds a win that is shorter by [`Gates::plan_change`] than the
-///    known one, and than the one that it finds with the element.
+/// 3. a search that foresees the random draws of the win finds a much shorter win. The win must be shorter by
+///    [`Gates::plan_change`] than the known win, and than the win that the search finds with the element.
 ///
-/// The gate fails only if it would fail even if every element mattered that is not proved to be idle. On deterministic
-/// levels, searches prove this by proving the shortest wins with and without the element. Otherwise the answer is
-/// unknown.
+/// The gate fails only if it would fail even if every element that is not proved to be idle mattered. On deterministic
+/// levels, searches prove that an element is idle by proving the shortest wins with and without the element. Otherwise
+/// the answer is unknown.
 ///
-/// Removing a moving type shifts the random draws of a stochastic game, so its win is not replayed without the type. Cost:
-/// that of the replays, of the careless episodes, and, for each element that these do not show to matter, of a search with
-/// [`Gates::needed_calls`] calls on each of the element's levels until the answer is certain.
+/// Removing a moving type shifts the random draws of a stochastic game, so the game's win is not replayed without the
+/// type. Cost: that of the replays and of the careless episodes. For each element that these do not show to matter,
+/// there is also a search with [`Gates::needed_calls`] calls on each of the element's levels until the answer is
+/// certain.
 #[derive(Clone, Debug)]
 pub(crate) struct Necessity(Gates);
 
@@ -123,7 +125,7 @@ enum Need {
     Refuted,
 }
 
-/// The length of the shortest known win, if there is one; `sure` if it is proved that there is no shorter one.
+/// The length of the shortest known win, if a win is known. `sure` is `true` if it is proved that no win is shorter.
 #[derive(Clone, Copy)]
 struct Shortest {
     ticks: Option<usize>,
@@ -141,7 +143,7 @@ struct Subject<'a> {
 }
 
 impl Necessity {
-    /// Returns whether an element is shown to matter, and a sentence that says on how many of its levels.
+    /// Returns `true` if an element is shown to matter, and a sentence with the number of levels on which it matters.
     fn matters(
         &self,
         case: GameCase<'_>,
@@ -204,8 +206,8 @@ impl Necessity {
         differing as f64 >= self.0.plan_change * subject.careless.len() as f64
     }
 
-    /// Returns whether a search shows that a level can be won much sooner without the element, and whether that is
-    /// proved.
+    /// Returns whether a search shows that a level can be won much sooner without the element, and whether this result
+    /// is proved.
     fn hinders(&self, case: GameCase<'_>, element: &Element, subject: &Subject<'_>) -> (bool, bool) {
         let WonLevel { level, win, .. } = subject.won;
         let known = win.actions.len();
@@ -221,8 +223,8 @@ impl Necessity {
         (hinders, found.sure && shortest.sure)
     }
 
-    /// Returns the number of ticks of a win that a search finds with the random draws of the known win: the shortest
-    /// one, or else any.
+    /// Returns the number of ticks of a win that a search finds with the random draws of the known win. The search
+    /// looks for the shortest win, or else for any win.
     fn search(&self, analysis: &Analysis, level: &Level, subject: &Subject<'_>) -> Shortest {
         let start = analysis.game().start(level, subject.won.win.seed);
         if start.is_over() {

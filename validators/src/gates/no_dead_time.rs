@@ -12,10 +12,10 @@ use std::collections::BTreeSet;
 /// Passes if the longest stretch without progress in the shortest known win takes at most [`Gates::dead_share`] of the
 /// win's ticks, or at most [`Gates::dead_ticks`].
 ///
-/// A tick makes progress if one of these changes: the score, the avatar's type, the resources that it holds, the number
-/// of sprites that a termination counts, the number of still sprites of a type, or the position of a pushable sprite.
-/// It also makes progress if the avatar enters a cell in which it has not been since the last such change. Waiting,
-/// pacing to and fro and walking back are dead time. Cost: that of replaying the wins.
+/// A tick makes progress if one of these changes: the score, the avatar's type, the resources that the avatar holds,
+/// the number of sprites that a termination counts, the number of still sprites of a type, or the position of a
+/// pushable sprite. A tick also makes progress if the avatar enters a cell that it has not been in since the last such
+/// change. Waiting, pacing to and fro and walking back are dead time. Cost: that of replaying the wins.
 #[derive(Clone, Debug)]
 pub(crate) struct NoDeadTime(Gates);
 

@@ -10,9 +10,9 @@ use engine::{Analysis, Level};
 
 /// Passes if the fraction of narrow ground is at most [`Gates::narrow`], on average over the levels.
 ///
-/// Ground is a cell without a wall ([`Role::Wall`]: it stands still, always blocks, and nothing removes it). Ground is
-/// narrow if no square of two by two ground cells contains it, as in corridors, doorways and alcoves. Nothing is
-/// played. Cost: O(cells) per level.
+/// Ground is a cell without a wall. A wall ([`Role::Wall`]) stands still and always blocks, and nothing removes it.
+/// Ground is narrow if no square of two by two ground cells contains it, as in corridors, doorways and alcoves.
+/// Nothing is played. Cost: O(cells) per level.
 #[derive(Clone, Debug)]
 pub struct OpenGround(pub Gates);
 
@@ -82,7 +82,7 @@ mod tests {
         // Obstacles that can be removed are ground.
         let gates = "wwwwwwwww\nwAg g gpw\nwgg g  gw\nwwwwwwwww\n";
         check(Criterion::OpenGround, GAME, &[gates], None);
-        // A narrow level is allowed among wide ones.
+        // A narrow level is allowed among wide levels.
         check(Criterion::OpenGround, GAME, &[tunnel, gates, gates, hall], None);
     }
 }

@@ -8,14 +8,15 @@ use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
-/// Passes if the mechanics that winning needs grow over the levels. These are the interactions that the shortest known
-/// win of a level executes, not counting guards. At least [`Gates::growth`] levels must need mechanics that no earlier
-/// level needed. The last level must need as many mechanics as the first, and at least [`Gates::last_share`] of all
-/// mechanics that any level needs, and must not be easier than either of the first two by more than [`Gates::easier`].
+/// Passes if the mechanics that winning needs grow over the levels. These mechanics are the interactions that the
+/// shortest known win of a level executes, not counting guards. At least [`Gates::growth`] levels must need mechanics
+/// that no earlier level needed. The last level must need as many mechanics as the first, and at least
+/// [`Gates::last_share`] of all mechanics that any level needs. The last level must not be easier than either of the
+/// first two by more than [`Gates::easier`].
 ///
-/// Ease is that of the ladder if one was played on every level; otherwise it is the win rate of careless players, from
-/// four times as many episodes if the last level seems easier. Games with fewer than three levels have no progression
-/// to judge. Cost: that of replaying the wins, and of the careless episodes.
+/// If a ladder was played on every level, ease is the ease for the ladder. Otherwise it is the win rate of careless
+/// players, with four times as many episodes if the last level seems easier. Games with fewer than three levels have
+/// no progression to judge. Cost: that of replaying the wins, and of the careless episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Progression(Gates);
 
@@ -90,8 +91,8 @@ impl GameValidator for Progression {
 }
 
 impl Progression {
-    /// Returns the ease of the levels, from 0 to 1. If it is measured by careless episodes and the first ones speak
-    /// against the game, the levels that are compared get a closer look.
+    /// Returns the ease of the levels, from 0 to 1. If it is measured by careless episodes and the first episodes
+    /// speak against the game, the compared levels get a closer look.
     fn eases(&self, case: GameCase<'_>, wins: &[super::WonLevel<'_>]) -> Vec<f64> {
         let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
         let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The thresholds of the gates: the `[criteria.gates]` table of a recipe. The page `docs/reference/gates.md` gives the source of each.
+    /// The thresholds of the gates, which are the `[criteria.gates]` table of a recipe. The page
+    /// `docs/reference/gates.md` gives the source of each threshold.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {
@@ -65,8 +66,8 @@ impl Gates {
         *self == Gates::default()
     }
 
-    /// Returns stricter thresholds for the measures that involve randomness: games made by these thresholds also pass
-    /// the original ones with other seeds.
+    /// Returns stricter thresholds for the measures that involve randomness. Games made by these thresholds also pass
+    /// the original thresholds with other seeds.
     #[must_use]
     pub fn with_margin(&self) -> Gates {
         Gates {
@@ -79,7 +80,8 @@ impl Gates {
         }
     }
 
-    /// Returns laxer thresholds for some of a game's levels: they need no new mechanics, and only half of the drama.
+    /// Returns laxer thresholds for some of a game's levels. The levels need no new mechanics, and only half of the
+    /// drama.
     #[must_use]
     pub fn for_some_levels(&self) -> Gates {
         Gates { growth: 0, drama: self.drama / 2.0, ..self.clone() }

@@ -8,8 +8,8 @@ use crate::verdict::Finding;
 use engine::State;
 use engine::analysis::Resource;
 
-/// Passes if, on average over the levels, the fraction of the consumables that a win leaves is within [`Gates::spare`],
-/// and if careless players win at most [`Gates::careless_wins`] of their episodes after the first level. If they win
+/// Passes if the fraction of the consumables that a win leaves is within [`Gates::spare`], on average over the levels.
+/// Careless players must also win at most [`Gates::careless_wins`] of their episodes after the first level. If they win
 /// more, they play four times as many episodes.
 ///
 /// A consumable is a resource that some rule takes, or that shots cost. Its supply is the amount that the avatar spends
@@ -70,7 +70,8 @@ impl GameValidator for Tight {
     }
 }
 
-/// Returns the amount of a resource that a win spends and the amount that it leaves; `None` if it spends none.
+/// Returns the amount of a resource that a win spends and the amount that it leaves; `None` if the win spends nothing
+/// of the resource.
 fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option<(f64, f64)> {
     let held = |state: &State| state.amount_held(resource.stype);
     let mut state = case.game.start(won.level, won.win.seed);
@@ -78,7 +79,7 @@ fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option
     let mut spent = 0;
     for &action in &won.win.actions {
         case.game.step(&mut state, action);
-        // A dead avatar holds nothing, but a win ends with a living one.
+        // A dead avatar holds nothing, but a win ends with a living avatar.
         spent += (before - held(&state)).max(0);
         before = held(&state);
     }
@@ -105,7 +106,7 @@ mod tests {
         check(Criterion::Tight, GAME, &["wwwwww\nwA  pw\nwwwwww\n"], Some("careless players win 100%"));
     }
 
-    /// The first episode is won, and so are two of the three that follow.
+    /// The first episode is won, and so are two of the three episodes that follow.
     #[test]
     fn few_plays_are_followed_by_more() {
         let level = "wttttw\nwA  pw\nwttttw\n";

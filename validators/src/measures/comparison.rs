@@ -9,7 +9,8 @@ use std::collections::{BTreeSet, VecDeque};
 pub(crate) enum Comparison {
     /// Some sequence of actions ends or scores differently in the two games.
     Differs,
-    /// It is proved that all sequences of actions end and score the same, with the number of pairs of states.
+    /// It is proved that all sequences of actions end and score the same. The value is the number of pairs of
+    /// states in the proof.
     Equal(usize),
     /// The answer is unknown, because the level is stochastic or the calls ran out.
     Open,
@@ -19,9 +20,9 @@ pub(crate) enum Comparison {
 const MAX_PAIRS: usize = 50_000;
 
 /// Compares two games that differ in one rule on a level, breadth first, with at most `most` forward-model calls.
-/// Returns the answer and the calls.
+/// Returns the answer and the number of calls.
 ///
-/// Pairs of states with equal search keys have the same future, so only one of them is continued.
+/// Pairs of states with equal search keys have the same future, so only one pair is continued.
 pub(crate) fn compare(games: [&Analysis; 2], level: &Level, seed: Seed, most: u64) -> (Comparison, u64) {
     let start = games.map(|analysis| analysis.game().start(level, seed));
     let abstractions = [0, 1].map(|at| games[at].abstraction(&start[at]));

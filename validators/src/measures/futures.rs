@@ -1,7 +1,7 @@
-//! Random futures of a moment, compared with the episode played: they show which side is in the lead, and the
-//! look-ahead needed.
+//! Random futures of a moment, compared with the played episode. They show which side is in the lead, and how far
+//! ahead a player must look.
 //!
-//! The futures press random keys, but take back a key that loses at once. Without that, any deadly game would look
+//! The futures press random keys, but take back a key that loses at once. Otherwise, any deadly game would look
 //! hopeless at every moment.
 
 use base::{Sampler, Seed};
@@ -17,7 +17,7 @@ pub const FUTURES: u64 = 8;
 const CHECKPOINTS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
 /// The number of random keys to try in a tick.
 const KEYS_TRIED: usize = 3;
-/// The number of futures that must be worse for the played line to be visibly better.
+/// The number of futures that must be worse for the played line to count as visibly better.
 const WORSE: usize = 6;
 
 /// A future that is being played.
@@ -76,8 +76,8 @@ impl Standing {
 pub(super) struct Futures(Vec<[Standing; CHECKPOINTS.len()]>);
 
 impl Futures {
-    /// Plays the futures, each with its own random seed. Cost: [`FUTURES`] × [`SIGHT`] forward-model calls, at most
-    /// three times that.
+    /// Plays the futures, each with its own random seed. Cost: [`FUTURES`] × [`SIGHT`] forward-model calls, and at
+    /// most three times as many.
     pub(super) fn of(game: &Game, state: &State, seed: Seed) -> Futures {
         let play = |number: u64| {
             let seed = seed.child("future", number);
@@ -94,15 +94,16 @@ impl Futures {
         Futures((0..FUTURES).map(play).collect())
     }
 
-    /// Returns the fraction of futures won minus the fraction lost, from −1 to 1. Undecided futures count for neither.
+    /// Returns the fraction of won futures minus the fraction of lost futures, from −1 to 1. Undecided futures count
+    /// for neither side.
     pub(super) fn lead(&self) -> f64 {
         let sum: i32 = self.0.iter().map(|future| i32::from(future[CHECKPOINTS.len() - 1].outcome)).sum();
         f64::from(sum) / FUTURES as f64
     }
 
-    /// Returns the number of ticks after which a line of play, given by its standing at each tick from the moment on,
-    /// stands better than most of the futures; [`SIGHT`] if that happens later or never; `None` if the line wins but
-    /// most futures do equally well.
+    /// Returns the number of ticks after which a line of play is better than most of the futures. The line is given by
+    /// its standing at each tick from the moment on. Returns [`SIGHT`] if that happens later or never, and `None` if
+    /// the line wins but most futures do equally well.
     pub(super) fn sight(&self, line: &[Standing]) -> Option<usize> {
         let last = line.len() - 1;
         let seen = |checkpoint: &usize| {

@@ -6,7 +6,7 @@ use engine::analysis::Role;
 use engine::{Analysis, Meeting, SpriteType};
 
 /// The guards of a game: interactions with the edge of the screen, and moves that walls undo without a price. A wall
-/// has [`Role::Wall`]: it stands still, always blocks, and nothing removes it.
+/// ([`Role::Wall`]) stands still and always blocks, and nothing removes it.
 #[derive(Clone, Debug)]
 pub struct Guards {
     /// The kind of each interaction line.
@@ -21,9 +21,9 @@ enum GuardKind {
     Edge,
     /// An interaction that runs on the clock.
     Clock,
-    /// An interaction that only undoes a move; `walls` is `true` if all types that it names are walls.
+    /// An interaction that only undoes a move. `walls` is `true` if all of the interaction's partners are walls.
     Block { walls: bool },
-    /// Anything else.
+    /// An interaction of any other kind.
     Other,
 }
 
@@ -62,8 +62,8 @@ impl Guards {
         (0..self.lines.len()).filter(guards)
     }
 
-    /// Returns `true` for an execution of a guard: either its line is a guard, or it meets a wall although the line
-    /// names other types too.
+    /// Returns `true` for an execution of a guard. Either the line is a guard, or the execution meets a wall
+    /// although the line has other partners too.
     pub fn covers(&self, meeting: Meeting) -> bool {
         match self.lines[meeting.line] {
             GuardKind::Edge => true,

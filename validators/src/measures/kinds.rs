@@ -10,27 +10,27 @@ use std::collections::BTreeSet;
 base::named_enum! {
     /// The abilities of the initial avatar: how it moves, and whether the use key creates something.
     pub enum AvatarKind {
-        /// Moves up, left, down and right.
+        /// The avatar moves up, left, down and right.
         Walks = "walks",
-        /// Moves in four directions, but turns before it moves.
+        /// The avatar moves in four directions, but turns before it moves.
         Turns = "turns",
-        /// Moves in four directions, and shoots, hits or puts something ahead.
+        /// The avatar moves in four directions, and shoots, hits or puts something ahead.
         WalksAndShoots = "walks-and-shoots",
-        /// Moves along a line.
+        /// The avatar moves along a line.
         Slides = "slides",
-        /// Moves along a line, and shoots.
+        /// The avatar moves along a line, and shoots.
         SlidesAndShoots = "slides-and-shoots",
-        /// Always moves ahead, whether or not it can be turned.
+        /// The avatar always moves ahead, whether or not it can be turned.
         Runs = "runs",
-        /// Always moves ahead, and shoots or leaves something behind.
+        /// The avatar always moves ahead, and shoots or leaves something behind.
         RunsAndShoots = "runs-and-shoots",
-        /// Stays in place, aims and shoots.
+        /// The avatar stays in place, aims and shoots.
         Aims = "aims",
-        /// Has thrust and momentum, whether or not it is armed.
+        /// The avatar has thrust and momentum, whether or not it is armed.
         Flies = "flies",
-        /// Falls and jumps.
+        /// The avatar falls and jumps.
         Jumps = "jumps",
-        /// Does nothing, or does not exist at the start.
+        /// The avatar does nothing, or does not exist at the start.
         Watches = "watches",
     }
 }
@@ -58,38 +58,38 @@ impl AvatarKind {
 }
 
 base::named_enum! {
-    /// The task that a win requires, by the analysed goals; if several fit, the first in this order counts.
+    /// The task that a win requires, by the analysed goals. If several tasks fit, the first in this order counts.
     pub enum GoalKind {
-        /// Others head for the same goal, and the first one to arrive wins.
+        /// Other sprites head for the same goal, and the first to arrive wins.
         Race = "race",
-        /// Pushed sprites have to reach their targets.
+        /// Pushed sprites must reach their targets.
         Deliver = "deliver",
-        /// Many copies of something that is created have to exist.
+        /// Many copies of a created type must exist.
         Grow = "grow",
-        /// Sprites have to be removed by shots or by obstacles that the avatar puts down.
+        /// Sprites must be removed by shots or by obstacles that the avatar puts down.
         Eliminate = "eliminate",
-        /// Moving sprites have to be caught.
+        /// Moving sprites must be caught.
         Hunt = "hunt",
-        /// Items on the board have to be taken: all of a type, or many of a resource that an exit requires.
+        /// Items on the board must be taken: all items of a type, or many of a resource that an exit requires.
         Collect = "collect",
-        /// Something has to be reached or taken that is closed until the avatar has the key or the right form.
+        /// A thing must be reached or taken that is closed until the avatar has the key or the right form.
         Unlock = "unlock",
-        /// A place has to be reached.
+        /// A location must be reached.
         Reach = "reach",
-        /// Movers have to be brought together with each other or with a place.
+        /// Movers must be brought together with each other or to a location.
         Herd = "herd",
-        /// Things that stay where they are have to be switched, lit or used up.
+        /// Things that stay in place must be switched, lit or used up.
         Switch = "switch",
-        /// A sprite other than the avatar has to be protected for a while.
+        /// A sprite other than the avatar must be protected for a while.
         Guard = "guard",
-        /// The avatar has to stay alive until some tick.
+        /// The avatar must stay alive until some tick.
         Survive = "survive",
-        /// There is no goal except the score: play cannot cause a win, or the clock wins in any case.
+        /// There is no goal except the score. Play cannot cause a win, or the clock wins in any case.
         Score = "score",
     }
 }
 
-/// The minimum number at which the quantity is the point of a goal.
+/// The minimum number at which quantity is the point of a goal.
 const MANY: i32 = 3;
 
 impl GoalKind {
@@ -133,7 +133,8 @@ impl GoalKind {
     }
 }
 
-/// Returns `true` if a type that a win must remove ends by meeting another, and one of the two moves by itself.
+/// Returns `true` if a type that a win must remove ends by meeting a different type, and one of the two moves by
+/// itself.
 fn moves_to_a_goal(analysis: &Analysis) -> bool {
     let moves = |written: SpriteType| {
         let types = analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype));
@@ -152,17 +153,17 @@ fn moves_to_a_goal(analysis: &Analysis) -> bool {
 }
 
 base::named_enum! {
-    /// The source of randomness, if randomness can decide anything.
+    /// The source of randomness that can decide anything.
     pub enum ChanceKind {
-        /// No randomness.
+        /// No randomness decides anything.
         None = "none",
-        /// The movement of sprites other than the avatar.
+        /// The movement of sprites other than the avatar is random.
         Movers = "movers",
-        /// The times at which sprites appear.
+        /// The times at which sprites appear are random.
         Makers = "makers",
-        /// The results of interactions.
+        /// The results of interactions are random.
         Rules = "rules",
-        /// Several of these sources.
+        /// Several of these sources are random.
         Several = "several",
     }
 }
@@ -200,14 +201,14 @@ impl ChanceKind {
             .collect::<Vec<ChanceKind>>()[..]
         {
             [one] => one,
-            // Randomness decides in a different way, such as the bounces of missiles.
+            // Randomness decides in a different way, such as by the bounces of missiles.
             [] => ChanceKind::Movers,
             _ => ChanceKind::Several,
         }
     }
 }
 
-/// The kind of a game, derived from its rules alone. Cost: some milliseconds at most, no forward-model calls.
+/// The kind of a game, derived from its rules alone. Cost: some milliseconds at most, and no forward-model calls.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameKind {
@@ -230,7 +231,7 @@ pub struct GameKind {
 }
 
 impl GameKind {
-    /// Classifies a game.
+    /// Classifies a game by its rules.
     pub fn of(analysis: &Analysis) -> GameKind {
         let game = analysis.game();
         let lines = &game.description().interactions;

@@ -1,4 +1,4 @@
-//! Players from weak to strong on one level: the win rate of each, and the resulting difficulty.
+//! Players from weak to strong on one level: the win rate of each player, and the resulting difficulty.
 
 use crate::case::Case;
 use agents::{Limits, Play, ReferencePlanner, Stopped, play_until};
@@ -16,7 +16,7 @@ fn play_once(
     limits: Limits,
     stopped: Stopped<'_>,
 ) -> Play {
-    // All players get the same seed in plays of the same number, so that they can be compared play by play.
+    // All players get the same seed in episodes of the same number, so that they can be compared episode by episode.
     let chance = case.seed.child("chance", run);
     let seed = case.seed.seed().child(player.name(), run);
     play_until(case.game, case.level, &mut player.player(seed), player.budget(), chance, limits, stopped)
@@ -26,16 +26,16 @@ fn play_once(
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlayerResult {
-    /// The name of the player: `mcts:500`.
+    /// The name of the player, such as `mcts:500`.
     pub player: String,
     /// `true` if the player looks ahead.
     pub looks_ahead: bool,
     /// The player's win rate.
     pub rate: Rate,
-    /// The mean number of ticks of the won episodes, if there are any.
+    /// The mean number of ticks of the won episodes; `None` if no episode was won.
     pub win_ticks: Option<f64>,
-    /// The mean score, scaled from 0 for the lowest to 1 for the highest score of all episodes of the rungs, without
-    /// the held-out players; `None` if all scores are equal.
+    /// The mean score, scaled from 0 for the lowest to 1 for the highest score. The range covers all episodes of the
+    /// rungs, without the held-out players. `None` if all scores are equal.
     pub reward: Option<f64>,
 }
 
@@ -47,7 +47,7 @@ pub struct Ladder {
     pub rungs: Vec<PlayerResult>,
     /// The players that are held out until acceptance.
     pub held_out: Vec<PlayerResult>,
-    /// The ease, from 0 to 1 (`spec/06` §2.6); `None` without a player that looks ahead.
+    /// The ease, from 0 to 1 (`spec/06` §2.6); `None` if no player looks ahead.
     pub ease: Option<f64>,
     /// The difficulty label for the ease.
     pub difficulty: Difficulty,
@@ -56,15 +56,15 @@ pub struct Ladder {
 base::named_enum! {
     /// The difficulty of a level (`spec/06` §2.6).
     pub enum Difficulty {
-        /// An ease of 0.8 or more.
+        /// The ease is 0.8 or more.
         VeryEasy = "very_easy",
-        /// An ease of 0.6 or more.
+        /// The ease is at least 0.6 and less than 0.8.
         Easy = "easy",
-        /// An ease of 0.4 or more.
+        /// The ease is at least 0.4 and less than 0.6.
         Medium = "medium",
-        /// An ease of 0.2 or more.
+        /// The ease is at least 0.2 and less than 0.4.
         Hard = "hard",
-        /// A lower ease.
+        /// The ease is less than 0.2.
         VeryHard = "very_hard",
         /// No player has won.
         Unbeaten = "unbeaten",
@@ -100,7 +100,7 @@ pub struct UnknownDifficulty(String);
 impl FromStr for Difficulty {
     type Err = UnknownDifficulty;
 
-    /// Parses a label that can be requested: `very_easy`, `very-easy` and `very easy` are equal.
+    /// Parses a label that can be requested. For example, `very_easy`, `very-easy` and `very easy` are equal.
     fn from_str(text: &str) -> Result<Difficulty, UnknownDifficulty> {
         let plain = text.replace(['_', '-'], " ");
         let mut labels = Difficulty::LABELS.into_iter().map(|(label, _)| label);
@@ -117,17 +117,18 @@ impl fmt::Display for Difficulty {
 /// The players of a ladder and the limits of their episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LadderConfig {
-    /// From the weakest to the strongest.
+    /// The players of the ladder, from weakest to strongest.
     pub rungs: Vec<ReferencePlanner>,
-    /// Held-out players: they never guide a search.
+    /// The held-out players, which never guide a search.
     pub held_out: Vec<ReferencePlanner>,
-    /// The greatest number of plays of each player.
+    /// The maximum number of episodes of each player.
     pub plays: u64,
     /// The total number of forward-model calls of all episodes, after which no further round begins.
     pub calls: u64,
     /// The maximum number of ticks of an episode.
     pub ticks: usize,
-    /// The limit of an episode's ticks if there is a witness: this multiple of the witness's ticks, plus 50.
+    /// The multiple of the witness's ticks that limits an episode if there is a witness. The limit is this multiple
+    /// plus 50 ticks.
     pub patience: usize,
 }
 
@@ -137,7 +138,7 @@ const GRACE: usize = 50;
 /// The number of episodes of each player in a round.
 const ROUND: u64 = 2;
 
-/// The episodes of each player, by number: first the rungs, then the held-out players.
+/// The episodes of each player, by number. The rungs come first, then the held-out players.
 pub(crate) struct LadderPlays {
     pub(crate) plays: Vec<Vec<Play>>,
 }
@@ -178,8 +179,9 @@ impl LadderConfig {
         self.play_within(case, u64::MAX, |_| false, &|| false)
     }
 
-    /// Plays as [`LadderConfig::play_all`] does, but stops an episode at the first decision after `calls` calls, at its
-    /// tick limit, or once `stopped` returns `true`, and starts no further round once `enough` returns `true`.
+    /// Plays like [`LadderConfig::play_all`], with three more limits. An episode stops at the first decision after
+    /// `calls` calls, at its tick limit, or once `stopped` returns `true`. No further round starts once `enough`
+    /// returns `true`.
     pub(crate) fn play_within(
         &self,
         case: Case<'_>,
@@ -212,8 +214,8 @@ impl LadderConfig {
         all
     }
 
-    /// Computes the results of the episodes. The rewards of held-out players are scaled by the scores of the others, so
-    /// that difficulty does not depend on held-out players.
+    /// Computes the results of the episodes. The rewards of held-out players are scaled by the scores of the other
+    /// players, so that difficulty does not depend on held-out players.
     pub(crate) fn measure(&self, played: &LadderPlays) -> Ladder {
         let all = || played.plays[..self.rungs.len()].iter().flatten().map(|play| &play.episode);
         let scores = || all().map(|episode| episode.score);
@@ -248,9 +250,9 @@ fn won_in(episode: &Episode) -> Option<f64> {
     (episode.outcome == Outcome::Won).then_some(episode.actions.len() as f64)
 }
 
-/// Returns the weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2), which is `1 − mean
-/// ticks of wins / ticks of the longest episode`. A missing value (equal scores; no win) leaves its weight to the
-/// others.
+/// Returns the weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2). The step efficiency
+/// is `1 − mean ticks of wins / ticks of the longest episode`. The reward is missing if all scores are equal, and the
+/// efficiency is missing without a win. The weight of a missing value goes to the remaining values.
 fn ease(result: &PlayerResult, longest: f64) -> f64 {
     let Rate { wins, plays, .. } = result.rate;
     let won = wins as f64 / plays.max(1) as f64;

@@ -1,4 +1,4 @@
-//! Measures of a level in play: the axes of archives and of expressive range.
+//! Measures of a level in play, which are the axes of archives and of expressive range.
 
 use crate::criterion::Criterion;
 use crate::measures::ladder::{Ladder, PlayerResult, Rate};
@@ -12,27 +12,28 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The measures of a level with a win. The first six are computed from the witness, so they describe one way to win the
-/// level, the shortest that was found; `shortest` and `skill` describe the level.
+/// The measures of a level with a win. The first six are computed from the witness. They describe one way to win the
+/// level, which is the shortest that was found. `shortest` and `skill` describe the level itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measures {
     /// The number of ticks of the witness.
     pub ticks: usize,
-    /// The number of times that a sprite was pushed and moved, or was removed by the push: in Sokoban, the pushes of
-    /// the solution.
+    /// The number of times that a sprite was pushed and moved, or was removed by the push. In Sokoban, these are the
+    /// pushes of the solution.
     pub pushes: usize,
-    /// The effect of choices, from 0 to 1: the fraction of the actions at a tick of the witness that lead to distinct
-    /// states ([`State::search_key`]), averaged over its ticks. With 1, every action matters; with 1 / actions, no
-    /// action does.
+    /// The effect of choices, from 0 to 1. It is the fraction of the actions at a tick of the witness that lead to
+    /// distinct states ([`State::search_key`]), averaged over the ticks of the witness. With 1, every action matters.
+    /// With 1 / actions, no action matters.
     pub branching: f64,
-    /// The mechanics used, from 0 to 1: the fraction of the game's interactions that the witness executes. Interactions
-    /// with the edge of the screen do not count, because walls can make these guards idle.
+    /// The mechanics used, from 0 to 1, as the fraction of the game's interactions that the witness executes.
+    /// Interactions with the edge of the screen do not count, because walls can make these guards idle.
     pub mechanics: f64,
     /// The interactions that the witness executes, as returned by [`used_rules`].
     pub rules: Vec<usize>,
-    /// The risk of losing along the witness, from 0 to 1: the probability that a random action at a tick of it,
-    /// followed by [`FORESIGHT`] − 1 more random ones, loses the game, averaged over its ticks.
+    /// The risk of losing along the witness, from 0 to 1. It is the probability that a random action at a tick of the
+    /// witness, followed by [`FORESIGHT`] − 1 more random actions, loses the game. The risk is averaged over the ticks
+    /// of the witness.
     pub pressure: f64,
     /// The number of ticks of the shortest win, if it is proved to be the shortest.
     pub shortest: Option<usize>,
@@ -40,8 +41,8 @@ pub struct Measures {
     pub skill: Option<SkillGap>,
 }
 
-/// The advantage of players that look ahead over players that do not (`random`, `do-nothing`), on average over the
-/// players of each kind, including held-out ones.
+/// The advantage of players that look ahead over players that do not (`random`, `do-nothing`). The advantage is a mean
+/// over the players of each kind, including held-out players.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkillGap {
@@ -60,10 +61,10 @@ const FUTURES: u64 = 3;
 const MOMENTS: usize = 60;
 
 impl Measures {
-    /// Measures a level that was judged, and whose ladder may have been played; returns `None` if the report has no
-    /// witness. The same arguments give the same numbers on every machine. Cost: a replay of the witness. At up to 60
-    /// of its ticks, every action is tried once for branching, and three times for up to [`FORESIGHT`] ticks for
-    /// pressure: with five actions, at most 7,500 forward-model calls.
+    /// Measures a level that was judged, and whose ladder may have been played. Returns `None` if the report has no
+    /// witness. The same arguments give the same numbers on every machine. Cost: a replay of the witness, and trials of
+    /// every action at up to 60 of its ticks. Each action is tried once for branching, and three times for up to
+    /// [`FORESIGHT`] ticks for pressure. With five actions, the trials take at most 7,500 forward-model calls.
     pub fn of(
         analysis: &Analysis,
         level: &Level,
@@ -115,7 +116,7 @@ impl Measures {
 }
 
 impl SkillGap {
-    /// Compares the players of a ladder; returns `None` unless some look ahead and some do not.
+    /// Compares the players of a ladder. Returns `None` unless some players look ahead and some do not.
     pub fn of(ladder: &Ladder) -> Option<SkillGap> {
         let players = || ladder.rungs.iter().chain(&ladder.held_out);
         let gap = |value: &dyn Fn(&PlayerResult) -> Option<f64>| {
@@ -170,8 +171,8 @@ fn different(game: &Game, state: &State) -> f64 {
     keys.len() as f64 / actions.len() as f64
 }
 
-/// Returns the fraction of random futures that lose. All actions get the same random draws, and the same actions after
-/// them.
+/// Returns the fraction of random futures that lose. All actions get the same random draws, and the same subsequent
+/// actions.
 fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
     let (mut lost, mut all) = (0u64, 0u64);
     for action in actions(game, state) {
@@ -279,7 +280,7 @@ impl Watch for MeetingRecorder {
     }
 }
 
-/// A running mean; 0 if empty.
+/// A running mean, which is 0 if no values were added.
 #[derive(Default)]
 pub(crate) struct Mean {
     sum: f64,
@@ -302,7 +303,7 @@ mod tests {
     use super::*;
     use crate::Difficulty;
 
-    /// A game in which crates are pushed into pits; the wasp flies along its row.
+    /// A game in which crates are pushed into pits. The wasp flies along its row.
     const GAME: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    crate > Passive\n    wasp > Missile orientation=LEFT speed=1\n    avatar > MovingAvatar\n  LevelMapping\n    o > pit\n    c > crate\n    s > wasp\n  InteractionSet\n    avatar wall > stepBack\n    crate avatar > bounceForward\n    crate wall > undoAll\n    crate pit > killSprite scoreChange=1\n    avatar wasp > killSprite\n    wasp wall > reverseDirection\n    avatar EOS > stepBack\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    SpriteCounter stype=avatar win=False\n";
 
     fn play(level: &str, actions: &[Action]) -> (Analysis, Level, Episode) {
@@ -331,14 +332,14 @@ mod tests {
         assert_eq!((solved.ticks, solved.pushes, solved.rules.as_slice()), (2, 2, &[1, 3][..]));
         assert!((solved.mechanics - 2.0 / 6.0).abs() < 1e-12, "{solved:?}");
         assert_eq!(solved.pressure, 0.0);
-        // Nothing moves against a wall; a step past the crate pushes nothing.
+        // Nothing moves against a wall, and a step past the crate pushes nothing.
         let stuck = check("wwwwww\nwAcw w\nw   ow\nwwwwww\n", &[Right, Right, Left]);
         assert_eq!(stuck.pushes, 0, "{stuck:?}");
     }
 
     #[test]
     fn branching_is_higher_in_open_space() {
-        // In a niche of the wall, the only option is to stay; in the open, five actions lead to five states.
+        // In a niche of the wall, the only option is to stay. In the open, five actions lead to five states.
         let caged = check("wwwwww\nwAw ow\nwww cw\nwwwwww\n", &[Up]);
         let free = check("wwwwww\nw    w\nw A  w\nw   ow\nw   cw\nwwwwww\n", &[Action::Nil]);
         assert!(caged.branching < free.branching && free.branching == 1.0, "{caged:?} {free:?}");

@@ -10,38 +10,38 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The measures of a game in play, as means over its levels with one episode per level: the first one that is won, or
-/// the first of all if none is won.
+/// The measures of a game in play, as means over its levels with one episode per level. This is the first won episode,
+/// or the first episode of all if no episode is won.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlayMeasures {
     /// The pace, from 0 to 1: the fraction of ticks in which something other than the avatar moves, turns, appears,
     /// disappears or changes.
     pub pace: f64,
-    /// The number of executed interactions per tick, not counting guards ([`Guards`]). One that puts the same sprite
-    /// back to the same position tick after tick counts once.
+    /// The number of executed interactions per tick, not counting guards ([`Guards`]). An interaction that puts the
+    /// same sprite back to the same position tick after tick counts once.
     pub density: f64,
     /// The randomness, from 0 to 1: the fraction of actions, at some ticks, whose result differs between random seeds.
     pub chance: f64,
     /// The total number of different interactions, not counting guards, that won episodes execute.
     pub mechanics: usize,
-    /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT): the look-ahead from a moment that shows that the
-    /// episode is better than careless play (random keys, except those that lose at once), because it wins, does not
-    /// lose, or scores more. A game that pays for every step, or kills a player who does not act, has a low value. A
-    /// game in which the good move long looks like any other, or worse than a greedy one, has a high value. The measure
-    /// shows how far away the consequences are, at a cost that does not grow with the branching factor, unlike the
-    /// look-ahead that a planner needs. Moments from which careless play also wins do not count; the value is 0 if no
-    /// moment counts.
+    /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT). It is the look-ahead from a moment that shows
+    /// that the episode is better than careless play, because the episode wins, does not lose, or scores more. Careless
+    /// play presses random keys, except those that lose at once. A game that pays for every step, or kills a player who
+    /// does not act, has a low value. A game in which the good move looks like any other for a long time, or worse than
+    /// a greedy move, has a high value. The measure shows how far away the consequences are. Unlike the look-ahead that
+    /// a planner needs, its cost does not grow with the branching factor. Moments from which careless play also wins do
+    /// not count. The value is 0 if no moment counts.
     pub sight: f64,
     /// The despair on the way to a win, from 0 to 1. The lead at a moment is the fraction of careless futures that win
     /// minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean over the moments of the
     /// square root of the deficit if the game leads, or of 0 otherwise. This is the measure of Browne and Maire
-    /// ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with the game as the opponent, careless futures for the
-    /// value of a position, and a mean over all moments, so that a single bad one does not make a drama. A game that
-    /// careless play can neither win nor lose has a drama of 0.
+    /// ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with three changes. The game is the opponent, careless
+    /// futures give the value of a position, and the mean is taken over all moments, so that a single bad moment does
+    /// not make a drama. A game that careless play can neither win nor lose has a drama of 0.
     pub drama: f64,
     /// The number of times that the lead changes sides on the way to the win, at which the player leads, as a mean over
-    /// the episodes (Browne and Maire's *lead change*, not divided by the number of moves).
+    /// the episodes. This is the *lead change* of Browne and Maire, not divided by the number of moves.
     pub lead_changes: f64,
     /// The number of levels with a measured episode.
     pub levels: usize,
@@ -55,9 +55,10 @@ const CHANCES: u64 = 3;
 const WINS: usize = 12;
 
 impl PlayMeasures {
-    /// Measures the recorded episodes of a game; returns `None` if there are none. The same arguments give the same
-    /// numbers on every machine. Cost: a replay of the episodes, and per level 12 × 8 × 64 forward-model calls for
-    /// futures (at most three times that) and 12 × 6 × 3 for randomness, which takes some milliseconds.
+    /// Measures the recorded episodes of a game. Returns `None` if there are no recorded episodes. The same arguments
+    /// give the same numbers on every machine. Cost: a replay of the episodes, and some milliseconds of forward-model
+    /// calls per level. Futures take 12 × 8 × 64 calls, and at most three times as many. Randomness takes 12 × 6 × 3
+    /// calls.
     pub fn of(analysis: &Analysis, recording: &[Recorded<'_>], seed: Seed) -> Option<PlayMeasures> {
         let game = analysis.game();
         let guards = Guards::of(analysis);
@@ -159,8 +160,8 @@ fn others(game: &Game, state: &State) -> Vec<SpriteRecord> {
     records
 }
 
-/// Returns the fraction of the actions whose result differs between random seeds. Cost: actions × [`CHANCES`] calls;
-/// none in a game in which randomness decides nothing.
+/// Returns the fraction of the actions whose result differs between random seeds. Cost: actions × [`CHANCES`] calls, or
+/// no calls in a game in which randomness decides nothing.
 fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     if !analysis.is_stochastic() {
         return 0.0;
@@ -200,7 +201,7 @@ impl Counter<'_> {
 
 impl Watch for Counter<'_> {
     fn interaction(&mut self, line: usize) {
-        // Count only lines that run on the clock here; the other executions are reported with their sprites.
+        // Count only lines that run on the clock here. All other executions are reported with their sprites.
         if self.guards.runs_by_clock(line) {
             self.count(line);
         }
@@ -242,10 +243,10 @@ mod tests {
 
     #[test]
     fn puzzles_have_no_pace() {
-        // Two steps through the open; then the crate moves; then it falls.
+        // First there are two steps through the open, then the crate moves, and then it falls.
         let found = check("wwwwwwww\nwA  c ow\nw      w\nwwwwwwww\n", &[Nil, Right, Right, Right, Right]);
         assert_eq!(found.pace, 2.0 / 5.0, "{found:?}");
-        // `bounceForward` twice, `killSprite` once; the guards do not count.
+        // These are `bounceForward` twice and `killSprite` once. The guards do not count.
         assert_eq!((found.density, found.mechanics), (3.0 / 5.0, 2), "{found:?}");
         // Nothing can be lost, and the level is deterministic without a beetle.
         assert_eq!((found.drama, found.lead_changes, found.chance), (0.0, 0.0, 0.0), "{found:?}");
@@ -264,7 +265,7 @@ mod tests {
 
     #[test]
     fn danger_raises_drama_and_shortens_planning_depth() {
-        // The wasp is ahead of an avatar that stays in the row; below, the crate is one push away from its pit.
+        // The wasp is ahead of an avatar that stays in the row. Below, the crate is one push away from its pit.
         let danger = check("wwwwwwwww\nwA     sw\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);
         assert!(danger.drama > 0.9, "{danger:?}");
         let calm = check("wwwwwwwww\nwA      w\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);

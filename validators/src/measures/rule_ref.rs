@@ -1,4 +1,5 @@
-//! A reference to a rule of a game, as people write it: `box hole`, `box hole killSprite`, or the number of its line.
+//! A reference to a rule of a game in the notation of its users: `box hole`, `box hole killSprite`, or the number of
+//! the rule's line.
 
 use crate::evidence::Line;
 use crate::measures::EDGE;
@@ -9,8 +10,8 @@ use itertools::Itertools;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleRef {
     text: String,
-    /// The indices of the lines in the description, each with the pair that has to meet; `None` allows any of the
-    /// line's partners.
+    /// The indices of the lines in the description, each with the pair that must meet. `None` allows any of the line's
+    /// partners.
     meant: Vec<(usize, Option<Pair>)>,
 }
 
@@ -21,9 +22,9 @@ type Pair = (SpriteType, Option<SpriteType>);
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` isn't an interaction of the game: {reason}")]
 pub struct RuleRefError {
-    /// The text that was written.
+    /// The text of the reference, as written.
     pub text: String,
-    /// The problem, and perhaps a suggestion.
+    /// The problem, possibly with a suggestion.
     pub reason: String,
 }
 
@@ -31,13 +32,13 @@ pub struct RuleRefError {
 const MAX_LISTED: usize = 4;
 
 impl RuleRef {
-    /// Parses the name of a rule: either the number of its line in the InteractionSet, from 1, or the two sprites, as
-    /// the line writes them or as types below those. The effect is needed if the two sprites meet in more than one way.
-    /// `box hole > killSprite` is equivalent to `box hole killSprite`. If only an interaction in the opposite order has
-    /// the two sprites, the name refers to that one.
+    /// Parses the name of a rule. The name is either the number of the rule's line in the InteractionSet, counted from
+    /// 1, or the two sprites. The sprites are written as in the line or as types below those. The effect is needed if
+    /// the two sprites meet in more than one way. `box hole > killSprite` is equivalent to `box hole killSprite`. If
+    /// only an interaction in the opposite order has the two sprites, the name refers to that interaction.
     ///
     /// # Errors
-    /// Returns an error if the number is too large, or if the game has no such interaction, sprite or effect; the
+    /// Returns an error if the number is too large, or if the game has no such interaction, sprite or effect. The
     /// message suggests alternatives.
     pub fn parse(analysis: &Analysis, text: &str) -> Result<RuleRef, RuleRefError> {
         let game = analysis.game();
@@ -93,7 +94,7 @@ impl RuleRef {
         Ok(named(meant))
     }
 
-    /// Returns the text that was written.
+    /// Returns the written text.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -104,7 +105,7 @@ impl RuleRef {
         self.meant.iter().map(|(line, _)| *line)
     }
 
-    /// Returns `true` if an episode executes one of the interactions on sprites of the named types. Cost: that of the
+    /// Returns `true` if an episode executes one of the interactions on sprites of the given types. Cost: that of the
     /// episode.
     pub fn is_used(&self, analysis: &Analysis, level: &Level, episode: &Episode) -> bool {
         let game = analysis.game();

@@ -1,4 +1,4 @@
-//! Colour refinement: nodes are distinguished by their neighbours (Weisfeiler and Leman 1968).
+//! Colour refinement, in which nodes are distinguished by their neighbours (Weisfeiler and Leman 1968).
 //!
 //! A colour is a hash of the structure that it represents, so that the colours of different games can be compared.
 
@@ -17,7 +17,8 @@ pub(super) fn colour(bytes: &[u8]) -> Colour {
 
 /// The adjacency lists of a graph, for refinement.
 pub(super) struct Neighbours {
-    /// For each node, its neighbours, each with the role in which one names the other, including the direction.
+    /// For each node, its neighbours. Each neighbour comes with the role that links the two nodes, including the
+    /// direction of the link.
     of: Vec<Vec<(Colour, usize)>>,
 }
 

@@ -11,7 +11,7 @@ pub(super) enum Grain {
     Coarse,
     /// Classes and effects, with parameters but without their values.
     Medium,
-    /// All details.
+    /// Labels with all details.
     Fine,
 }
 
@@ -19,14 +19,14 @@ impl Grain {
     pub(super) const ALL: [Grain; 3] = [Grain::Coarse, Grain::Medium, Grain::Fine];
 }
 
-/// A node.
+/// A node of the graph.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     /// The labels, by grain, without type names.
     pub(super) labels: [String; 3],
     /// The weight of the node in the distance.
     pub(super) weight: u32,
-    /// The types that the node names, each with its role.
+    /// The types that the node refers to, each with its role.
     pub(super) edges: Vec<(String, usize)>,
 }
 
@@ -40,8 +40,8 @@ pub(super) struct RuleGraph {
     pub(super) stypes: Vec<SpriteType>,
 }
 
-/// The weights of nodes: rules that frame nearly every game (blocking at walls and at the edge of the screen, the
-/// placement of a character) weigh least, and terminations weigh most.
+/// The weights of nodes. Rules that frame nearly every game weigh least, which are blocking at walls and at the edge of
+/// the screen, and the placement of a character. Terminations weigh most.
 const FRAME: u32 = 1;
 const TYPE: u32 = 2;
 const RULE: u32 = 4;
@@ -103,8 +103,9 @@ impl RuleGraph {
                 sets.push(set);
             }
         }
-        // A placement that another one includes is left out. `w` and `A` place only a wall and an avatar in every game
-        // that gives them no other meaning, so a different choice of characters would otherwise give a different form.
+        // A placement that is included in a different placement is left out. `w` and `A` place only a wall and an
+        // avatar in every game that gives them no other meaning, so a different choice of characters would otherwise
+        // give a different form.
         let within = |set: &[usize], other: &[usize]| {
             set.len() < other.len() && set.iter().all(|at| other.contains(at))
         };
@@ -122,8 +123,8 @@ impl RuleGraph {
     }
 }
 
-/// Returns, for each type, whether a rule names it or a character places it. `wall` and `avatar`, which every game has,
-/// are not part of its rules if the file does not use them.
+/// Returns, for each type, `true` if a rule names it or a character places it. `wall` and `avatar`, which every game
+/// has, are not part of a game's rules if the file does not use them.
 fn used(clauses: &Clauses) -> Vec<bool> {
     let mut used = vec![false; clauses.types.len()];
     let mut named = |terms: &Terms| {
@@ -146,8 +147,8 @@ fn used(clauses: &Clauses) -> Vec<bool> {
     used
 }
 
-/// Returns `true` for a rule that nearly every game has: blocking without a price or reward, or handling of the edge of
-/// the screen.
+/// Returns `true` for a rule that nearly every game has, which is blocking without a price or reward, or handling of
+/// the edge of the screen.
 fn is_frame(clause: &InteractionClause) -> bool {
     let blocks = EffectFamily::of(clause.effect) == Some(EffectFamily::Block);
     clause.second == Party::Edge || (blocks && clause.terms.is_empty())
@@ -183,7 +184,7 @@ fn labels_of_interaction(clause: &InteractionClause) -> [String; 3] {
 const COMPARED_PARAMETERS: [&str; 5] =
     ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
 
-/// Spells the parameters in the order of their keys, each after a space; types are edges and are left out.
+/// Spells the parameters in the order of their keys, each after a space. Types are edges and are left out.
 fn spell(terms: &Terms, grain: Grain) -> String {
     let mut spelled: Vec<String> = Vec::new();
     for (key, term) in terms {

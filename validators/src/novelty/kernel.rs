@@ -1,10 +1,10 @@
 //! The similarity of two rule graphs: a Weisfeiler–Lehman kernel.
 //!
-//! After each of a few rounds of colour refinement, the colours of the nodes are counted; a colour after h rounds
+//! After each of a few rounds of colour refinement, the colours of the nodes are counted. A colour after h rounds
 //! represents the subtree of depth h below a node (Shervashidze et al., "Weisfeiler–Lehman graph kernels", JMLR 12,
 //! 2011). Counts are compared by intersection, as in the optimal-assignment form of the kernel (Kriege, Giscard and
-//! Wilson, "On valid optimal assignment kernels", NIPS 2016): with products of counts, ten walls would outweigh
-//! everything else. The intersection is divided by the union, which makes the distance a metric on the counts: it is 0
+//! Wilson, "On valid optimal assignment kernels", NIPS 2016). With products of counts, ten walls would outweigh
+//! everything else. The intersection is divided by the union, which makes the distance a metric on the counts. It is 0
 //! only for equal counts.
 
 use super::colours::{Colour, Neighbours, colour};

@@ -1,9 +1,9 @@
-//! Canonical labelling: one text for all games that differ only in names and order.
+//! Canonical labelling, which gives one text for all games that differ only in names and order.
 //!
-//! Colours are refined; while several types share a colour, one of them is individualized and the colours are refined
-//! again. Of all texts produced in this way, the smallest counts (McKay and Piperno, "Practical graph isomorphism,
-//! II", 2014). Types that can be exchanged without changing the rules, and branches found to be equivalent to an
-//! earlier one, are individualized only once.
+//! Colours are refined. While several types share a colour, one of them is individualized and the colours are refined
+//! again. The smallest of all texts produced in this way is the canonical text (McKay and Piperno, "Practical graph
+//! isomorphism, II", 2014). Types that can be exchanged without changing the rules, and branches found to be
+//! equivalent to an earlier one, are individualized only once.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
@@ -11,11 +11,13 @@ use itertools::Itertools;
 
 /// The maximum number of texts to write. Games whose types are distinguished by colours, or are alike because they can
 /// be exchanged, need far fewer. Beyond the limit, the first of the types with equal colours represents all of them.
-/// That makes no difference if they are equivalent, as they are unless the graph of the rules is adversarial;
-/// otherwise, two spellings of the same rules may get different texts. Different rules never get the same text.
+/// That makes no difference if the types are equivalent, as they are unless the graph of the rules is adversarial. In
+/// an adversarial graph, two spellings of the same rules may get different texts. Different rules never get the same
+/// text.
 const MAX_LABELLINGS: usize = 200;
 
-/// The canonical text, which is equal for all graphs that differ only in names and order, with the types in its order.
+/// The canonical text, with the types in the order of the text. It is equal for all graphs that differ only in names
+/// and order.
 #[derive(Clone, Debug)]
 pub(super) struct Labelled {
     pub(super) text: String,
@@ -24,13 +26,13 @@ pub(super) struct Labelled {
 }
 
 impl Labelled {
-    /// Returns the labelling with the smaller text, or the first one if they are equal.
+    /// Returns the labelling with the smaller text, or the first labelling if the texts are equal.
     fn min(self, other: Labelled) -> Labelled {
         if other.text < self.text { other } else { self }
     }
 }
 
-/// Returns the canonical text of a graph. Cost: about 20 µs per node; at worst [`MAX_LABELLINGS`] times that.
+/// Returns the canonical text of a graph. Cost: about 20 µs per node, and at worst [`MAX_LABELLINGS`] times that.
 pub(super) fn canonical(graph: &RuleGraph) -> Labelled {
     let neighbours = Neighbours::of(graph);
     let first = graph.nodes.iter().map(|node| colour(node.labels[Grain::Fine as usize].as_bytes())).collect();
@@ -102,12 +104,13 @@ impl Labelling<'_> {
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(to, &at)| place[at] = to);
         let (mut types, rules) = self.lines(&place);
-        // The colours are part of the text and record the individualized types: equal texts then mean equal choices.
+        // The colours are part of the text and record the individualized types, so equal texts mean equal choices.
         types.iter_mut().zip(&order).for_each(|(line, &at)| *line = format!("{:016x} {line}", colours[at]));
         Labelled { text: types.join("\n") + "\n\n" + &rules.join("\n"), order }
     }
 
-    /// Returns the nodes as text, with types named by position: the types in this order, and the other nodes sorted.
+    /// Returns the nodes as text, with types named by position. The types are in this order, and all other nodes are
+    /// sorted.
     fn lines(&self, place: &[usize]) -> (Vec<String>, Vec<String>) {
         let line = |at: usize| {
             let node = &self.graph.nodes[at];

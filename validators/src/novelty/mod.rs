@@ -11,26 +11,32 @@ use engine::{Game, SpriteType};
 use graph::RuleGraph;
 use kernel::Features;
 
-/// The rules of a game without names, symbols, colours and order: two games are the same game in different themes if
+/// The rules of a game without names, symbols, colours and order. Two games are the same game in different themes if
 /// their forms have the same [`digest`](GameForm::digest).
 ///
-/// The following parts of a game's text do not count: the names and looks of sprite types; the characters that levels
-/// are written in (but it counts which types are placed together); the order of lines, and of partners on a line;
-/// whether a parameter is inherited, written, or written with its default value; types without sprites that only serve
-/// as parents and have no class of their own; lines that are not enabled; `wall` and `avatar`, if neither the file
-/// declares them nor a rule names them. Games whose rules run in a different order can play differently and yet share a
-/// form: for counting games they are one game.
+/// The following parts of a game's text do not count:
+///
+/// - the names and looks of sprite types;
+/// - the characters that levels are written in, except that the form includes which types are placed together;
+/// - the order of lines, and of partners on a line;
+/// - whether a parameter is inherited, written, or written with its default value;
+/// - types without sprites that only serve as parents and have no class of their own;
+/// - lines that are not enabled;
+/// - `wall` and `avatar`, if neither the file declares them nor a rule names them.
+///
+/// Games whose rules run in a different order can play differently and yet share a form. Such games count as one game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GameForm {
     digest: Digest,
     features: Features,
 }
 
-/// The distance below which two games are duplicates: the same rules with different numbers or in a different theme.
+/// The distance below which two games are duplicates, which have the same rules with different numbers or in a
+/// different theme.
 pub const NEAR: f64 = 0.3;
 
 impl GameForm {
-    /// Computes the form of a game. Cost: about a millisecond, no forward-model calls.
+    /// Computes the form of a game. Cost: about a millisecond, and no forward-model calls.
     pub fn of(game: &Game) -> GameForm {
         let graph = RuleGraph::of(game);
         let digest = Digest::of(labelling::canonical(&graph).text.as_bytes());
@@ -38,34 +44,34 @@ impl GameForm {
     }
 
     /// Returns the digest, which is equal for games that differ only in parts that do not count. Different rules never
-    /// share a digest. The converse holds except for games with many types that look alike but are not equivalent: see
-    /// the source of `labelling`.
+    /// share a digest. The converse holds except for games with many types that look alike but are not equivalent, as
+    /// the source of `labelling` explains.
     pub fn digest(&self) -> Digest {
         self.digest
     }
 
-    /// Returns the index and the distance of the nearest form; among equals, those of the first. Cost: O(rules) per
-    /// form.
+    /// Returns the index and the distance of the nearest form. Among equally near forms, returns the first. Cost:
+    /// O(rules) per form.
     pub fn nearest<'a>(&self, forms: impl IntoIterator<Item = &'a GameForm>) -> Option<(usize, f64)> {
         let apart = forms.into_iter().map(|form| distance(self, form)).enumerate();
         apart.reduce(|best, next| if next.1 < best.1 { next } else { best })
     }
 
-    /// Returns `true` if the two games are duplicates: nearer than [`NEAR`].
+    /// Returns `true` if the two games are duplicates, which means that they are nearer than [`NEAR`].
     pub fn is_near(&self, other: &GameForm) -> bool {
         distance(self, other) < NEAR
     }
 }
 
-/// Returns the distance between the rules of two games, from 0 (equal forms) to 1 (nothing in common). It is symmetric
-/// and obeys the triangle inequality. Cost: O(rules).
+/// Returns the distance between the rules of two games, from 0 (equal forms) to 1 (nothing in common). The distance is
+/// symmetric and obeys the triangle inequality. Cost: O(rules).
 pub fn distance(one: &GameForm, two: &GameForm) -> f64 {
     one.features.distance(&two.features)
 }
 
-/// Returns the types of a game in a canonical order, independent of names and of the order in the file: in games with
-/// equal forms, types at the same position correspond to each other. (Types that can be exchanged without changing the
-/// rules may trade positions.) Types that are named by no rule and no character are left out. Cost: that of
+/// Returns the types of a game in a canonical order, independent of names and of the order in the file. In games with
+/// equal forms, types at the same position correspond to each other. Types that can be exchanged without changing the
+/// rules may trade positions. Types that no rule names and no character places are left out. Cost: that of
 /// [`GameForm::of`].
 pub fn canonical_types(game: &Game) -> Vec<SpriteType> {
     let graph = RuleGraph::of(game);
@@ -76,7 +82,7 @@ pub fn canonical_types(game: &Game) -> Vec<SpriteType> {
 mod tests {
     use super::*;
 
-    /// Returns the form of a game with types that chase each other as specified, and an avatar that all of them kill.
+    /// Returns the form of a game in which types chase each other as specified, and all of them kill the avatar.
     fn chase(chases: &[usize]) -> GameForm {
         let name = |number: usize| format!("t{number}");
         let sprites: String = chases
@@ -100,15 +106,15 @@ mod tests {
         let ring = chase(&[1, 2, 3, 4, 5, 0]);
         assert_eq!(ring.digest(), chase(&[3, 4, 0, 5, 2, 1]).digest());
         assert_eq!(ring.digest(), chase(&[5, 0, 1, 2, 3, 4]).digest());
-        // Colours alone do not distinguish two rings of three from one ring of six; the digest does, the distance does
-        // not.
+        // Colours alone do not distinguish two rings of three from one ring of six. The digest distinguishes them, and
+        // the distance does not.
         let rings = chase(&[1, 2, 0, 4, 5, 3]);
         assert_ne!(ring.digest(), rings.digest());
         assert_eq!(distance(&ring, &rings), 0.0);
         assert_eq!(rings.digest(), chase(&[2, 3, 4, 5, 0, 1]).digest());
     }
 
-    /// All 20 types can be exchanged; individualizing them one by one would produce 20! texts.
+    /// All 20 types can be exchanged. Individualizing them one by one would produce 20! texts.
     #[test]
     fn many_equal_types_are_canonicalized_quickly() {
         let twins: Vec<usize> = (0..20).map(|_| 20).chain([20]).collect();

@@ -39,7 +39,8 @@ mod tests {
         for &shell in Shell::value_variants() {
             let script = script(shell);
             usage::tests::for_each_verb(&mut |path, verb| {
-                // clap_complete's scripts for fish support two levels of commands, such as `arcade trust log`, and no more.
+                // clap_complete's scripts for fish support two levels of commands, such as `arcade trust log`, and no
+                // deeper levels.
                 if shell == Shell::Fish && path.split(' ').count() > 3 {
                     return;
                 }

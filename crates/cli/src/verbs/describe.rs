@@ -26,7 +26,7 @@ pub(crate) struct Args {
     as_reference: bool,
 }
 
-/// The proven properties of a level.
+/// The proved properties of a level.
 #[derive(Serialize)]
 struct Prospects {
     level: String,

@@ -128,7 +128,7 @@ fn counts(changes: &Changes) -> String {
     format!("{new} new, {kept} kept, {changed} kept with a different theme, {gone} removed")
 }
 
-/// Describes a distance and whether it may be due to chance. Without values on both sides, there is no distance to describe.
+/// Describes a distance and whether it may be due to chance. If a side has no values, there is no distance to describe.
 fn verdict(distance: Option<f64>, p: Option<f64>, unmeasured: Unmeasured) -> String {
     let partly = match unmeasured {
         Unmeasured { before: 0, after: 0 } => String::new(),
@@ -181,7 +181,8 @@ fn number(shift: &NumberShift, console: &Console) {
     ));
 }
 
-/// Rounds a figure to three significant digits, but keeps all digits before the decimal point. Omits trailing zeros.
+/// Rounds a figure to three significant digits, but keeps all digits before the decimal point. Trailing zeros are
+/// omitted.
 fn rounded(figure: f64) -> String {
     let decimals = match figure.abs() {
         size if size >= 100.0 => 1,
@@ -215,7 +216,7 @@ fn ladder(rungs: &[RungDifference], console: &Console) {
     }
 }
 
-/// Lists the differences in marks by tier, with those of all levels last.
+/// Lists the differences in marks by tier, with the differences over all levels last.
 fn marked(marks: &[MarkDifference], console: &Console) {
     if marks.is_empty() {
         return;

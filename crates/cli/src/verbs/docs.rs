@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     found(&pages, &wanted, about_verb, console)
 }
 
-/// The pages that describe a subcommand without a page of its own name, most relevant first.
+/// The pages that describe a subcommand that has no page with its own name, most relevant first.
 const VERBS: [(&str, &[&str]); 23] = [
     ("calibrate", &["calibrate", "scale"]),
     ("clean", &["command-line"]),
@@ -108,7 +108,7 @@ fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -
 /// The width of the lists of names.
 const COLUMNS: usize = 100;
 
-/// Returns the contents: the pages of each section with their titles, and the nested pages by name.
+/// Returns the contents, which are the pages of each section with their titles, and the nested pages by name.
 fn list(pages: &[Page]) -> String {
     let is_titled = |page: &Page| page.depth == 0;
     let width = pages.iter().filter(|page| is_titled(page)).map(|page| page.name.len()).max().unwrap_or(0);

@@ -53,7 +53,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let source = input.source;
     let (description, problems) = syntax::parse(&source.text);
     if Diagnostics::has_errors(&problems) {
-        // A line that cannot be parsed has no canonical form, and printing only the rest would lose it.
+        // A line that cannot be parsed has no canonical form, and printing only the other lines would lose it.
         return Err(diagnostics::failure(&source, &problems));
     }
     let text = syntax::print(&description);

@@ -1,4 +1,4 @@
-//! `arcade gallery`: a release as a page of static files.
+//! `arcade gallery`: writes a release as a page of static files.
 
 use super::export::unsound;
 use super::studio::open;

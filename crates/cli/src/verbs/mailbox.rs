@@ -16,7 +16,8 @@ use std::time::Duration;
 /// The pause between two looks into the mailbox.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// The number of looks for the next prompt of the same episode before a different episode is shown: two seconds.
+/// The number of looks for the next prompt of the same episode before a different episode is shown. They take two
+/// seconds.
 const PATIENCE: u32 = 20;
 
 /// Shows the prompts that wait in the mailbox of an evaluation, one at a time, and answers them with the lines that you type.
@@ -64,7 +65,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 struct Session<'a> {
     desk: Desk,
     console: &'a Console,
-    /// The only episode to answer, if the user specified one.
+    /// The only episode to answer; `None` if the user did not specify an episode.
     only: Option<String>,
     /// The episodes whose rules have been shown.
     introduced: BTreeSet<String>,
@@ -72,7 +73,7 @@ struct Session<'a> {
     skipped: BTreeSet<String>,
     /// The episode that was answered last.
     current: Option<String>,
-    /// `true` if the user has been told that no prompt is waiting.
+    /// `true` if the user has been informed that no prompt is waiting.
     is_waiting: bool,
 }
 
@@ -100,7 +101,7 @@ impl Session<'_> {
         Ok(view.finished.is_some())
     }
 
-    /// Waits for a prompt, and returns `None` if no more will come.
+    /// Waits for a prompt. Returns `None` if no more prompts will come.
     fn next(&mut self) -> Result<Option<OpenPrompt>, Failure> {
         let mut looks = 0;
         loop {
@@ -120,7 +121,7 @@ impl Session<'_> {
                     return Ok(Some(open.clone()));
                 }
                 if !self.skipped.is_empty() {
-                    // No other prompt is waiting, so the skipped ones come again.
+                    // No other prompt is waiting, so the skipped prompts come again.
                     self.skipped.clear();
                     continue;
                 }
@@ -270,7 +271,7 @@ say TEXT: answers with the text as it is
 show: shows the turn again; rules: the rules, the legend and the format
 list: shows the prompts that are waiting; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
 
-/// Returns the columns of the terminal, if the output is one and they are known.
+/// Returns the number of columns of the terminal; `None` if the output is not a terminal or the number is unknown.
 fn columns() -> Option<usize> {
     #[cfg(feature = "terminal")]
     if std::io::stdout().is_terminal() {
@@ -279,7 +280,7 @@ fn columns() -> Option<usize> {
     None
 }
 
-/// Breaks lines of more than `width` characters at blanks.
+/// Breaks lines of more than `width` characters at spaces.
 fn wrapped(text: &str, width: usize) -> String {
     let broken = |line: &str| {
         // Continuation lines align with the text of a list item.

@@ -17,8 +17,8 @@ pub(crate) struct Args {
     command: Vec<OsString>,
 }
 
-/// Returns the command line of a guard: this very program, even if its file has been replaced since. Empty if there is no such
-/// program.
+/// Returns the command line of a guard, which runs this very program, even if the program's file has been replaced in
+/// the meantime. The command line is empty if there is no such program.
 pub(crate) fn command() -> Vec<OsString> {
     let own = PathBuf::from("/proc/self/exe");
     let program = if own.exists() { Some(own) } else { std::env::current_exe().ok() };

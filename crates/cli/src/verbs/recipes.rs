@@ -1,4 +1,4 @@
-//! `arcade recipes`: the recipes embedded in the binary.
+//! `arcade recipes`: shows the recipes embedded in the binary, and writes new recipes.
 
 use crate::console::Console;
 use crate::embedded;

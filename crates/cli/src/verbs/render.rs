@@ -1,4 +1,4 @@
-//! `arcade render`: a board or an episode, as text or as an image.
+//! `arcade render`: draws a board or an episode, as text or as an image.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// The maximum length of a GIF's longer side in pixels, if the user gives no scale.
+/// The maximum length of a GIF's longer side in pixels, if the user specifies no scale.
 const GIF_SIDE: u32 = 480;
 
 /// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the extension of the file.
@@ -98,7 +98,7 @@ struct Subject<'a> {
     symbols: Symbols,
     game: &'a Game,
     level: &'a Level,
-    /// The actions of the episode, if there is one, up to the last tick of the image.
+    /// The actions of the episode up to the last tick of the image; empty without an episode.
     actions: &'a [engine::Action],
     seed: Seed,
 }

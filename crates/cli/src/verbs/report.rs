@@ -1,4 +1,4 @@
-//! `arcade report`: a comparison of evaluation results.
+//! `arcade report`: compares evaluation results.
 
 use crate::console::Console;
 use crate::failure::Answer;

@@ -1,4 +1,4 @@
-//! `arcade run`: win rates of planners.
+//! `arcade run`: measures win rates of planners.
 
 use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
@@ -83,7 +83,7 @@ struct Line<'a> {
     level: usize,
     run: u64,
     outcome: &'static str,
-    /// The limit because of which the engine stopped the episode, if it did.
+    /// The limit that stopped the episode; `None` if the engine did not stop it.
     #[serde(skip)]
     stop: Option<Limit>,
     score: f64,
@@ -117,9 +117,9 @@ struct Stopped<'a> {
 /// The results of some episodes of one planner.
 #[derive(Serialize)]
 struct Row<'a> {
-    /// The game, or `None` for all games together.
+    /// The game; `None` for all games together.
     game: Option<&'a str>,
-    /// The level, or `None` for all levels together.
+    /// The level; `None` for all levels together.
     level: Option<usize>,
     planner: &'a str,
     budget: u64,
@@ -242,8 +242,8 @@ fn subjects(args: &Args, inputs: Vec<GameInput>) -> Result<Vec<Subject>, Failure
     Ok(subjects)
 }
 
-/// Plays an episode. Its seed depends only on the game, level, planner and run, so adding a game or a planner does not change any
-/// other episode.
+/// Plays an episode. The episode's seed depends only on the game, level, planner and run, so adding a game or a planner
+/// does not change any other episode.
 fn play_entry<'a>(args: &Args, entry: &'a Entry<'a>) -> Line<'a> {
     let Entry { subject, level, planner, run } = *entry;
     let (number, level) = &subject.levels[level];
@@ -381,7 +381,7 @@ fn table(rows: &[Row<'_>]) -> String {
     text
 }
 
-/// Writes a text such that spreadsheets do not interpret it as a formula.
+/// Writes a text so that spreadsheets do not interpret it as a formula.
 fn field<S: Serializer>(text: &str, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&report::in_csv(text))
 }

@@ -1,4 +1,4 @@
-//! `arcade serve-player`: a player of known strength behind a chat completions API, for this machine only.
+//! `arcade serve-player`: serves a player of known strength through a chat completions API, for this machine only.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         .map_err(|error| Failure::environment(error, "the server cannot be started"))?;
     console.line(&json!({"base_url": server.base_url(), "port": server.address().port(), "model": name}));
     let words = ["evaluate", "GAME", "--model", &name, "--base-url", &server.base_url()].map(str::to_owned);
-    // A planner reads only rules in VGDL.
+    // A planner can read only rules in VGDL.
     let rules = if is_planner { " --rules vgdl" } else { "" };
     console.remark(format_args!(
         "serving at {} until this process is stopped; evaluate it: {}{rules}",

@@ -1,5 +1,5 @@
-//! Results whose logs were altered, after their row was entered in a public log and before. Each alteration is tried in many
-//! ways: 1,000 in a sweep.
+//! Tests of results whose logs were altered, before or after their row was entered in a public log. Each alteration is
+//! tried in many ways, and in 1,000 ways in a sweep.
 
 use crate::arcade::{TINY, arcade, copy_tree, files, run, sweeping, text};
 use base::{Digest, Sampler, Seed};
@@ -15,12 +15,12 @@ use trust::log::{Entry, Log, ResultRow, append};
 /// The files of a results folder.
 type Files = BTreeMap<String, Vec<u8>>;
 
-/// The judgement that an altered folder has to get, if its row names the digest of the altered files.
+/// The expected judgement on an altered folder if its row contains the digest of the altered files.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Expect {
-    /// The row does not hold, for a reason with one of these words.
+    /// The row is rejected, for a reason with one of these words.
     Refused(&'static [&'static str]),
-    /// It holds: the episodes have the same actions and results.
+    /// The row is accepted, because the episodes have the same actions and results.
     Same,
 }
 
@@ -57,7 +57,7 @@ impl Rows {
         self.home.path().join(name)
     }
 
-    /// Checks a folder against a log: the exit status, and the words.
+    /// Checks a folder against a log. Returns the exit status and the output.
     fn check(&self, log: &str, more: &[&str]) -> (Option<i32>, String) {
         let args = ["trust", "log", "check", log, "--key", "log.pub", "--jobs", "1", "--replay", "altered"];
         let output = arcade(self.home.path()).args(args).args(more).output().unwrap();
@@ -75,7 +75,8 @@ impl Rows {
         }
     }
 
-    /// Writes a log in which the row is one of the altered files: publishers who cheat do not ask `arcade trust log append`.
+    /// Writes a log whose row belongs to the altered files, like a publisher who cheats and does not use
+    /// `arcade trust log append`.
     fn forge(&self, results: Digest) {
         let folder = self.place("forged");
         let _ = fs::remove_dir_all(&folder);
@@ -90,7 +91,8 @@ impl Rows {
     }
 }
 
-/// Other ways in each sweep, whose seed is in the variable.
+/// Returns the random choices for one alteration. Each sweep has different choices, because its seed is in the
+/// environment variable.
 fn chance(purpose: &str, number: u64) -> Sampler {
     let sweep = std::env::var_os("ARCADE_SWEEP").and_then(|text| text.into_string().ok());
     Seed::from_text(&format!("{purpose} {}", sweep.unwrap_or_default())).child("alteration", number).sampler()
@@ -104,7 +106,7 @@ fn one_of<'a, T>(all: &'a [T], chance: &mut Sampler) -> &'a T {
     &all[chance.below(all.len())]
 }
 
-/// The lines of an episode, each an event.
+/// Returns the lines of an episode's log, each of which is an event.
 fn events(files: &Files, name: &str) -> Vec<Value> {
     text(&files[name]).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
@@ -114,13 +116,13 @@ fn store(files: &mut Files, name: &str, events: &[Value]) {
     files.insert(name.to_owned(), lines.into_bytes());
 }
 
-/// The numbers of the steps among events.
+/// Returns the indices of the steps among events.
 fn steps(events: &[Value]) -> Vec<usize> {
     (0..events.len()).filter(|&at| events[at]["event"] == "step").collect()
 }
 
-/// Tests by the engine alone whether another action at a step leads to the same state: then the log is of an episode that
-/// could have been played, with the same results.
+/// Returns `true` if, according to the engine alone, a different action at a step leads to the same state. The log then
+/// belongs to an episode that could have been played, with the same results.
 fn leads_to_the_same(files: &Files, events: &[Value], at: usize, action: Action) -> bool {
     let start = &events[0];
     let id = start["game"].as_str().unwrap();
@@ -156,7 +158,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
         }
     };
     match number % 16 {
-        // Another action.
+        // A step has a different action.
         0 | 1 => {
             let names: Vec<&str> = ["nil", "left", "right", "up", "down", "use"]
                 .into_iter()
@@ -178,7 +180,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             store(files, &name, &found);
             Expect::Refused(NOT_REPLAYED)
         }
-        // Results that the actions do not have.
+        // The log has results that the actions do not have.
         4 => {
             match chance.below(4) {
                 0 => found[at]["hash"] = Value::from(format!("{:032x}", chance.below(1 << 30))),
@@ -202,7 +204,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             store(files, &name, &found);
             Expect::Refused(&["restore", "unknown variant", "but the log records", "the episode"])
         }
-        // Lines that are missing, twice or in another order.
+        // Lines are missing, duplicated or in a different order.
         6 => {
             found.remove(at);
             store(files, &name, &found);
@@ -223,7 +225,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             store(files, &name, &found);
             Expect::Refused(&["is recorded as", "is not the start of an episode", "a second start"])
         }
-        // Episodes that are missing, not finished, twice or of another level.
+        // Episodes are missing, unfinished, duplicated or on a different level.
         9 => {
             files.remove(&name);
             Expect::Refused(&["`episodes` is"])
@@ -249,7 +251,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             files.insert(second, one);
             Expect::Refused(OF_ANOTHER)
         }
-        // Settings.
+        // The settings are changed.
         13 => {
             let mut settings: Value = serde_json::from_slice(&files["evaluation.json"]).unwrap();
             let words: &[&str] = match chance.below(5) {
@@ -277,7 +279,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             files.insert("evaluation.json".to_owned(), settings.to_string().into_bytes());
             Expect::Refused(words)
         }
-        // The text of a game or level: its digest is in the settings.
+        // The text of a game or level is changed, whose digest is in the settings.
         14 => {
             let games: Vec<String> = files.keys().filter(|name| name.ends_with("txt")).cloned().collect();
             let name = one_of(&games, chance);
@@ -289,7 +291,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             files.insert(name.clone(), altered.into_bytes());
             Expect::Refused(&["restore the results folder", "digest", "level"])
         }
-        // The same in other bytes: spaces, and times, which no replay can know.
+        // The content is the same, but the bytes differ in spaces, or in times, which no replay can know.
         _ => {
             if chance.below(2) == 0 {
                 let spaced = text(&files[&name]).replacen(",\"", ", \"", 1 + chance.below(99));
@@ -305,8 +307,8 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
 
 const NOT_REPLAYED_OR_ENDED: &[&str] = &["is recorded as", "the log records", "the episode"];
 
-/// An altered folder is not the one that was entered, whatever was altered; and if the row is one of the altered folder, the
-/// episodes do not have its results.
+/// An altered folder differs from the folder in the log, regardless of the alteration. If the row belongs to the
+/// altered folder, the episodes do not have the row's results.
 #[test]
 fn altered_logs_are_refused() {
     let rows = Rows::new();
@@ -338,7 +340,7 @@ fn altered_logs_are_refused() {
     assert!(refused > 8 * same, "{refused} refused, {same} of the same meaning");
 }
 
-/// Any byte of any file: the folder is not the one that was entered.
+/// If any byte of any file changes, the folder differs from the folder in the log.
 #[test]
 fn altered_bytes_are_refused() {
     let rows = Rows::new();
@@ -359,7 +361,7 @@ fn altered_bytes_are_refused() {
     }
 }
 
-/// An easier game under the name of the release: its episodes replay, and are not on the games of the release.
+/// An easier game has the name of a game of the release. The episodes replay, but are not on the games of the release.
 #[test]
 fn results_on_another_game_are_refused() {
     let rows = Rows::new();

@@ -1,4 +1,5 @@
-//! The first steps of new users: `arcade new`, `arcade recipes new`, the tutorials of the book, and its search.
+//! Tests of the first steps of new users: `arcade new`, `arcade recipes new`, the tutorials of the book, and the book's
+//! search.
 
 use crate::arcade::{copy_of_tiny, files, run, text};
 use serde_json::{Value, json};
@@ -102,10 +103,10 @@ fn new_recipes_are_accepted_as_they_are() {
     let recipe = Recipe::from_toml(&fs::read_to_string(folder.join("2027-01.toml")).unwrap()).unwrap();
     let asked = serde_json::to_value(&recipe).unwrap()["criteria"]["ask"].to_string();
     assert!(asked.contains("skill") && asked.contains("necessity"), "{asked}");
-    // The line of `--commit`, where the comment says it belongs.
+    // The line that `--commit` prints is put where the comment says that it belongs.
     let said = text(&run(folder, &["release", "2027-01.toml", "--commit"], 0).stdout);
     let line = said.lines().map(str::trim).find(|line| line.starts_with("commitment = ")).unwrap();
-    // Committing again does not help. The message says what does.
+    // Committing again does not help, and the message says what does.
     let commit = ["release", "2027-01.toml", "--commit"];
     says(folder, &commit, 2, &["was drawn for this recipe: write `commitment = ", "instead of `seed`"]);
     let text_of = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
@@ -163,7 +164,7 @@ fn words_that_are_not_pages_are_looked_for() {
     assert!(text(&moved.stdout).starts_with("# Decisions"), "{moved:?}");
 }
 
-/// Returns the blocks of a page in this language.
+/// Returns the code blocks of a page in this language.
 fn blocks<'a>(page: &'a str, language: &str) -> Vec<&'a str> {
     let begin = format!("```{language}\n");
     page.split(begin.as_str()).skip(1).filter_map(|rest| rest.split("```").next()).collect()
@@ -183,13 +184,13 @@ fn the_first_game_works_as_printed() {
     let mut validated = 0;
     for command in commands(page) {
         match command[..] {
-            // These wait for a person.
+            // These commands wait for a person.
             ["play", game, ..] | ["studio", game, ..] => {
                 run(folder, &["describe", game], 0);
                 continue;
             }
             ["validate", _, "0"] => {
-                // By here the page has asked for a game of one's own.
+                // At this point, the page has asked the reader to write a game.
                 let [game] = blocks(page, "vgdl")[..] else { panic!("one game") };
                 let [level] = blocks(page, "level")[..] else { panic!("one level") };
                 fs::write(folder.join("shell-beach/game.vgdl"), game).unwrap();
@@ -204,7 +205,8 @@ fn the_first_game_works_as_printed() {
     says(folder, &["validate", "shell-beach"], 1, &["won in its first tick"]);
 }
 
-/// Runs the commands of a page in a folder with the release `tiny`. Commands that mint or wait for a person are left out.
+/// Runs the commands of a page in a folder with the release `tiny`. Commands that mint or wait for a person are left
+/// out.
 fn work_as_printed(page: &str) -> usize {
     let (home, root) = copy_of_tiny();
     let folder = home.path();
@@ -228,7 +230,7 @@ fn the_first_evaluation_works_as_printed() {
     assert!(work_as_printed(include_str!("../../../../docs/start/first-evaluation.md")) >= 3);
 }
 
-/// A month that is minted in seconds. Takes the line that replaces the seed.
+/// Returns the recipe of a month that is minted in seconds. `seed` is the line that replaces the seed.
 fn small(name: &str, seed: &str) -> String {
     format!(
         "name = '{name}'\ndescription = 'x'\n{seed}\n[generated]\ngames = 1\nlevels = 1\ncandidates = 3.0\n[corpus]\n\
@@ -237,8 +239,9 @@ fn small(name: &str, seed: &str) -> String {
     )
 }
 
-/// Runs every command of the page. The recipes are replaced by small ones before they are committed to, and the secrets by ones
-/// that are the same in every run: whether such a small recipe finds enough levels depends on the seed.
+/// Runs every command of the page. The recipes are replaced by small recipes before they are committed to, and the
+/// secrets by secrets that are the same in every run. It depends on the seed whether such a small recipe finds enough
+/// levels.
 #[test]
 fn the_first_month_works_as_printed() {
     let page = include_str!("../../../../docs/how-to/first-month.md");

@@ -1,4 +1,4 @@
-//! Tests of memory: a player that replays what coins published is found, others are not.
+//! Tests of memory. A player that replays the published wins of coins is detected, and other players are not.
 
 use crate::arcade::{copy_tree, files, run, text};
 use base::Digest;
@@ -15,10 +15,10 @@ use std::fs;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
-/// The number of games, each with a level: enough for twelve coins to be evidence after correction.
+/// The number of games, each with one level. Twelve coins are enough evidence after correction.
 const GAMES: u32 = 12;
 
-/// A game of fetching the gem and leaving; each game has another limit.
+/// Returns a game in which the player fetches the gem and leaves. Each game has a different limit.
 fn source(limit: u32) -> String {
     format!(
         "BasicGame\n    SpriteSet\n        floor > Immovable\n        wall > Immovable\n        gem > Immovable color=YELLOW\n        \
@@ -47,8 +47,8 @@ fn corpus() -> Corpus {
     Corpus { games: (0..GAMES).map(game).collect() }
 }
 
-/// A folder with a sealed release: its parts in `public` and `held`, all of it in `revealed`, its siblings in `siblings`, and the
-/// results of two players on both.
+/// A folder with a sealed release. The parts of the release are in `public` and `held`, the whole release in
+/// `revealed`, and its siblings in `siblings`. The folder also has the results of two players on release and siblings.
 static COINS: LazyLock<TempDir> = LazyLock::new(|| {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
@@ -96,13 +96,13 @@ static COINS: LazyLock<TempDir> = LazyLock::new(|| {
     home
 });
 
-/// A program that replays the published win of a game that it knows by the name and the place of its exit, and does nothing in
-/// others.
+/// Returns a program that replays the published win of a game. It recognises the game by the name and the position of
+/// its exit, and does nothing in other games.
 fn memoriser(games: &[ReleasedGame]) -> String {
     let turn = "\"type\":\"turn\"";
     let mut script = format!("plan=nil; while read -r line; do case $line in *'{turn},\"turn\":0,'*)\n");
     for ReleasedGame { game, levels, .. } in games {
-        // After the floor, the wall, the gem and a type of the engine's.
+        // The exit follows the floor, the wall, the gem and a type of the engine's.
         let exit = game.sprite_types().map(|stype| game.name(stype)).nth(4).unwrap();
         let symbol =
             (0..128_u8).find(|&symbol| game.places(symbol).iter().any(|&stype| game.name(stype) == exit));
@@ -148,7 +148,7 @@ fn a_clean_player_is_not() {
         "{found:#}"
     );
     assert_eq!(found["findings"]["tests"], 4);
-    // It heeds no names, so its episodes on siblings are the same.
+    // The player ignores names, so its episodes on siblings are the same.
     let games = &players[1]["games"];
     assert_eq!((&games["published"], &games["informative"]), (&games["withheld"], &0.into()));
     let alone = ["study", "contamination", "clean-published", "clean-withheld", "--release", "revealed"];
@@ -196,7 +196,7 @@ fn wrong_inputs_name_the_next_move() {
     refused(&[published, published, "--release", "revealed"], "another folder has the same episodes");
 }
 
-/// The wins that coins published come out before the rest, under the same root.
+/// The wins that coins published are revealed before the other files, under the same root.
 #[test]
 fn solutions_are_revealed_before_the_rest() {
     let (home, made) = (tempfile::tempdir().unwrap(), COINS.path());
@@ -223,14 +223,14 @@ fn solutions_are_revealed_before_the_rest() {
     assert!(said.contains("the parts that the coins of `coins` withheld are missing"), "{said}");
     run(folder, &["release", "solved", "--reveal", "held", "--out", "revealed"], 0);
     assert_eq!(files(&folder.join("revealed")), all);
-    // A part of them is none.
+    // If one of the revealed files is missing, the release does not verify.
     let first = there.keys().find(|path| path.contains('/')).unwrap();
     fs::remove_file(folder.join("solved/held").join(first)).unwrap();
     let said = text(&run(folder, &["verify", "solved"], 1).stdout);
     assert!(said.contains("missing"), "{said}");
 }
 
-/// A release's seed gives all that its coins withheld, again.
+/// A release's seed reproduces everything that its coins withheld.
 #[test]
 fn coins_are_minted_again_bit_for_bit() {
     let (corpus, store) = (corpus(), Memory::default());
@@ -241,14 +241,14 @@ fn coins_are_minted_again_bit_for_bit() {
     assert_eq!(minted.compared.differences, Vec::<String>::new());
 }
 
-/// A change of the files of a release.
+/// A change to the files of a release.
 type Forgery<'a> = &'a dyn Fn(&mut BTreeMap<String, Vec<u8>>);
 
 #[test]
 fn what_was_withheld_is_verified() {
     let said = text(&run(COINS.path(), &["verify", "revealed"], 0).stdout);
     assert!(said.contains("24 witnesses replayed to a win\n"), "{said}");
-    // Both siblings are renamings: neither is the game of the corpus, so nothing public tells which one was withheld.
+    // Both siblings are renamings, and neither is the corpus game, so nothing public shows which one was withheld.
     let released = Released::read(&COINS.path().join("revealed")).unwrap();
     let corpus: Vec<Digest> =
         corpus().games.iter().map(|game| Game::from_source(&game.source).unwrap().digest()).collect();
@@ -256,7 +256,7 @@ fn what_was_withheld_is_verified() {
         let sibling = game.sibling.as_ref().unwrap().game.digest();
         assert!(!corpus.contains(&game.game.digest()) && !corpus.contains(&sibling), "{}", game.card.id);
     }
-    // The length of the shortest win would tell which of two wins was published.
+    // The length of the shortest win would reveal which of two wins was published.
     let all = files(&COINS.path().join("revealed"));
     for path in all.keys().filter(|path| path.starts_with("held/seconds/")) {
         let (id, level) = path["held/seconds/".len()..].split_once('/').unwrap();
@@ -264,7 +264,7 @@ fn what_was_withheld_is_verified() {
         let game = released.games.iter().find(|game| game.card.id == id).unwrap();
         assert_eq!(game.card.levels[number].optimal_ticks, None, "{path}");
     }
-    // Forgeries with a root of their own.
+    // These forgeries have their own root.
     let forged = |change: Forgery<'_>, words: &str| {
         let (home, mut all) = (tempfile::tempdir().unwrap(), files(&COINS.path().join("revealed")));
         let mut manifest = Manifest::parse(&all.remove(MANIFEST_FILE).unwrap()).unwrap();

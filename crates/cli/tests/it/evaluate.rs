@@ -1,4 +1,4 @@
-//! `arcade evaluate` as users run it: with players that come with the suite, and with a model behind a server that
+//! Tests of `arcade evaluate` as users run it, with built-in players, and with a model behind a server that
 //! misbehaves, is killed and resumed.
 
 use crate::arcade::{arcade, copy_of_tiny, files, run, sweeping, text};
@@ -12,7 +12,7 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
-/// A deterministic model: the same prompt gives the same answer, sometimes an unusable one.
+/// A deterministic model. The same prompt gives the same answer, which is sometimes unusable.
 fn answer(_: usize, asked: &ReceivedRequest) -> Response {
     let messages = &asked.json()["messages"];
     let draw = Digest::of(messages.to_string().as_bytes()).to_string().as_bytes()[0] % 6;
@@ -70,7 +70,7 @@ fn built_in_players() {
     assert_eq!(logs(&home.path().join("one")), logs(&home.path().join("two")));
 }
 
-/// A commitment is part of the player's name, of the log and of what `--resume` compares.
+/// A commitment is part of the player's name, of the log, and of the data that `--resume` compares.
 #[test]
 fn players_commit_to_plans() {
     let home = tempfile::tempdir().unwrap();
@@ -97,7 +97,7 @@ fn players_commit_to_plans() {
     assert!(text(&report.stdout).contains("mcts:20 (commit=3)"), "{}", text(&report.stdout));
 }
 
-/// A person at a terminal sees the prompts of a model, and may leave in the middle.
+/// A person at a terminal sees the prompts of a model, and may leave in the middle of an episode.
 #[test]
 fn human_players_resume() {
     use std::io::Write;
@@ -164,8 +164,8 @@ fn model_answers_are_recorded_and_counted() {
     }
 }
 
-/// Killed at many moments and resumed: the logs equal those of an undisturbed run, and no recorded answer is
-/// requested again.
+/// An evaluation is killed at many moments and resumed. Its logs equal those of an undisturbed run, and no recorded
+/// answer is requested again.
 #[test]
 fn killed_evaluations_lose_nothing() {
     let slow = |number: usize, asked: &ReceivedRequest| {
@@ -193,7 +193,7 @@ fn killed_evaluations_lose_nothing() {
             .stderr(Stdio::null());
         let mut child = command.spawn().unwrap();
         let answered = server.received().len();
-        // The moment depends on progress, so that slow machines are killed in the same places.
+        // The moment depends on progress, so that evaluations on slow machines are killed at the same points.
         while server.received().len() < answered + 1 + kill % 7 && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(1));
         }
@@ -209,7 +209,8 @@ fn killed_evaluations_lose_nothing() {
     assert!(asked <= needed + 2 * kills, "{asked} requests for {needed} answers");
 }
 
-/// An evaluation of a model without a single usable answer stops, unless the user insists; one with some is warned of.
+/// An evaluation of a model without a single usable answer stops, unless the user insists. An evaluation with some
+/// usable answers gets a warning.
 #[test]
 fn useless_answers_stop_the_evaluation() {
     let server = Server::start(|_, _| Response::completion("I would rather not."));
@@ -227,7 +228,7 @@ fn useless_answers_stop_the_evaluation() {
         told.contains("none is usable, so no more requests are sent; --resume --keep-going continues"),
         "{told}"
     );
-    // It may be mended, or not.
+    // Resuming may or may not help.
     run(home.path(), &asking(&url, &[&long[..], &["--resume"]].concat()), 1);
     assert_eq!(server.received().len(), 40);
     let ended = run(home.path(), &asking(&url, &[&long[..], &["--resume", "--keep-going"]].concat()), 0);
@@ -244,7 +245,7 @@ fn useless_answers_stop_the_evaluation() {
     assert!(told.contains("warning: 16 of 48 decisions have no usable answer (16 invalid)"), "{told}");
 }
 
-/// Server failures are not the model's fault: the episode stays open, no step is lost, and --resume goes on.
+/// Server failures are not the model's fault. The episode stays open, no step is lost, and --resume continues.
 #[test]
 fn failing_servers_leave_episodes_open() {
     let bad: [fn() -> Response; 5] = [
@@ -271,7 +272,7 @@ fn failing_servers_leave_episodes_open() {
             .filter(|event| matches!(event, Event::Halt { reason, .. } if reason == "infrastructure"));
         assert!(halts.count() >= 1, "{kind}");
         drop(failing);
-        // The server is back, at another port: its address has no influence on the answers of a model on this
+        // The server is back at a different port. Its address has no influence on the answers of a model on this
         // machine.
         let server = Server::start(answer);
         let url = server.base_url();
@@ -296,7 +297,7 @@ fn caps_hold_and_can_be_raised() {
     let capped = json(&run(home.path(), &asking(&url, &["--max-requests", "7"]), 1));
     assert_eq!(capped["spent"]["requests"], 7);
     assert_eq!(server.received().len(), 7);
-    // All counts of them agree, even if several episodes reach the cap at once.
+    // All of these counts agree, even if several episodes reach the cap at once.
     assert_eq!(capped["tally"]["halted"], "the next request would exceed --max-requests 7");
     let told = json(&run(home.path(), &["--json", "report", "results", "--out", "capped"], 0));
     let player = &told["players"][0];
@@ -320,7 +321,7 @@ fn dry_runs_send_nothing_and_print_the_forecast() {
     let forecast = json(&run(home.path(), &asking(&server.base_url(), &["--dry-run"]), 0));
     assert_eq!((&forecast["episodes"], &forecast["requests"]), (&2.into(), &24.into()));
     assert!(forecast["input_tokens"].as_u64().unwrap() > 24 * 300);
-    // As planned, and as many episodes on as many games.
+    // The forecast covers the planned evaluation, and an evaluation with as many episodes on as many games.
     assert_eq!(forecast["power"].as_array().unwrap().len(), 2);
     assert_eq!((&forecast["answer_tokens"], &forecast["max_output_tokens"]), (&100.into(), &Value::Null));
     let url = server.base_url();
@@ -329,7 +330,7 @@ fn dry_runs_send_nothing_and_print_the_forecast() {
     assert_eq!((&forecast["output_tokens"], &forecast["max_output_tokens"]), (&2400.into(), &96_000.into()));
     let said = text(&run(home.path(), &bounded[1..], 0).stdout);
     assert!(said.contains("assuming 100 tokens per answer; at most 0.10 M"), "{said}");
-    // A Timeout of the game bounds the steps, whatever --max-steps says.
+    // A Timeout of the game bounds the steps, regardless of --max-steps.
     let unbounded =
         ["--json", "evaluate", "hailglass", "--levels", "0", "--model", "openai:gpt-4o", "--dry-run"];
     assert_eq!(json(&run(home.path(), &unbounded, 0))["requests"], 401);
@@ -410,14 +411,14 @@ fn malformed_requests_are_reported() {
     let told = keyless.output().unwrap();
     assert_eq!(told.status.code(), Some(2));
     assert!(text(&told.stderr).contains("OPENAI_API_KEY is not set") && !home.path().join("k").exists());
-    // A question other than the one that the folder holds.
+    // The folder holds the results of a different question.
     run(home.path(), &["evaluate", "hailglass", "--levels", "0", "--player", "random", "--out", "r"], 0);
     let other = ["hailglass", "--levels", "0", "--player", "nil", "--out", "r", "--resume"];
     assert!(refusal(&other).contains("a different player, model, prompt or decoding"));
     assert!(refusal(&["hailglass", "--player", "nil", "--out", "r"]).contains("not empty"));
 }
 
-/// `--resume` refuses logs that a report would refuse.
+/// `--resume` rejects logs that a report would reject.
 #[test]
 fn edited_logs_are_not_certified() {
     let home = tempfile::tempdir().unwrap();
@@ -457,7 +458,7 @@ fn impossible_token_counts_are_rejected() {
     let played = json(&run(home.path(), &asking(&server.base_url(), &["--max-tokens", "1000000"]), 0));
     assert!(played["spent"]["tokens"].as_u64().unwrap() < 1_000_000, "{played}");
     assert_eq!(played["spent"]["cost"], Value::Null, "its price is not known");
-    // Older results may hold such counts.
+    // Older results may contain such counts.
     let log = home.path().join("results/episodes/hailglass-lvl0-run0.jsonl");
     let before = std::fs::read_to_string(&log).unwrap();
     let huge = before.replace("\"input_tokens\":null", "\"input_tokens\":18446744073709551615");
@@ -466,7 +467,7 @@ fn impossible_token_counts_are_rejected() {
     run(home.path(), &["report", "results", "--out", "told"], 0);
 }
 
-/// Each planner may be named only once, and a table that cannot be written does not lose the answer.
+/// Each planner may be specified only once. If a table cannot be written, the answer is not lost.
 #[test]
 fn runs_are_refused_before_they_are_played() {
     let home = tempfile::tempdir().unwrap();
@@ -484,7 +485,7 @@ fn runs_are_refused_before_they_are_played() {
     assert!(told.contains("its folder does not exist") && !told.contains("episodes"), "{told}");
 }
 
-/// A request for more concurrent episodes than there are is reported and reduced.
+/// A request for more concurrent episodes than there are episodes is reported and reduced.
 #[test]
 fn concurrency_is_bounded_by_episodes() {
     let home = tempfile::tempdir().unwrap();
@@ -526,7 +527,7 @@ const STOPPED: &str = "BasicGame\n SpriteSet\n  ghost > PathChaser stype=hero\n 
                        LevelMapping\n  G > ghost\n  g > gem\n  H > hero\n InteractionSet\n  gem hero > killSprite\n \
                        TerminationSet\n  SpriteCounter stype=gem win=True\n";
 
-/// Episodes that the engine stops are no losses of the players: every table says so, with the reason.
+/// Episodes that the engine stops are not losses of the players. Every table states this with the reason.
 #[test]
 fn episodes_stopped_by_the_engine_are_reported() {
     let home = tempfile::tempdir().unwrap();
@@ -550,14 +551,14 @@ fn episodes_stopped_by_the_engine_are_reported() {
     assert!(text(&told.stderr).contains(&format!("2 episodes were stopped by the engine in halted ({why})")));
     let page = std::fs::read_to_string(home.path().join("report/report.md")).unwrap();
     assert!(page.contains("was stopped by the engine: a path was requested"), "{page}");
-    // A report replaces nothing, and the advice works.
+    // A report replaces no existing files, and the printed advice works.
     let told = text(&run(home.path(), &["report", "r", "--out", "report"], 2).stderr);
     assert!(told.contains("`report` is not empty") && told.contains("--out report-2"), "{told}");
     let told = text(&run(home.path(), &[&asked[..], &["--resume"]].concat(), 1).stdout);
     assert!(told.contains("now: arcade report r --out report-2"), "{told}");
 }
 
-/// Requests that cannot work are refused before a folder is written, and the advice works as printed.
+/// Requests that cannot work are rejected before a folder is written, and the printed advice works.
 #[test]
 fn players_that_cannot_read_the_prompt_are_refused() {
     let home = tempfile::tempdir().unwrap();
@@ -587,7 +588,7 @@ fn rejected_models_leave_no_results() {
     assert!(home.path().join("results").exists());
 }
 
-/// A game that a server rejects is left open, and the others are played.
+/// A game that a server rejects is left open, and the other games are played.
 #[test]
 fn games_that_a_server_rejects_do_not_end_the_run() {
     let home = tempfile::tempdir().unwrap();
@@ -614,7 +615,8 @@ fn models_can_have_names() {
     assert!(told.contains("--levels, --games or --max-requests"), "{told}");
 }
 
-/// A limit of steps below the known wins of a release is told before it is paid for, and in the report.
+/// If the limit of steps is below the known wins of a release, the user is warned before any cost arises, and in the
+/// report.
 #[test]
 fn limits_below_known_wins_are_told() {
     let (home, _) = copy_of_tiny();
@@ -666,8 +668,8 @@ fn results_and_reports_in_non_utf8_folders() {
     }
 }
 
-/// A full disk, simulated by a limit on the size of files. It is an environment failure, and with room again the
-/// episode continues.
+/// The disk is full, which is simulated by a limit on the size of files. This is an environment failure, and the
+/// episode continues once there is room again.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_stops_and_loses_nothing() {
@@ -690,7 +692,7 @@ fn a_full_disk_stops_and_loses_nothing() {
     let undisturbed = tempfile::tempdir().unwrap();
     run(undisturbed.path(), &asking(&url, &more), 0);
     assert_eq!(logs(&home.path().join("results")), logs(&undisturbed.path().join("results")));
-    // If not even the settings fit, nothing that looks like an evaluation is left.
+    // If not even the settings fit, no files are left that look like an evaluation.
     let other = tempfile::tempdir().unwrap();
     let script = "trap '' XFSZ; ulimit -f 0; exec \"$@\"";
     let mut command = std::process::Command::new("sh");

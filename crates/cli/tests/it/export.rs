@@ -1,4 +1,4 @@
-//! Snapshots as datasets: the exports of `tiny`.
+//! Tests of snapshots as datasets, with exports of `tiny`.
 
 use crate::arcade::{TINY, files, run, text};
 use serde_json::Value;
@@ -38,7 +38,7 @@ fn rows_match_the_release() {
         }
         assert_eq!((&row["game_digest"], &row["level_digest"]), (&card["digest"], &level["digest"]));
         assert_eq!(row["witness_ticks"], level["witness_ticks"]);
-        // The legend has every character of the board except blanks.
+        // The legend has every character of the board except spaces.
         let legend = row["legend"].as_array().unwrap();
         let known = |symbol: char| legend.iter().any(|line| line["symbol"] == symbol.to_string());
         let board = row["level_text"].as_str().unwrap();
@@ -79,7 +79,7 @@ fn solutions_are_exported_on_request_only() {
         assert_eq!(actions.len() as u64, row["witness_ticks"].as_u64().unwrap());
         assert!(row["solution_seed"].is_string());
     }
-    // A plain export holds nothing of any witness file: neither seed nor hashes, nor the actions under any name.
+    // A plain export contains nothing of any witness file: neither seeds nor hashes, nor actions under any name.
     for (out, format) in [
         ("plain", "jsonl"),
         #[cfg(feature = "parquet")]

@@ -1,11 +1,12 @@
-//! `arcade generate levels`: the same bytes on any number of threads, levels that meet the request, and clear errors.
+//! Tests of `arcade generate levels`: the same bytes on any number of threads, levels that meet the request, and
+//! clear errors.
 
 use crate::arcade::{files, run, sweeping, text};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// Generates levels of a corpus game, or of one in the folder; returns the answer as JSON.
+/// Generates levels of a corpus game, or of a game in the folder. Returns the answer as JSON.
 #[track_caller]
 fn generate(folder: &Path, game: &str, out: &str, more: &[&str], status: i32) -> Value {
     let args = ["--json", "generate", "levels", "--game", game, "--out", out];
@@ -24,7 +25,7 @@ fn same_bytes(method: &str, game: &str) {
     assert_eq!(made.keys().filter(|name| name.starts_with("lvl")).count(), 2);
     assert_eq!(asked["levels"].as_array().unwrap().len(), 2);
     assert_ne!(made["lvl0.txt"], made["lvl1.txt"]);
-    // The result is a game with levels; a win replays on its level.
+    // The result is a game with levels, and a win replays on its level.
     if let Some(witness) = made.keys().find(|name| name.starts_with("witness/")) {
         let picture = ["render", "one", "0", "--episode", &format!("one/{witness}"), "-o", "-"];
         assert!(text(&run(home.path(), &picture, 0).stdout).contains("won"));
@@ -69,7 +70,7 @@ fn levels_keep_the_requested_counts() {
     assert!(home.path().join("report/report.html").exists() && home.path().join("report/sheet.png").exists());
 }
 
-/// A request for more sprites than fit: every draw fails, and the answer says so.
+/// The user requests more sprites than fit. Every draw fails, and the answer states this.
 #[test]
 fn impossible_requests_end_without_a_level() {
     let home = tempfile::tempdir().unwrap();
@@ -80,7 +81,7 @@ fn impossible_requests_end_without_a_level() {
         "--game",
         "hailglass",
         "--method",
-        // A search takes ten times as long to give up.
+        // A search takes ten times as long before it stops.
         if sweeping() { "search" } else { "constructive" },
         "--count",
         "1",

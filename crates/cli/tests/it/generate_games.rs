@@ -1,4 +1,5 @@
-//! `arcade generate games`: the same bytes on any number of threads, games that validate and play, and clear errors.
+//! Tests of `arcade generate games`: the same bytes on any number of threads, games that validate and play, and clear
+//! errors.
 
 use crate::arcade::{arcade, files, run, sweeping, terminate, text};
 use serde_json::Value;
@@ -8,7 +9,7 @@ use std::process::Stdio;
 use std::thread;
 use std::time::Duration;
 
-/// Generates games; returns the answer as JSON.
+/// Generates games. Returns the answer as JSON.
 #[track_caller]
 fn generate(folder: &Path, out: &str, more: &[&str], status: i32) -> Value {
     let args = ["--json", "generate", "games", "--out", out];
@@ -16,7 +17,7 @@ fn generate(folder: &Path, out: &str, more: &[&str], status: i32) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_default()
 }
 
-/// Checks that games have levels that play, as many as there are games, and that their report is complete.
+/// Checks that there are `count` games with `count` playable levels each, and that their report is complete.
 #[track_caller]
 fn are_whole(home: &Path, made: &str, told: &Value, count: usize) {
     let report = files(&home.join("report"));
@@ -37,8 +38,8 @@ fn are_whole(home: &Path, made: &str, told: &Value, count: usize) {
     }
 }
 
-/// In `cargo xtask sweep` only: a run below continues with a different number of threads, and the crate `forge` tests the searches for
-/// inventions.
+/// This test runs only in `cargo xtask sweep`. A test below continues with a different number of threads, and the crate
+/// `forge` tests the searches for inventions.
 #[test]
 fn games_are_the_same_on_any_number_of_threads() {
     if !sweeping() {
@@ -53,7 +54,7 @@ fn games_are_the_same_on_any_number_of_threads() {
     assert!(made == files(&home.path().join("three")), "games depend on the number of threads");
 }
 
-/// Three threads make the games at one go, one thread makes them with a break.
+/// Three threads make the games without a break, and one thread makes them with an interruption.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_goes_on_with_the_same_bytes() {

@@ -1,5 +1,5 @@
-//! The names under which games and levels are found: folders, the layout of the public games, levels alone, other
-//! dialects.
+//! Tests of the names under which games and levels are found: folders, the layout of the public games, single
+//! levels, and other dialects.
 
 use crate::arcade::{run, text};
 use serde_json::Value;
@@ -9,7 +9,8 @@ use tempfile::TempDir;
 
 const GAME: &str = "BasicGame\n    SpriteSet\n        gem > Immovable\n        avatar > MovingAvatar\n    LevelMapping\n        g > gem\n    InteractionSet\n        gem avatar > killSprite scoreChange=1\n        avatar wall > stepBack\n    TerminationSet\n        SpriteCounter stype=gem win=True\n        Timeout limit=9 win=False\n";
 
-/// A folder with two games as the public ones are stored, a game in a folder, and levels elsewhere.
+/// Returns a folder with two games in the layout of the public games, a game in its own folder, and levels
+/// elsewhere.
 fn home() -> TempDir {
     let home = tempfile::tempdir().unwrap();
     let at = |name: &str| home.path().join(name);
@@ -39,7 +40,7 @@ fn json(folder: &Path, args: &[&str], status: i32) -> Value {
     serde_json::from_slice(&run(folder, &args, status).stdout).unwrap()
 }
 
-/// The games and levels that `run` plays.
+/// Returns the games and levels that `run` plays.
 #[track_caller]
 fn played(folder: &Path, games: &[&str]) -> Vec<String> {
     let options = ["--planner", "do-nothing", "--runs", "1", "--max-ticks", "1", "--by-level"];
@@ -67,7 +68,7 @@ fn what_is_not_taken_as_a_level_is_told() {
     let told = said(&[&["run", "mine"], &play[..]].concat(), 0);
     assert_eq!(told.matches("is ignored, because").count(), 2, "{told}");
     assert!(told.contains("like `lvl2.txt`"), "{told}");
-    // A level that the user names is taken.
+    // A level that the user specifies is accepted.
     let told =
         said(&["run", "mine/level0.txt", "--planner", "do-nothing", "--runs", "1", "--max-ticks", "1"], 0);
     assert!(!told.contains("is ignored, because"), "{told}");

@@ -1,4 +1,5 @@
-//! A public log of a sealed month: committed to, waiting for its beacon, minted, revealed, played.
+//! Tests of the public log of a sealed month, which is committed to, waits for its beacon, and is minted, revealed and
+//! played.
 
 use crate::arcade::{TINY, commit, copy_tree, files, run, text};
 use serde_json::{Map, Value, json};
@@ -18,7 +19,7 @@ const RECIPE: &str = "name = '2027-01'\ndescription = 'x'\ncommitment = 'COMMITM
     levels = 1\ncandidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\ndepths = [10, 25]\n\
     random_plays = 20\n[beacon]\nsource = 'drand quicknet'\nround = 1000\n";
 
-/// Two rounds of drand quicknet, as it serves them.
+/// Two rounds of drand quicknet in the form in which it serves them.
 const ROUND_123: [&str; 2] = [
     "fb8f7bc29bf24db51871ec8c79f3a1e4bd0557bc0dfcee9ed1d924e69d1c60dc",
     "b75c69d0b72a5d906e854e808ba7e2accb1542ac355ae486d591aa9d43765482e26cd02df835d3546d23c4b13e0dfc92",
@@ -76,7 +77,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     append(&["--commitment", "2027-01.toml"], 2, "a publisher may commit only once");
     run(folder, &["trust", "log", "check", "log", "--key", "log.pub", "--save", "seen"], 0);
 
-    // Nothing is minted before the value is known, and with no other value.
+    // Nothing is minted before the value is known, or with a different value.
     let mint = ["release", "2027-01.toml", "--secret", "2027-01.secret.json", "--out", "out"];
     says(folder, &mint, 2, "pass its value with --beacon FILE, once it is published");
     let minted = |file: &str, words: &str| {
@@ -84,7 +85,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     };
     drand(folder, "other.json", 123, ROUND_123);
     minted("other.json", "specifies round 1000 of drand quicknet");
-    // A value that the publisher likes better has no signature of the network.
+    // A value that the publisher prefers has no signature of the network.
     beacon(folder, "chosen.json", "drand quicknet", 1000, &"ab".repeat(32));
     minted("chosen.json", "has no `signature` of round 1000 of drand quicknet");
     drand(folder, "chosen.json", 1000, ROUND_123);
@@ -136,7 +137,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     check(&["--month", "2027-13"], 2, "not a month: write a year and a month, such as 2027-03");
     check(&["--proof", "proof", "--entry", "entry"], 2, "cannot be used with");
 
-    // Proofs without the log.
+    // Proofs are checked without the log.
     let prove = |more: &[&str], status: i32, words: &str| {
         says(folder, &[&["trust", "log", "prove", "log"], more].concat(), status, words);
     };
@@ -151,7 +152,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     says(folder, &[&growth[..], &["seen"]].concat(), 0, "has grown from 1 to 4 entries");
     says(folder, &[&growth[..], &["seen-2"]].concat(), 1, "NOT proved to have only grown");
 
-    // A witness signs what continues what it signed before.
+    // A witness signs only extensions of what it signed before.
     run(folder, &["trust", "keygen", "w", "--no-password"], 0);
     let witness = [
         "trust",
@@ -173,7 +174,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     check(&["--witness", "w.example=w.pub", "--seen", "seen-2", "--save", "witnessed"], 0, "sound");
     run(folder, &[&witness[..], &["--seen", "witnessed"]].concat(), 0);
 
-    // The copy, taken back to its first entry, and continued in another way.
+    // The copy is rolled back to its first entry and continued in a different way.
     let rolled = ["trust", "log", "check", "copy", "--key", "log.pub", "--seen", "seen-2"];
     says(folder, &rolled, 1, "the log was rolled back: its number of entries is 1, but 4 were seen before");
     let forks =
@@ -191,7 +192,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     );
     says(folder, &["trust", "log", "check", "copy", "--key", "w.pub"], 1, "is not signed by the key");
     says(folder, &["trust", "log", "check", "revealed", "--key", "w.pub"], 2, "has no `checkpoint` file");
-    // Files that somebody damaged are an answer too.
+    // If files are damaged, that is an answer too.
     let entries = folder.join("copy/tile/entries/000.p/4");
     let bytes = fs::read(&entries).unwrap();
     let copy = ["trust", "log", "check", "copy", "--key", "log.pub"];
@@ -203,7 +204,8 @@ fn a_sealed_month_waits_for_its_beacon() {
     says(folder, &copy, 1, "the log is cut");
 }
 
-/// A commitment cannot be taken back, so what would make the root of its release impossible is refused.
+/// A commitment cannot be withdrawn. A commitment that would make the root of its release impossible is therefore
+/// rejected.
 #[test]
 fn a_commitment_that_leads_nowhere_is_refused() {
     let home = tempfile::tempdir().unwrap();
@@ -234,11 +236,12 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     assert!(said.contains("instead of `seed` or, if there is none, above the first [table]"), "{said}");
     fs::write(folder.join("2027-02.toml"), february(&commitment)).unwrap();
 
-    // The parent is not in the log: neither could the release be.
+    // The parent is not in the log, so the release could not be in it either.
     let first = ["--commitment", "2027-02.toml", "--parent", "tiny", "--origin", "example.org/arcade"];
     append(&first, 2, "which is not in the log, so its own root could not be appended later");
     append(&["--release", "tiny", "--unsigned", "--origin", "example.org/arcade"], 0, "after no release");
-    // The parent was forgotten; it was left out on purpose, but not so committed to; another recipe.
+    // In the first case, the parent was forgotten. In the second, it was left out on purpose, but not in the
+    // commitment. In the third, the recipe differs.
     append(
         &["--commitment", "2027-02.toml"],
         2,
@@ -261,7 +264,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     says(folder, &arguments, 0, "commitment   2027-02, after `tiny`");
 }
 
-/// A log that states a set of keys which is made again afterwards could state no further set.
+/// If a log states a set of keys that is later made again, the log can state no further set.
 #[test]
 fn a_set_of_keys_that_nobody_follows_is_not_entered() {
     let home = tempfile::tempdir().unwrap();
@@ -283,7 +286,7 @@ fn a_set_of_keys_that_nobody_follows_is_not_entered() {
     append("trust/keys-2.json", 0, "keys         2");
 }
 
-/// A scale without examinees, of one release.
+/// Returns a scale of one release, without examinees.
 fn scale_of(root: &Value) -> String {
     let none = json!({ "value": 0.0, "error": 1.0 });
     let names = ["game", "level", "family", "planner", "game_slope", "level_slope"];
@@ -301,7 +304,7 @@ fn scale_of(root: &Value) -> String {
     scale.to_string()
 }
 
-/// Files of another kind, and none at all: each message names the file and the next move.
+/// For files of a different kind, and for missing files, each message states the file and the next step.
 #[test]
 fn wrong_files_are_named() {
     let home = tempfile::tempdir().unwrap();
@@ -453,7 +456,7 @@ fn rows_are_replayed() {
         fs::remove_file(folder.join("results/games/again")).unwrap();
     }
 
-    // A log of an episode whose result was altered: its folder is no longer the one of the row, and it does not replay.
+    // The log of an episode has an altered result. Its folder no longer matches the row, and it does not replay.
     let episodes = folder.join("results/episodes");
     let episode = fs::read_dir(&episodes).unwrap().map(|entry| entry.unwrap().path()).min().unwrap();
     let honest = fs::read_to_string(&episode).unwrap();
@@ -470,7 +473,7 @@ fn rows_are_replayed() {
     assert!(!said.contains("are already in the log"), "{said}");
 }
 
-/// The program in Python that shares no code with this one. Where it cannot run, a note says so.
+/// The Python program shares no code with this program. If it cannot run, a note states this.
 #[test]
 #[allow(clippy::print_stdout, reason = "a skipped test says so")]
 fn an_independent_program_agrees() {
@@ -502,7 +505,7 @@ fn an_independent_program_agrees() {
     };
     let (status, said) = check();
     let held = said.starts_with("3 entries, 1 releases, 1 sets of keys, 1 beacons");
-    // Without py_ecc it says that the signature of the round was not checked.
+    // Without py_ecc, it states that the signature of the round was not checked.
     assert!(status == Some(0) && held && said.ends_with(": sound\n"), "{said}");
     let level =
         files(&folder.join("releases/tiny")).into_keys().find(|name| name.ends_with("lvl0.txt")).unwrap();

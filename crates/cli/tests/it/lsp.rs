@@ -1,4 +1,5 @@
-//! The language server as an editor runs it: a client that counts in UTF-16 conducts whole sessions with the binary.
+//! Tests of the language server as an editor runs it. A client that counts in UTF-16 conducts whole sessions with the
+//! binary.
 
 use crate::arcade::{arcade, run, text};
 use base::{Sampler, Seed};
@@ -16,12 +17,12 @@ struct Client {
     input: ChildStdin,
     output: BufReader<ChildStdout>,
     requests: i64,
-    /// Notifications that nobody has asked for yet.
+    /// The notifications that have not been requested yet.
     told: Vec<Value>,
 }
 
 impl Client {
-    /// Starts a server in a folder, without a word.
+    /// Starts a server in a folder without sending any message.
     fn start(folder: &Path) -> Client {
         let mut process =
             arcade(folder).args(["lsp"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
@@ -30,7 +31,7 @@ impl Client {
         Client { process, input, output, requests: 0, told: Vec::new() }
     }
 
-    /// Starts a session in which positions are counted as `encodings` offer.
+    /// Starts a session that offers `encodings` for counting positions.
     fn begin(folder: &Path, encodings: &[&str]) -> Client {
         let mut client = Client::start(folder);
         let capabilities = json!({
@@ -72,7 +73,7 @@ impl Client {
         serde_json::from_slice(&body).unwrap()
     }
 
-    /// Returns the answer to a request, a result or an error.
+    /// Returns the response to a request, which is a result or an error.
     fn answer(&mut self, method: &str, params: &Value) -> Value {
         self.requests += 1;
         let id = self.requests;
@@ -133,14 +134,14 @@ impl Client {
     }
 }
 
-/// Returns the position of a byte, counted in UTF-16.
+/// Returns the position of a byte, counted in UTF-16 code units.
 fn position(text: &str, at: usize) -> Value {
     let line = text[..at].matches('\n').count();
     let start = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
     json!({ "line": line, "character": text[start..at].encode_utf16().count() })
 }
 
-/// Returns the byte of a position that is counted in UTF-16.
+/// Returns the byte of a position that is counted in UTF-16 code units.
 fn byte(text: &str, position: &Value) -> usize {
     let line = position["line"].as_u64().unwrap() as usize;
     let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
@@ -155,7 +156,7 @@ fn byte(text: &str, position: &Value) -> usize {
     text.len()
 }
 
-/// Returns the text after edits of the protocol, which an editor makes from the last to the first.
+/// Returns the text after edits of the protocol. An editor makes these edits from the last to the first.
 fn edited(text: &str, edits: &Value) -> String {
     let mut places: Vec<(usize, usize, &str)> = edits
         .as_array()
@@ -271,13 +272,13 @@ fn levels_follow_their_game() {
     let root = format!("file://{}/a%20game", home.path().display());
     let (level, source) = (format!("{root}/lvl0.txt"), format!("{root}/game.vgdl"));
     let mut client = Client::begin(home.path(), &["utf-16"]);
-    // The game on disk.
+    // The game is only on disk.
     client.open(&level, "h m\n");
     let found = client.diagnostics(&level, 1);
     assert_eq!(found[0]["code"], "undefined-character");
     let hover = client.ask("textDocument/hover", &at(&level, "h m\n", "h"));
     assert!(hover["contents"]["value"].as_str().unwrap().contains("`hero`: MovingAvatar"), "{hover}");
-    // The open game, which has another character.
+    // The game is open, and has a different character.
     let open = game.replace("n > nut", "m > nut");
     client.open(&source, &open);
     assert_eq!(client.diagnostics(&level, 1), Vec::<Value>::new());
@@ -309,8 +310,8 @@ fn positions_are_counted_as_agreed() {
     }
 }
 
-/// Applies 200 random changes by ranges, and compares what the server says of the document with what it says of a new
-/// one with the text that the client has.
+/// Applies 200 random changes by ranges. The server's statements about the document must equal its statements about a
+/// new document with the client's text.
 #[test]
 fn changes_by_ranges_equal_whole_texts() {
     let home = tempfile::tempdir().unwrap();
@@ -329,7 +330,8 @@ fn changes_by_ranges_equal_whole_texts() {
         let rest = boundary(&mut sampler, &own[start..]);
         let end = start + own[start..start + rest.min(40)].char_indices().last().map_or(0, |(at, _)| at);
         let piece = *sampler.choose(&pieces);
-        // A client never splits `\r\n`, and neither may its ranges.
+        // A client never splits `\r
+        // `, and neither may the ranges of this test.
         if own[..start].ends_with('\r') || own[..end].ends_with('\r') {
             client.change(uri, version, &json!([]));
         } else {
@@ -424,8 +426,8 @@ fn a_client_that_leaves_without_a_word_is_status_1() {
     let Client { mut process, input, .. } = Client::begin(home.path(), &[]);
     drop(input);
     assert_eq!(process.wait().unwrap().code(), Some(1));
-    // One that no longer reads. A process that another test is about to start has the closed end for a moment, so that the first
-    // answer may still find a reader.
+    // This client no longer reads. A process that another test is about to start has the closed end for a moment, so
+    // the first answer may still find a reader.
     let Client { mut process, mut input, output, .. } = Client::begin(home.path(), &[]);
     drop(output);
     while process.try_wait().unwrap().is_none() {

@@ -1,4 +1,4 @@
-//! `arcade mailbox`, and `arcade evaluate` with players that answer through files.
+//! Tests of `arcade mailbox`, and of `arcade evaluate` with players that answer through files.
 
 use crate::arcade::{arcade, run, text};
 use evaluation::log::{Event, read, without_times};
@@ -16,7 +16,7 @@ fn evaluate(home: &Path, more: &[&str]) -> Child {
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// Waits until this many prompts wait in the mailbox.
+/// Waits until this number of prompts wait in the mailbox.
 fn wait(home: &Path, prompts: usize) -> Value {
     loop {
         let listed = arcade(home).args(["--json", "mailbox", "box"]).output().unwrap();
@@ -28,7 +28,7 @@ fn wait(home: &Path, prompts: usize) -> Value {
     }
 }
 
-/// Types lines at `arcade mailbox`.
+/// Types lines into `arcade mailbox`.
 fn answer(home: &Path, more: &[&str], typed: &str) -> Output {
     let mut command = arcade(home);
     command.args(["mailbox", "box"]).args(more);
@@ -46,7 +46,8 @@ fn logs(home: &Path) -> Vec<Vec<Event>> {
     EPISODES.iter().map(log).collect()
 }
 
-/// Two episodes side by side, interrupted and resumed: the same logs as without an interruption.
+/// Two episodes are played side by side, interrupted and resumed. Their logs equal those without an
+/// interruption.
 #[test]
 fn episodes_are_answered_interrupted_and_resumed() {
     let (whole, broken) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
@@ -73,7 +74,7 @@ fn episodes_are_answered_interrupted_and_resumed() {
     assert_eq!(sat.status.code(), Some(1));
     playing.kill().unwrap();
     playing.wait().unwrap();
-    // The prompts stay open: what is answered now is read later.
+    // The prompts stay open, so answers given now are read later.
     let sat = answer(broken, &["--episode", EPISODES[1]], "right\n");
     assert!(text(&sat.stdout).contains("no evaluation is running here"), "{}", text(&sat.stdout));
     let listed = wait(broken, 1);

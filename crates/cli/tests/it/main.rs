@@ -1,4 +1,4 @@
-//! The `arcade` binary as its users run it.
+//! Tests of the `arcade` binary as its users run it.
 
 mod altered_rows;
 mod arcade;

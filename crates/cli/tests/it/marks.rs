@@ -1,4 +1,4 @@
-//! Marks: players that never change, kept in a release.
+//! Tests of marks, which are the results of players that never change, kept in a release.
 
 use crate::arcade::{commit, files, run, sweeping, text};
 use std::fs;
@@ -6,14 +6,14 @@ use std::path::Path;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
-/// A recipe of three jobs, each within seconds; with this seed the marks win some of the plays.
+/// A recipe of three jobs, each of which takes seconds. With this seed, the marks win some of the episodes.
 const RECIPE: &str = "name = 'marked'\ndescription = 'x'\nseed = 'lamps'\n[corpus]\ngames = 2\nlevels = 1\n\
     candidates = 1.5\n[criteria]\ndecision = 100\nbudget = 80000\ndepths = [10, 25]\nrandom_plays = 10\n";
-/// The marks that it asks for.
+/// The marks that the recipe requests.
 const MARKS: &str = "[marks]\nplayers = ['random', 'touch-everything', 'nearest-goal', 'reflex', 'guided-mcts:60']\n\
     commits = ['1', '5', 'all']\nplays = 2\nmax_steps = 200\n";
 
-/// A folder with a release with marks in `marked`, and its recipe.
+/// A folder that contains a release with marks in `marked`, and its recipe.
 static MARKED: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     recipe(folder.path());
@@ -46,7 +46,7 @@ fn marks_are_minted_again_bit_for_bit() {
     assert_eq!(files(&whole), files(&folder.join("merged")));
 }
 
-/// In `cargo xtask sweep` only: making the games ends before the marks play.
+/// This test runs only in `cargo xtask sweep`. The games are made before the marks play.
 #[test]
 fn games_are_the_same_without_marks() {
     if !sweeping() {
@@ -64,7 +64,7 @@ fn games_are_the_same_without_marks() {
     assert!(!home.path().join("plain/MARKS.json").exists());
 }
 
-/// Anyone can play them again, with a verb that knows nothing of marks.
+/// Anyone can play the episodes of the marks again, with a subcommand that knows nothing of marks.
 #[test]
 fn marks_are_the_episodes_of_an_evaluation() {
     let (home, whole) = (tempfile::tempdir().unwrap(), MARKED.path().join("marked"));
@@ -87,11 +87,11 @@ fn marks_are_the_episodes_of_an_evaluation() {
         }
     }
     assert!(won > 0, "{marks:#}");
-    // Other numbers without another GENERATION mean that marks change after all.
+    // If these numbers differ without a new GENERATION, marks change although they must not.
     let digest = base::Digest::of(marks["games"].to_string().as_bytes());
     assert_eq!(digest.short(), "8b626bb9", "{}", marks["games"]);
 
-    // Reports show them beside the players.
+    // Reports show the marks beside the players.
     run(folder, &["report", "reflex-1", "guided-mcts-60-5", "--out", "report"], 0);
     let csv = fs::read_to_string(folder.join("report/tables/marks.csv")).unwrap();
     assert!(csv.contains("nearest-goal,mark"), "{csv}");

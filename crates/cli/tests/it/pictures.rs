@@ -1,4 +1,4 @@
-//! `arcade render` and `arcade play` as users run them, without a terminal.
+//! Tests of `arcade render` and `arcade play` as users run them, without a terminal.
 
 use crate::arcade::{run, text};
 use serde_json::Value;
@@ -30,7 +30,7 @@ fn a_witness_becomes_pictures_in_every_format() {
     let shown = draw("-", &[]);
     assert_eq!(shown["text"], fs::read_to_string(folder.path().join("end.txt")).unwrap());
     assert!(!folder.path().join("-").exists());
-    // In the form that a snapshot stores.
+    // The witness has the form in which a snapshot stores it.
     let witness = serde_json::json!({ "canary": "none", "episode": episode });
     fs::write(folder.path().join("witness.json"), witness.to_string()).unwrap();
     run(folder.path(), &["render", "foxglove-round", "--episode", "witness.json", "-o", "-"], 0);

@@ -1,10 +1,11 @@
-//! Minting a release again.
+//! Tests of minting a release again.
 
 use crate::arcade::{TINY, arcade, copy_of_tiny, copy_tree, files, run, terminate, text};
 use std::fs;
 use std::process::Stdio;
 
-/// The answer for a release of another generation names the version that mints it, and the commands to install it.
+/// The answer for a release of a different generation states the version that mints it, and the commands to
+/// install that version.
 #[test]
 fn an_old_release_names_the_version_that_regenerates_it() {
     let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/suite/snapshots/format-1");
@@ -15,7 +16,7 @@ fn an_old_release_names_the_version_that_regenerates_it() {
     assert!(stderr.contains(command), "{stderr}");
 }
 
-/// A changed seed would mint another release, so it is reported before minting.
+/// A changed seed would mint a different release, so the change is reported before minting.
 #[test]
 fn a_changed_seed_is_damage() {
     let (folder, root) = copy_of_tiny();
@@ -29,7 +30,7 @@ fn a_changed_seed_is_damage() {
     assert!(!folder.path().join("again").exists() && !folder.path().join("again.partial").exists());
 }
 
-/// Root may read any file, so there is nothing to test under it.
+/// Root may read any file, so there is nothing to test as root.
 #[allow(clippy::print_stdout, reason = "a skipped test says so")]
 #[cfg(unix)]
 #[test]
@@ -69,13 +70,13 @@ fn a_manifest_alone_is_regenerated() {
     let output = run(folder, &[&["--json"], &again[..]].concat(), 0);
     let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&document["identical"], &document["files_compared"]), (&true.into(), &false.into()));
-    // With any of its files, the others are missing.
+    // If one of the files is present, the other files are missing.
     fs::write(folder.join("bare/README.md"), fs::read(root.join("README.md")).unwrap()).unwrap();
     let said = text(&run(folder, &again, 1).stdout);
     assert!(said.contains("CARD.json: missing") && said.contains("NOT identical"), "{said}");
 }
 
-/// A finished folder is not minted again, and still compared.
+/// A finished folder is not minted again, but is still compared.
 #[test]
 fn a_finished_regeneration_is_complete() {
     let (home, root) = copy_of_tiny();
@@ -97,7 +98,7 @@ fn a_finished_regeneration_is_complete() {
     run(folder, &resumed, 2);
 }
 
-/// Without --out, an interruption loses the work: long runs say so at the start, and at the end.
+/// Without --out, an interruption loses the work. Long runs state this at the start and at the end.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_regeneration_ends_with_its_status() {
@@ -120,7 +121,7 @@ fn an_interrupted_regeneration_ends_with_its_status() {
     assert_eq!(lines.last().as_deref(), Some("interrupted; nothing is kept without --out"));
 }
 
-/// A forged recipe that allows endless searches is told before they begin.
+/// A forged recipe that allows endless searches is rejected before the searches begin.
 #[test]
 fn endless_recipes_are_not_regenerated() {
     let (home, root) = copy_of_tiny();

@@ -1,4 +1,4 @@
-//! Minting and verifying: the guarantees of a release.
+//! Tests of minting and verifying, with the guarantees of a release.
 
 use crate::arcade::{
     SLICES_RECIPE, TINY, arcade, copy_of_slices, copy_of_tiny, copy_tree, files, run, sweeping, text,
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-/// Returns a folder with a name that is not Unicode, on systems that allow one.
+/// Returns a folder with a name that is not Unicode, on systems that allow such a name.
 fn unusual() -> PathBuf {
     #[cfg(target_os = "linux")]
     {
@@ -19,7 +19,7 @@ fn unusual() -> PathBuf {
     }
 }
 
-/// Answers that name a path work for any name of the folder.
+/// Answers that contain a path work for folders with any name.
 #[test]
 fn folders_may_have_any_name() {
     let home = tempfile::tempdir().unwrap();
@@ -47,7 +47,7 @@ fn a_release_verifies_and_regenerates() {
     assert_eq!(files(&folder.join("tiny")), files(&folder.join(out)));
 }
 
-/// A changed digest without a change of `seeds/tiny.toml` means that GENERATION (or SEMANTICS) must be raised.
+/// If the digest changes although `seeds/tiny.toml` does not, GENERATION (or SEMANTICS) must be raised.
 #[test]
 fn the_root_of_tiny_is_the_one_in_the_repository() {
     let output = run(TINY.path(), &["--json", "verify", "tiny"], 0);
@@ -70,7 +70,7 @@ fn the_version_names_generation_and_semantics() {
     assert!(manifest.contains(&expect), "{manifest}");
 }
 
-/// The first command of the README, in an empty folder: estimated here, minted in a sweep.
+/// The first command of the README runs in an empty folder. It is estimated here, and minted in a sweep.
 #[test]
 fn the_starter_is_minted_and_verifies() {
     let folder = tempfile::tempdir().unwrap();
@@ -83,7 +83,7 @@ fn the_starter_is_minted_and_verifies() {
     }
 }
 
-/// The same seed gives the same candidates, of which the parent already has the best.
+/// The same seed gives the same candidates, and the parent already has the best of them.
 #[test]
 fn content_of_earlier_releases_is_not_minted_again() {
     let (home, _) = copy_of_slices();
@@ -96,7 +96,7 @@ fn content_of_earlier_releases_is_not_minted_again() {
     fs::write(folder.join("slices.toml"), SLICES_RECIPE).unwrap();
     let output = run(folder, &["release", "slices.toml", "--parent", "slices", "--out", "next"], 2);
     assert!(text(&output.stderr).contains("choose another name"), "{}", text(&output.stderr));
-    // Another seed gives other candidates; the parent's items are known.
+    // A different seed gives different candidates, and the parent's items are known.
     fs::write(folder.join("next.toml"), recipe.replacen("'pieces'", "'other pieces'", 1)).unwrap();
     run(folder, &["release", "next.toml", "--parent", "slices", "--out", "later"], 0);
     let said = text(&run(folder, &["verify", "later", "--chain", "slices"], 0).stdout);
@@ -121,7 +121,7 @@ fn any_flipped_byte_is_named() {
     run(folder.path(), &["verify", "tiny"], 0);
 }
 
-/// Compares `tiny` with `again`, which is minted already.
+/// The arguments that compare `tiny` with `again`, which is already minted.
 const REGENERATED: [&str; 5] = ["regenerate", "tiny", "--out", "again", "--resume"];
 
 #[test]
@@ -153,7 +153,7 @@ fn a_file_removed_added_or_linked_is_named() {
     assert!(text(&output.stdout).contains("games/stowaway.txt"), "{}", text(&output.stdout));
 }
 
-/// Papers of a release may be changed and added; nothing else may.
+/// Papers of a release may be changed and added, but nothing else may.
 #[test]
 fn papers_accompany_a_release() {
     let (folder, root) = copy_of_tiny();
@@ -251,7 +251,7 @@ fn nothing_is_written_into_a_release() {
     assert!(said.contains("contain no solutions"), "{said}");
 }
 
-/// No version minted it, so none can be installed to mint it again.
+/// No version minted this release, so no version can be installed to mint it again.
 #[test]
 fn a_changed_version_is_damage() {
     let (folder, root) = copy_of_tiny();
@@ -370,12 +370,12 @@ fn bad_recipes_are_named() {
     assert!(!folder.path().join("releases").exists());
 }
 
-/// Returns a release that the repository holds.
+/// Returns a release that is stored in the repository.
 fn kept(name: &str) -> String {
     format!("{}/../../tests/suite/snapshots/{name}", env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Without replays nothing shows that its levels can be won: the answer is no, unless the user accepts that.
+/// Without replays, nothing shows that the levels can be won. The answer is no, unless the user accepts this.
 #[test]
 fn unreplayed_witnesses_are_not_verified() {
     let folder = tempfile::tempdir().unwrap();
@@ -387,7 +387,7 @@ fn unreplayed_witnesses_are_not_verified() {
     let said = text(&run(folder.path(), &["verify", &place, "--accept-unreplayed"], 0).stdout);
     assert!(said.contains("accepted without replaying its witnesses"), "{said}");
     assert!(!said.contains("verified"), "{said}");
-    // A version that never existed does not count as other semantics.
+    // A version that never existed does not count as different semantics.
     let forged = folder.path().join("forged");
     copy_tree(Path::new(&place), &forged);
     let path = forged.join("MANIFEST.json");
@@ -400,7 +400,7 @@ fn unreplayed_witnesses_are_not_verified() {
     assert!(said.contains("GENERATION 1 never had SEMANTICS 0"), "{said}");
 }
 
-/// Without a root from another source nothing shows which release it is, and the answer says so.
+/// Without a root from another source, nothing shows which release the folder is, and the answer states this.
 #[test]
 fn only_the_published_root_identifies_a_release() {
     let folder = tempfile::tempdir().unwrap();
@@ -435,7 +435,7 @@ fn non_snapshots_are_named() {
     fs::create_dir_all(folder.join("empty")).unwrap();
     fs::create_dir_all(folder.join("sealed/public")).unwrap();
     fs::write(folder.join("sealed/public/MANIFEST.json"), "{}").unwrap();
-    // The folder of both parts stands for the published one, whose manifest is damaged here.
+    // The folder of both parts stands for the published part, whose manifest is damaged here.
     let said = text(&run(folder, &["verify", "sealed"], 1).stdout);
     assert!(said.contains("sealed/public: does NOT verify"), "{said}");
     let takes = "a snapshot is a folder with MANIFEST.json, or its .tar.zst";
@@ -467,7 +467,7 @@ fn replays_take_no_more_than_is_allowed() {
     let output = run(TINY.path(), &["--json", "verify", "tiny", "--max-work", "100"], 1);
     let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(document["exceeded"], 100);
-    // Another root is a fault under any bound.
+    // A different root is a fault under any bound.
     let root = "0".repeat(64);
     let said = text(&run(TINY.path(), &["verify", "tiny", "--max-work", "100", "--root", &root], 1).stdout);
     assert!(said.contains("its witnesses take more than 100 units of work to replay"), "{said}");

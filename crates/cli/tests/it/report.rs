@@ -1,5 +1,5 @@
-//! `arcade report`: self-contained files, the same bytes for the same results, statements about models and failures,
-//! and clear errors.
+//! Tests of `arcade report`: self-contained files, the same bytes for the same results, statements about models and
+//! failures, and clear errors.
 
 use crate::arcade::{files, run, text};
 use engine::Action;
@@ -14,7 +14,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// Carry a lamp to each lantern; moths take it away.
+/// A game in which the player carries a lamp to each lantern. Moths take the lamp away.
 const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable hidden=True\n    lantern > Immovable color=YELLOW\n    moth > RandomNPC cooldown=3\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    A > avatar floor\n    l > lantern floor\n    m > moth floor\n  InteractionSet\n    avatar wall > stepBack\n    moth wall > stepBack\n    lantern avatar > killSprite scoreChange=1\n    avatar moth > killSprite\n  TerminationSet\n    SpriteCounter stype=lantern win=True\n    SpriteCounter stype=avatar win=False\n";
 const LEVELS: [&str; 2] = ["wwwwww\nwA..lw\nwwwwww\n", "wwwwwww\nwA...lw\nw..m..w\nw.l...w\nwwwwwww\n"];
 
@@ -25,9 +25,9 @@ fn game(id: &str) -> Subject {
     Subject::read(id, GAME, &levels, facts).unwrap()
 }
 
-/// A model that goes right and says so; every fourth answer is unreadable.
+/// A model that goes right and says so. Every fourth answer is unreadable.
 struct Talker {
-    /// Halts before this decision.
+    /// The decision before which the model halts; `None` for no halt.
     halt: Option<u64>,
 }
 
@@ -113,7 +113,7 @@ fn talk(folder: &Path, id: &str, mode: &str, halt: Option<u64>) {
     evaluation.run(contestant, &Silent).unwrap();
 }
 
-/// Records results of a player that comes with the suite, on the same game.
+/// Records results of a built-in player on the same game.
 fn play(home: &Path, player: &str, out: &str) {
     let folder = home.join("lanterns");
     fs::create_dir_all(&folder).unwrap();
@@ -171,7 +171,7 @@ fn reports_are_self_contained() {
     for never in ["NaN", ">inf<", "</script><b>"] {
         assert!(!page.contains(never), "{never}");
     }
-    // The talker wins level 0 by going right, and never level 1: there a moth or the limit ends its episodes.
+    // The talker wins level 0 by going right, and never wins level 1, where a moth or the limit ends its episodes.
     let (_, replays) = page.split_once("id=\"replays\"").unwrap();
     let (_, of_talker) = replays.split_once("<h3>talker (zero-shot)</h3>").unwrap();
     let first = of_talker.split("</summary>").next().unwrap();
@@ -186,7 +186,7 @@ fn reports_are_self_contained() {
     assert!(file("tables/leaderboard.tex").contains("\\begin{tabular}"));
 }
 
-/// A player that does nothing on levels where nothing happens: nearly all values are missing, and reported as such.
+/// A player does nothing on levels where nothing happens. Nearly all values are missing, and are reported as missing.
 #[test]
 fn small_samples_show_little() {
     let home = tempfile::tempdir().unwrap();
@@ -205,11 +205,11 @@ fn invalid_results_are_refused_with_advice() {
     let at = |name: &str| home.path().join(name);
     play(home.path(), "random", "random");
     talk(&at("zero"), "lanterns", "zero-shot", None);
-    // The same name with different rules.
+    // The game has the same name but different rules.
     let other = GAME.replace("scoreChange=1", "scoreChange=2");
     fs::write(at("lanterns/game.vgdl"), &other).unwrap();
     run(home.path(), &["evaluate", "lanterns", "--player", "nil", "--max-steps", "3", "--out", "other"], 0);
-    // An invalid log, and one whose episode does not replay.
+    // One log is invalid, and the episode of the other does not replay.
     for (name, from, to) in
         [("damaged", "\"event\"", "\"evnt\""), ("elsewhere", "\"score\":1.0", "\"score\":7.0")]
     {
@@ -257,7 +257,7 @@ fn summary(home: &Path, results: &str) -> Value {
     serde_json::from_slice(&run(home, &["--json", "report", results, "--out", "report"], 0).stdout).unwrap()
 }
 
-/// A results folder can claim anything: excessive values are refused before memory is allocated, and invalid text is
+/// A results folder can claim anything. Excessive values are rejected before memory is allocated, and invalid text is
 /// malformed.
 #[test]
 fn results_folders_are_read_within_bounds() {
@@ -309,7 +309,7 @@ fn results_folders_are_read_within_bounds() {
     }
 }
 
-/// An episode whose log is a dangling link was started: what it led to is missing.
+/// An episode whose log is a dangling link was started, and the target of the link is missing.
 #[cfg(unix)]
 #[test]
 fn dangling_links_are_told() {
@@ -349,7 +349,7 @@ fn logs_are_compared_with_their_replay() {
         let (before, end) = text.trim_end().rsplit_once('\n').unwrap();
         format!("{before}\n{step}\n{end}\n").into_bytes()
     });
-    // Fewer runs than were played: the others would be ignored.
+    // The settings state fewer runs than were played, so the remaining runs would be ignored.
     tampered(home.path(), "fewer", "evaluation.json", |content| {
         String::from_utf8(content).unwrap().replacen("\"runs\": 2", "\"runs\": 1", 1).into_bytes()
     });
@@ -379,8 +379,8 @@ fn logs_are_compared_with_their_replay() {
     }
 }
 
-/// An episode without its last line counts as before: the steps show how it ended. Without its last steps it does not
-/// count, and the report says so.
+/// An episode without its last line counts as before, because its steps show how it ended. Without its last steps,
+/// the episode does not count, and the report states this.
 #[test]
 fn unfinished_episodes_are_reported() {
     let home = tempfile::tempdir().unwrap();
@@ -414,7 +414,7 @@ fn unfinished_episodes_are_reported() {
     assert!(page.contains("Left out of every number: 1 interrupted and not finished"), "{page}");
 }
 
-/// Names are plain text in every file of a report, and the page runs its own script and no other.
+/// Names are plain text in every file of a report, and the page runs only its own script.
 #[test]
 fn names_are_quoted_words() {
     let home = tempfile::tempdir().unwrap();
@@ -461,7 +461,7 @@ fn names_are_quoted_words() {
         nonce.len() == 64 && page.contains("default-src 'none'; img-src data:; style-src 'unsafe-inline'; ")
     );
     assert!(policy.starts_with("; base-uri 'none'; form-action 'none'\">"));
-    // All scripts of the page: the data of the boards, and the reader.
+    // The page's scripts are the data of the boards and the reader.
     let scripts: Vec<&str> =
         page.match_indices("<script").map(|(at, _)| page[at..].split_once('>').unwrap().0).collect();
     let own = format!("<script nonce=\"{nonce}\"");

@@ -1,4 +1,4 @@
-//! `arcade study calibrate` and `arcade study scale`, as users run them.
+//! Tests of `arcade study calibrate` and `arcade study scale`, as users run them.
 
 use crate::arcade::{run, text};
 use serde_json::Value;
@@ -13,7 +13,7 @@ fn calibrate(folder: &Path, more: &[&str], status: i32) -> std::process::Output 
     run(folder, &[&["study", "calibrate"], more, &SMALL].concat(), status)
 }
 
-/// A folder with a scale of three games in `first`, and one with two further games added in `second`.
+/// A folder with two scales. The scale in `first` has three games, and the scale in `second` has two games more.
 static SCALES: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let games = ["hailglass", "great-yawn", "bog-lantern", "--out", "first", "--name", "november"];
@@ -36,13 +36,13 @@ fn releases_are_added_to_a_scale() {
     assert_eq!(first["examinees"], second["examinees"]);
     let level = &second["months"][1]["games"][0]["levels"][0]["difficulty"][0];
     assert!(level["error"].as_f64().unwrap() > 0.0, "{level}");
-    // The month has an error of its link, the first release has none.
+    // The second month has a linking error, and the first release has none.
     assert_eq!(second["months"][0]["link"][0], 0.0);
     assert!(second["months"][1]["link"][0].as_f64().unwrap() > 0.0);
 }
 
-/// The actions of each examinee on a level: examinees are frozen, so a difference is a fault, or needs a new examinee (its number raised,
-/// `docs/reference/examinees.md`). A change of the game itself moves them too.
+/// The actions of each examinee on a level. Examinees are frozen, so a difference is a fault, or requires a new
+/// examinee with a higher number (`docs/reference/examinees.md`). A change to the game itself also changes the actions.
 #[test]
 fn examinees_play_as_ever() {
     let plays = SCALES.path().join("first/plays");
@@ -63,7 +63,7 @@ fn examinees_play_as_ever() {
     assert_eq!(found, include_str!("../examinees.txt"), "found:\n{found}");
 }
 
-/// A calibration that was interrupted ends with the bytes of one that was not, on any number of threads.
+/// An interrupted calibration gives the same bytes as an uninterrupted one, on any number of threads.
 #[test]
 fn interrupted_calibrations_resume() {
     let folder = tempfile::tempdir().unwrap();
@@ -71,7 +71,7 @@ fn interrupted_calibrations_resume() {
     calibrate(folder.path(), &[&games[..], &["--jobs", "1"]].concat(), 0);
     let whole = fs::read(folder.path().join("first/scale.json")).unwrap();
     assert_eq!(whole, fs::read(SCALES.path().join("first/scale.json")).unwrap());
-    // As if it had been killed in the middle of an examinee.
+    // The files look as if the calibration had been killed in the middle of an examinee.
     fs::remove_file(folder.path().join("first/scale.json")).unwrap();
     fs::remove_dir_all(folder.path().join("first/plays/olets-1")).unwrap();
     fs::remove_file(folder.path().join("first/plays/mcts-1/episodes/hailglass-lvl0-run0.jsonl")).unwrap();
@@ -81,7 +81,7 @@ fn interrupted_calibrations_resume() {
     assert_eq!(whole, fs::read(folder.path().join("first/scale.json")).unwrap());
 }
 
-/// On a full disk a calibration ends with the next move.
+/// On a full disk, a calibration ends with the next step to take.
 #[cfg(unix)]
 #[test]
 fn full_disks_report_how_to_continue() {
@@ -114,11 +114,11 @@ fn players_are_placed_or_refused() {
     let part = |name: &str| month["error"][name].as_f64().unwrap();
     let square = ["sampling", "mismatch", "link"].iter().map(|name| part(name) * part(name)).sum::<f64>();
     assert!((square.sqrt() - part("total")).abs() < 1e-9, "{month}");
-    // A reader on a month with one anchor only.
+    // The reader plays a month with one anchor only.
     play("reflex", "first-ice", "reader");
     let refused = run(folder, &["study", "scale", "reader", "--scale", "second/scale.json"], 1);
     assert!(text(&refused.stdout).contains("two anchors"), "{}", text(&refused.stdout));
-    // The scale is of another commitment, track and limit of steps than these.
+    // The scale has a different commitment, track and limit of steps.
     let settings = [
         &["--commit", "3", "--max-steps", "40"],
         &["--track", "masked", "--max-steps", "40"],
@@ -132,12 +132,12 @@ fn players_are_placed_or_refused() {
         let expect = format!("1 episode with {} {}", settings[0], settings[1]);
         assert!(text(&left_out.stderr).contains(&expect), "{}", text(&left_out.stderr));
     }
-    // Nothing that was played is on the first scale.
+    // None of the played levels is on the first scale.
     let unknown = run(folder, &["study", "scale", "reader", "--scale", "first/scale.json"], 2);
     assert!(text(&unknown.stderr).contains("november"), "{}", text(&unknown.stderr));
 }
 
-/// Presses the keys in turn.
+/// A program that presses the keys in turn.
 #[cfg(unix)]
 const ANCHOR: &str = "turn=0
 while read -r line; do
@@ -149,7 +149,8 @@ while read -r line; do
 done
 ";
 
-/// Two readers that play both months link them for readers; one that cannot is refused before anything is played.
+/// Two readers that play both months link the months for readers. A reader that cannot play is rejected before anything
+/// is played.
 #[cfg(unix)]
 #[test]
 fn readers_take_part_as_anchors() {
@@ -191,7 +192,7 @@ fn readers_take_part_as_anchors() {
     assert!(player["is_reader"] == true && player["months"][0]["ability"]["value"].is_f64(), "{player}");
 }
 
-/// The page of two months, by the plays that calibrated them.
+/// The page shows two months, with the episodes that calibrated them.
 #[test]
 fn timelines_are_a_page_and_its_numbers() {
     let folder = SCALES.path();
@@ -259,7 +260,7 @@ fn plans_choose_levels_for_a_target() {
     let found = plan(&["--episodes", "4"], 0);
     assert_eq!((&found["errors"]["episodes"], &found["errors"]["games"]), (&4.into(), &3.into()), "{found}");
     assert_eq!(plan(&["--target-error", "0.01", "--runs", "2"], 1)["runs"], 2);
-    // Without --plan it is played.
+    // Without --plan, the plan is played.
     run(folder, &[&CHOICE, &["--episodes", "4", "--out", "planned", "-q"][..]].concat(), 0);
     let chosen = found["games"].as_array().unwrap().iter().flat_map(|game| {
         let levels = game["levels"].as_array().unwrap().clone();
@@ -279,7 +280,7 @@ fn plans_choose_levels_for_a_target() {
         let refused = run(folder, &[&CHOICE[..6], steps, &CHOICE[8..], wrong].concat(), 2);
         assert!(text(&refused.stderr).contains(words), "{}", text(&refused.stderr));
     }
-    // A reader on a month with one anchor only.
+    // A reader plays a month with one anchor only.
     let month =
         ["evaluate", "first-ice", "--player", "reflex", "--max-steps", "40", "--scale", "second/scale.json"];
     let unlinked = run(folder, &[&month[..], &["--episodes", "1", "--plan"]].concat(), 0);
@@ -304,7 +305,7 @@ fn plans_choose_levels_for_a_target() {
     );
 }
 
-/// The choices follow from the logs: an evaluation that lost its end chooses the same again.
+/// The choices follow from the logs, so an evaluation that lost its end makes the same choices again.
 #[test]
 fn adaptive_choices_are_reproducible() {
     let folder = SCALES.path();
@@ -343,7 +344,8 @@ fn malformed_scales_are_refused() {
     run(folder.path(), &own, 2);
 }
 
-/// Numbers that no calibration gives are refused when they are read: plots and integrals would take memory in proportion.
+/// Numbers that no calibration gives are rejected when they are read, because plots and integrals would take memory in
+/// proportion to them.
 #[test]
 fn damaged_scales_are_refused() {
     let home = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Sealed releases: the public part reveals no secret, and the revealed part matches the commitment.
+//! Tests of sealed releases. The public part reveals no secret, and the revealed part matches the commitment.
 
 use crate::arcade::{commit, copy_tree, files, run, sweeping, text};
 use base::Digest;
@@ -14,7 +14,7 @@ fn recipe(commitment: &str) -> String {
     )
 }
 
-/// Commits and mints into `out`; returns the secret.
+/// Commits to a recipe and mints it into `out`. Returns the secret.
 fn minted(folder: &Path) -> Secret {
     let secret = commit(folder, &recipe);
     run(folder, &["release", "sealed.toml", "--secret", "sealed.secret.json", "--out", "out"], 0);
@@ -28,7 +28,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     let secret = minted(folder);
     let again = run(folder, &["release", "sealed.toml", "--commit"], 2);
     assert!(text(&again.stderr).contains("never overwritten"), "{}", text(&again.stderr));
-    // Nothing covered by the commitment may be changed either.
+    // No data that the commitment covers may be changed either.
     let committed = fs::read_to_string(folder.join("sealed.toml")).unwrap();
     fs::write(folder.join("changed.toml"), committed.replace("candidates = 2.0", "candidates = 3.0"))
         .unwrap();
@@ -60,7 +60,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     assert!(text(&output.stdout).contains("withheld"), "{}", text(&output.stdout));
     let output = run(folder, &["regenerate", "out/public"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
-    // The folder that holds both parts stands for the published one.
+    // The folder that holds both parts stands for the published part.
     let output = run(folder, &["regenerate", "out"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
     run(folder, &["trust", "keygen", "lab", "--no-password"], 0);
@@ -74,7 +74,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
         &["export", "out", "--format", "jsonl", "--out", "withheld"],
         &["evaluate", "out", "--player", "nil", "--max-steps", "2", "--out", "results", "--key", "lab.pub"],
     ] {
-        // A sealed release is entered into a log after its commitment only.
+        // A sealed release is entered into a log only after its commitment.
         let status = if arguments[0] == "trust" { 2 } else { 0 };
         let output = run(folder, arguments, status);
         let said = text(&output.stdout) + &text(&output.stderr);
@@ -87,7 +87,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
         "{card}"
     );
     fs::remove_dir_all(folder.join("out/public/papers/signatures")).unwrap();
-    // Common mistakes are named.
+    // The messages explain common mistakes.
     for (arguments, words) in [
         (vec!["release", "--reveal", "out/held", "--out", "x"], "needs the public folder"),
         (vec!["release", "out", "--reveal", "out/held", "--out", "x"], "did you mean out/public?"),
@@ -103,7 +103,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     assert!(text(&output.stdout).contains("arcade regenerate revealed"), "{}", text(&output.stdout));
     let readme = fs::read_to_string(folder.join("revealed/README.md")).unwrap();
     assert!(readme.contains("was sealed") && !readme.contains("held back"), "{readme}");
-    // The datasheet alone differs: it says that nothing is held back any more.
+    // Only the datasheet differs, because it states that nothing is withheld any longer.
     let papers = |part: &str| {
         let mut papers = files(&folder.join(part).join("papers"));
         assert!(papers.remove("DATASHEET.md").is_some());
@@ -137,7 +137,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     };
     assert_eq!(root("out/public"), root("revealed"));
 
-    // Any other seed, nonce or item is refused, by name.
+    // Any other seed, nonce or item is rejected with its name.
     let tampered = |file: &str, change: &dyn Fn(String) -> String| {
         let _ = fs::remove_dir_all(folder.join("copy"));
         copy_tree(&folder.join("out"), &folder.join("copy"));
@@ -166,7 +166,8 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     assert!(text(&output.stdout).contains("missing"), "{}", text(&output.stdout));
 }
 
-/// A commitment covers the whole recipe, so what cannot be filled, and what is not promised, is told before it is public.
+/// A commitment covers the whole recipe. Requests that cannot be filled, and guarantees that are missing, are therefore
+/// reported before the commitment is public.
 #[test]
 fn commitments_are_made_to_recipes_that_can_be_minted() {
     let home = tempfile::tempdir().unwrap();
@@ -226,7 +227,7 @@ fn invented_secrets_are_refused() {
         other(&|secret| secret.nonce = secret.seed.parse().unwrap()),
     ] {
         fs::write(folder.join("my secret.json"), serde_json::to_vec(&made_up).unwrap()).unwrap();
-        // In the form that an older `arcade` accepted.
+        // The commitment has the form that an older `arcade` accepted.
         fs::write(folder.join("sealed.toml"), recipe(&made_up.commitment().to_string())).unwrap();
         for verb in
             [vec!["release", "sealed.toml", "--out", "x"], vec!["release", "sealed.toml", "--dry-run"]]
@@ -240,8 +241,8 @@ fn invented_secrets_are_refused() {
     }
 }
 
-/// The command that `--commit` proposes works, even if names have blanks; cases where it cannot work are refused at
-/// once.
+/// The command that `--commit` proposes works, even if names contain spaces. Cases in which it cannot work are rejected
+/// at once.
 #[test]
 fn proposed_commands_work() {
     let home = tempfile::tempdir().unwrap();
@@ -274,7 +275,7 @@ fn proposed_commands_work() {
     assert!(said.contains("arcade release tiny.toml --secret tiny.secret.json"), "{said}");
 }
 
-/// A shard holds winning episodes, as the withheld part does.
+/// A shard contains winning episodes, like the withheld part.
 #[cfg(unix)]
 #[test]
 fn shards_of_a_sealed_release_are_private() {
@@ -317,7 +318,7 @@ fn shards_of_a_sealed_release_are_private() {
     assert!(lost.contains(&commitment), "{lost}");
 }
 
-/// Otherwise seed and witnesses would be published in the belief that they are held back.
+/// Otherwise the seed and the witnesses would be published in the belief that they are withheld.
 #[test]
 fn a_secret_for_an_open_release_is_refused() {
     let home = tempfile::tempdir().unwrap();
@@ -359,7 +360,8 @@ fn another_secret_is_refused() {
     );
 }
 
-/// Memory and a beacon together: the coins, the siblings and the second wins follow from the seed with the value mixed in.
+/// A recipe uses memory tests and a beacon together. The coins, the siblings and the second wins follow from the seed
+/// with the beacon's value mixed in.
 #[test]
 fn coins_follow_from_the_beacon_too() {
     let home = tempfile::tempdir().unwrap();
@@ -389,7 +391,7 @@ fn coins_follow_from_the_beacon_too() {
         roots.push(manifest["root"].clone());
     }
     assert_ne!(roots[0], roots[1]);
-    // The value is under the root.
+    // The beacon's value is under the root.
     let moved = folder.join("one/revealed/MANIFEST.json");
     let swapped = fs::read_to_string(&moved).unwrap().replace(&"ab".repeat(32), &"cd".repeat(32));
     fs::write(&moved, swapped).unwrap();

@@ -1,4 +1,4 @@
-//! `arcade serve-player`, and agents of other people under `arcade evaluate`, as users run them.
+//! Tests of `arcade serve-player`, and of other people's agents under `arcade evaluate`, as users run them.
 
 use crate::arcade::{arcade, run, text};
 use serde_json::Value;
@@ -63,7 +63,7 @@ fn evaluate<'a>(player: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 #[test]
 fn external_agents_play_and_resume() {
     let folder = tempfile::tempdir().unwrap();
-    // It leaves after three answers, but not the second time: past turns count.
+    // The agent leaves after three answers, but not the second time, because past turns count.
     fs::write(
         folder.path().join("agent.sh"),
         "n=0; while read line; do case $line in *'\"past\":true'*) n=9;; *'\"type\":\"turn\"'*) n=$((n+1)); \
@@ -86,7 +86,7 @@ fn external_agents_play_and_resume() {
     assert!(text(&malformed.stderr).contains("is not a command line"), "{}", text(&malformed.stderr));
 }
 
-/// An evaluation without a usable answer does not end without a word.
+/// An evaluation without a usable answer ends with a message.
 #[test]
 fn unusable_answers_are_counted_and_reported() {
     let folder = tempfile::tempdir().unwrap();
@@ -98,7 +98,7 @@ fn unusable_answers_are_counted_and_reported() {
     assert_eq!((&tally["steps"], &tally["unusable"]), (&6.into(), &6.into()));
     let told = text(&played.stderr);
     assert!(told.contains("6 of 6 decisions have no usable answer"), "{told}");
-    // So does one that had ended before.
+    // An evaluation that had ended before also ends with a message.
     let again = run(folder.path(), &evaluate("cmd:sh agent.sh", &["--resume"]), 0);
     assert!(
         text(&again.stderr).contains("6 of 6 decisions have no usable answer"),
@@ -111,14 +111,14 @@ fn unusable_answers_are_counted_and_reported() {
     assert!(!text(&usable.stderr).contains("usable"), "{}", text(&usable.stderr));
 }
 
-/// Answers three times, then waits for a file `go`; it has child processes, one of which leaves the group and the
-/// session, and ignores signals that ask it to end.
+/// An agent that answers three times, then waits for a file `go`. It has child processes. One of them leaves the
+/// group and the session, and ignores signals that ask it to end.
 #[cfg(target_os = "linux")]
 const STUBBORN: &str = "trap '' TERM HUP INT QUIT\nsetsid sleep 600 & echo $! > $1/setsid\nsleep 600 & echo $! > $1/child\n\
      pwd > $1/folder\nn=0\nwhile read line; do case $line in *'\"past\":true'*) n=$((n+1));; *'\"type\":\"turn\"'*) n=$((n+1))\n\
      [ $n -gt 3 ] && [ ! -e $1/go ] && { echo $$ > $1/shell; sleep 600; }\necho '{\"action\":\"left\"}';; esac; done\nexec sleep 600\n";
 
-/// Returns `true` if a signal has its default effect: tests started in the background may ignore it.
+/// Returns `true` if a signal has its default effect. Tests started in the background may ignore it.
 #[cfg(target_os = "linux")]
 fn is_heeded(signal: u32) -> bool {
     let status = fs::read_to_string("/proc/self/status").unwrap();
@@ -145,7 +145,7 @@ fn is_gone(pid: &str) -> bool {
     fs::read_to_string(format!("/proc/{pid}/stat")).map_or(true, |stat| stat.contains(") Z "))
 }
 
-/// However `arcade` ends, the player, its processes and its folder are removed, and `--resume` goes on.
+/// However `arcade` ends, the player, its processes and its folder are removed, and `--resume` continues.
 #[cfg(target_os = "linux")]
 #[test]
 fn players_end_with_arcade() {
@@ -184,7 +184,7 @@ fn players_end_with_arcade() {
         let events: Vec<&str> = log.iter().map(|event| event["event"].as_str().unwrap()).collect();
         assert_eq!(events, ["start", "step", "step", "step", "step", "step", "step", "end"], "{name}");
     };
-    // Most of the time they wait.
+    // The players wait most of the time.
     std::thread::scope(|scope| {
         for (name, signal) in [("INT", 2), ("TERM", 15), ("HUP", 1), ("QUIT", 3), ("KILL", 9)] {
             if is_heeded(signal) {
@@ -194,7 +194,7 @@ fn players_end_with_arcade() {
     });
 }
 
-/// At the end of an episode all processes of its player are gone, whatever their group.
+/// At the end of an episode, all processes of its player are gone, regardless of their group.
 #[cfg(target_os = "linux")]
 #[test]
 fn detached_processes_end_with_the_episode() {
@@ -203,7 +203,7 @@ fn detached_processes_end_with_the_episode() {
     fs::write(home.path().join("go"), "").unwrap();
     run(home.path(), &evaluate(&format!("cmd:sh agent.sh {}", home.path().display()), &[]), 0);
     let said = |name: &str| fs::read_to_string(home.path().join(name)).unwrap().trim().to_owned();
-    // The guard has ended already, and it ends last.
+    // The guard ends last, and it has already ended.
     assert!(is_gone(&said("setsid")) && is_gone(&said("child")));
     assert!(!Path::new(&said("folder")).exists());
 }

@@ -1,4 +1,4 @@
-//! A release made in slices, interrupted and resumed: the same bytes.
+//! Tests of a release made in slices, interrupted and resumed, which has the same bytes.
 
 use crate::arcade::{SLICES, SLICES_RECIPE, arcade, copy_of_slices, files, run, sweeping, terminate, text};
 use std::fs;
@@ -38,7 +38,8 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     // The proposed command can be pasted into a shell.
     assert!(text(&output.stdout).contains("arcade verify 'all merged'"), "{}", text(&output.stdout));
     fs::rename(folder.join("all merged"), folder.join("merged")).unwrap();
-    // The same bytes, so what is true of a release in one piece (`release.rs`) is true of it: it regenerates.
+    // The bytes are the same, so the properties of a release in one piece (`release.rs`) hold, and it
+    // regenerates.
     assert_eq!(files(&whole), files(&folder.join("merged")));
     if sweeping() {
         run(folder, &["regenerate", "merged"], 0);
@@ -66,7 +67,8 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(said.contains(&lot) && said.contains("changed after it was made"), "{said}");
     assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
 
-    // `arcade clean` lists shards and removes them on request, but not one with a foreign file in it.
+    // `arcade clean` lists shards and removes them on request, but does not remove a shard with a foreign file in
+    // it.
     fs::write(folder.join("shard2/notes.txt"), "mine").unwrap();
     let clean = |flags: &[&str]| {
         let output = arcade(folder).env("TMPDIR", folder).arg("clean").args(flags).output().unwrap();
@@ -80,7 +82,7 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(is_there("shard2/SHARD.json") && is_there("slices") && is_there("merged"));
 }
 
-/// Interrupts a mint into the folder `out`, kills it repeatedly, and resumes it; finished work is kept unless its
+/// Interrupts a mint into the folder `out`, kills it repeatedly, and resumes it. Finished work is kept unless its
 /// removal is requested.
 #[cfg(unix)]
 fn kill_and_resume(folder: &Path, mint: &[&str]) {
@@ -102,7 +104,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
         }
         terminate(&child);
         let output = child.wait_with_output().unwrap();
-        // On a busy machine all jobs may be finished before the signal is sent.
+        // On a busy machine, all jobs may be finished before the signal is sent.
         let finished = output.status.success();
         if finished {
             fs::remove_dir_all(folder.join("out")).unwrap();
@@ -142,7 +144,8 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     assert!(!folder.join("out.partial").exists());
 }
 
-/// An interrupted mint gives the same bytes as an undisturbed one, and so does one that regenerates a release.
+/// An interrupted mint gives the same bytes as an undisturbed mint, and so does an interrupted regeneration of a
+/// release.
 #[cfg(unix)]
 #[test]
 fn killed_mints_resume() {
@@ -157,14 +160,14 @@ fn killed_mints_resume() {
     }
 }
 
-/// On a full disk a mint ends with the command to resume it.
+/// On a full disk, a mint ends with the command that resumes it.
 #[cfg(unix)]
 #[test]
 fn full_disks_report_how_to_continue() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     recipe(folder);
-    // Files of at most a kilobyte or so: no job has room.
+    // Files are limited to about a kilobyte, so no job has room.
     let full = |resume: &str| {
         let mint = format!("exec \"$0\" release slices.toml --out 'my release' {resume}");
         let script = format!("trap '' XFSZ; ulimit -f 2; {mint}");
@@ -188,7 +191,7 @@ fn full_disks_report_how_to_continue() {
     assert!(said.contains("finished jobs are kept; once this is fixed"), "{said}");
 }
 
-/// Writes a recipe that asks for more games of a kind than its candidates have.
+/// Writes a recipe that requests more games of a kind than its candidates have.
 fn greedy(folder: &Path) {
     let greedy = format!("{SLICES_RECIPE}[taxonomy]\navatars = {{ watches = [1.0, 1.0] }}\n");
     fs::write(folder.join("slices.toml"), greedy).unwrap();
@@ -199,11 +202,12 @@ fn greedy(folder: &Path) {
 fn more_candidates_reuse_finished_jobs() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
-    // More games than there are candidates for: a kind for which no single pattern set has two games.
+    // The recipe requests more games of a kind than there are candidates. No pattern set has two games of this
+    // kind.
     greedy(folder);
     let said = text(&run(folder, &["release", "slices.toml", "--out", "out"], 2).stderr);
     assert!(said.contains("avatar watches 0 (asked 2 to 2)"), "{said}");
-    // Where there is no bar, a forecast and plain lines.
+    // Without a bar, the output has a forecast and plain lines.
     assert!(said.contains("minting takes about ") && said.contains("4 of 4 jobs; about 0 s left"), "{said}");
     recipe(folder);
     let output = run(folder, &["release", "slices.toml", "--out", "out", "--resume"], 0);

@@ -1,4 +1,4 @@
-//! `arcade studio` and `arcade gallery` as users run them.
+//! Tests of `arcade studio` and `arcade gallery` as users run them.
 
 use crate::arcade::{TINY, arcade, copy_of_tiny, files, run, text};
 use serde_json::{Value, json};
@@ -8,7 +8,7 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Stdio};
 
-/// A running studio; killed when it is dropped.
+/// A running studio, which is killed when the value is dropped.
 struct Running {
     child: Child,
     port: u16,
@@ -68,7 +68,7 @@ fn the_studio_opens_what_it_is_given() {
     let corpus = Running::start(home.path(), &[]);
     let games = corpus.get("/api/workspace");
     assert_eq!((games["kind"].as_str(), games["games"].as_array().map(Vec::len)), (Some("corpus"), Some(27)));
-    // A copy goes into the folder that is opened next, where it can be changed.
+    // A copy goes into the folder that is opened next, where the copy can be changed.
     let into = Running::start(home.path(), &["corpus", "--out", "mine"]);
     let (status, copied) = into.ask("POST", "/api/copy", &json!({ "id": "hailglass", "title": "My Hail" }));
     assert_eq!((status, &copied["id"]), (200, &json!("my-hail")), "{copied}");
@@ -110,7 +110,7 @@ fn games_are_begun_where_there_are_none() {
         let body = json!({ "genre": "puzzle", "title": "River Post" });
         let (status, begun) = running.ask("POST", "/api/new", &body);
         assert_eq!((status, &begun["id"]), (200, &json!("river-post")), "{begun}");
-        // The same files as those of `arcade new`.
+        // The files are the same as those of `arcade new`.
         run(home.path(), &["new", &format!("{place}/like"), "--like", "puzzle"], 0);
         assert_eq!(files(&at(place).join("river-post")), files(&at(place).join("like")));
         let (_, again) = running.ask("POST", "/api/new", &body);
@@ -141,11 +141,11 @@ fn releases_are_shown_and_never_changed() {
     let (status, _) =
         running.ask("PUT", &format!("/api/games/{id}/files/lvl0.txt"), &json!({ "text": "", "base": null }));
     assert_eq!(status, 403);
-    // Games opened inside of a release cannot be changed either.
+    // Games opened inside a release cannot be changed either.
     let inside = Running::start(home.path(), &["tiny/games"]);
     let games = inside.get("/api/workspace");
     assert!(games["games"].as_array().unwrap().iter().all(|game| game["writable"] == false));
-    // Cards and wins beside a game are shown, as those of games that were just generated.
+    // Cards and wins beside a game are shown, like those of freshly generated games.
     let beside = inside.get(&format!("/api/games/{id}"));
     assert_eq!((&beside["card"], &beside["witnesses"]), (&game["card"], &game["witnesses"]));
     // A release that does not verify is not shown.
@@ -154,7 +154,8 @@ fn releases_are_shown_and_never_changed() {
     assert!(text(&refused.stderr).contains("does not verify"), "{}", text(&refused.stderr));
 }
 
-/// Asks for the verification of the opened release; returns the lines on earlier releases, and the verdict.
+/// Requests the verification of the opened release. Returns the lines about earlier releases, and the
+/// verdict.
 fn verified(running: &Running) -> (Vec<Value>, Value) {
     let (status, said) = running.exchange("POST", "/api/release/verify", &json!({}));
     assert_eq!(status, 200, "{said}");
@@ -185,14 +186,14 @@ fn verification_follows_the_parents() {
     let told = |ancestors: &[Value]| -> Vec<(Value, Value)> {
         ancestors.iter().map(|ancestor| (ancestor["name"].clone(), ancestor["ok"].clone())).collect()
     };
-    // Nothing is found beside it, which is no failure.
+    // No earlier release is found beside it, which is not a failure.
     let alone = Running::start(home.path(), &["new/three"]);
     let parent = alone.get("/api/release")["parent"].clone();
     let (ancestors, verdict) = verified(&alone);
     assert_eq!((told(&ancestors), &ancestors[0]["root"]), (vec![(json!(null), json!(null))], &parent));
     assert!(ancestors[0]["text"].as_str().unwrap().contains("--chain"), "{ancestors:?}");
     assert_eq!((&verdict["ok"], &verdict["sound"]), (&json!(true), &json!(true)));
-    // The folder that is named, or that the other release is in.
+    // The specified folder is searched, and so is the folder of the other release.
     for more in [["--chain", "old"], ["--against", "old/two"]] {
         let running = Running::start(home.path(), &[&["new/three"], &more[..]].concat());
         let (ancestors, verdict) = verified(&running);
@@ -211,7 +212,7 @@ fn verification_follows_the_parents() {
     assert!(verdict["ok"] == true && verdict["lines"].to_string().contains("signed by"), "{verdict}");
     run(home.path(), &["studio", "new/three", "--key", "absent.pub"], 2);
     run(home.path(), &["studio", "corpus", "--chain", "old"], 2);
-    // A parent that was altered is a failure, also while the studio runs.
+    // An altered parent is a failure, also while the studio runs.
     let running = Running::start(home.path(), &["new/three", "--chain", "old"]);
     fs::write(at("old/two/README.md"), "tampered").unwrap();
     let (ancestors, verdict) = verified(&running);
@@ -221,7 +222,7 @@ fn verification_follows_the_parents() {
     assert!(!verdict.to_string().contains(&*home.path().to_string_lossy()), "{verdict}");
 }
 
-/// Logs can claim anything: what they say is shown as data.
+/// Logs can claim anything, and their claims are shown as data.
 #[test]
 fn results_are_replayed_with_their_words() {
     let home = tempfile::tempdir().unwrap();
@@ -270,7 +271,7 @@ fn results_are_replayed_with_their_words() {
     assert_eq!(talk.len(), 5);
     assert!(talk[0]["prompt"].as_str().unwrap().contains(misbehaving), "{talk:?}");
     assert_eq!((&talk[4]["answer"], &talk[4]["frame"]), (&json!(misbehaving), &json!(4)));
-    // A log that says something else than the game does is told apart.
+    // A log that contradicts the game is reported as an error.
     fs::write(&log, recorded.replacen("\"action\":\"", "\"action\":\"nil\",\"x\":\"", 1)).unwrap();
     let (status, _) = running.ask("GET", "/api/results", &json!(null));
     assert_eq!(status, 500);
@@ -340,7 +341,7 @@ fn galleries_are_whole_and_their_data_are_data() {
         }
     }
     assert_eq!(games, 3);
-    // The same release makes the same page, on any number of threads.
+    // The same release gives the same page, on any number of threads.
     run(home.path(), &["gallery", tiny, "--out", "again", "--jobs", "1"], 0);
     for entry in fs::read_dir(home.path().join("page/data")).unwrap() {
         let path = entry.unwrap().path();

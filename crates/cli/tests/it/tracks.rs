@@ -1,4 +1,4 @@
-//! `arcade evaluate --track`: series of levels, pictures for mailboxes, and refusals.
+//! Tests of `arcade evaluate --track`: series of levels, images for mailboxes, and rejections.
 
 use crate::arcade::{arcade, run, text};
 use crate::server::{ReceivedRequest, Response, Server};
@@ -11,7 +11,7 @@ fn json(output: &std::process::Output) -> Value {
     serde_json::from_slice(&output.stdout).expect("one JSON document")
 }
 
-/// A model that walks, and knows nothing of the rules.
+/// A model that walks without knowing the rules.
 fn answer(_: usize, asked: &ReceivedRequest) -> Response {
     let last = asked.json()["messages"].as_array().unwrap().last().unwrap()["content"].to_string();
     Response::completion(match last.contains("## Question") {
@@ -42,7 +42,7 @@ fn a_model_discovers_the_rules_and_is_reported_apart() {
     assert!(log.contains("\"event\":\"predictions\"") && log.contains("\"track\":\"discover@1\""), "{log}");
     on("masked");
     on("told");
-    // Nothing is left to be played.
+    // Nothing is left to play.
     let again = ["--max-steps", "4", "--track", "discover", "--out", "discover", "--resume"];
     let before = server.received().len();
     run(home.path(), &[&args[..], &again].concat(), 0);
@@ -93,7 +93,7 @@ fn refusals_name_a_way_on() {
         assert!(text(&refused.stderr).contains(words), "{more:?}: {}", text(&refused.stderr));
         assert!(!home.path().join("results").exists(), "{more:?}");
     }
-    // What a track sets anyway contradicts nothing.
+    // A flag with the value that the track sets is not a contradiction.
     let args = [
         "evaluate",
         "hailglass",

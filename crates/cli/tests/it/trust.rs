@@ -1,4 +1,4 @@
-//! Signed releases: keys, sets of keys, and what `verify` and others make of them.
+//! Tests of signed releases: keys, sets of keys, and how `verify` and other subcommands use them.
 
 use crate::arcade::{copy_of_tiny, copy_tree, run, text};
 use serde_json::Value;
@@ -85,7 +85,7 @@ fn releases_are_signed_by_enough_keys() {
     );
     says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 0, "signed by ada, bo (2 needed");
 
-    // `bo` lost the key, and `cy` takes the place; both of the old set would have to sign, so a threshold of all keys
+    // `bo` lost the key, and `cy` takes over. Both keys of the old set would have to sign, so a threshold of all keys
     // cannot lose one.
     let next = [
         "trust",
@@ -111,7 +111,7 @@ fn releases_are_signed_by_enough_keys() {
     says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 0, "signed by ada, cy (2 needed");
     says(folder, &["verify", "tiny", "--key", "bo.pub"], 1, "the key of `bo` is revoked: lost");
 
-    // The same for an archive, beside which its signatures lie.
+    // The same holds for an archive, whose signatures lie beside it.
     let said =
         text(&run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0).stdout);
     let copy =
@@ -131,7 +131,7 @@ fn releases_are_signed_by_enough_keys() {
     let found = json(folder, &["verify", "tiny.tar.zst", "--key", "ada.pub"], 0);
     assert_eq!(found["signed"]["threshold"], 1);
 
-    // Verbs that use a release take its root or its key, and record what was checked.
+    // Subcommands that use a release accept its root or its key, and record the checks.
     let (ada, bo) = (["--key", "ada.pub"], ["--key", "bo.pub"]);
     says(
         folder,
@@ -166,7 +166,7 @@ fn releases_are_signed_by_enough_keys() {
         "the results belong to the release with root",
     );
 
-    // A manifest with another lock file has the same root, and is not what was signed.
+    // A manifest with a different lock file has the same root, but is not the signed manifest.
     let manifest = folder.join("tiny/MANIFEST.json");
     let honest = fs::read_to_string(&manifest).unwrap();
     let mut altered = Manifest::parse(honest.as_bytes()).unwrap();

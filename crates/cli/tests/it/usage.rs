@@ -1,5 +1,5 @@
-//! The common behaviour of all verbs: exit statuses, messages about files, JSON of failures; and the verbs about
-//! arcade itself.
+//! Tests of the common behaviour of all subcommands (exit statuses, messages about files, JSON of failures), and
+//! of the subcommands about arcade itself.
 
 use crate::arcade::{arcade, files, run, text};
 use serde_json::Value;
@@ -8,7 +8,8 @@ use std::io::Write;
 use std::path::Path;
 use std::process::Stdio;
 
-/// Returns the failure on standard output of a run with `--json`: one document, while standard error has text.
+/// Returns the failure on standard output of a run with `--json`. It is one document, while standard error has
+/// text.
 #[track_caller]
 fn failure(folder: &Path, args: &[&str], status: i32) -> Value {
     let output = run(folder, args, status);
@@ -19,7 +20,7 @@ fn failure(folder: &Path, args: &[&str], status: i32) -> Value {
     document["error"].clone()
 }
 
-/// Expects this status, and a message with these words.
+/// Runs the binary, and expects this status and a message with these words.
 #[track_caller]
 fn says(folder: &Path, args: &[&str], status: i32, words: &[&str]) {
     let message = text(&run(folder, args, status).stderr);
@@ -45,7 +46,8 @@ fn full_devices_are_reported() {
     says(home.path(), &["render", "hailglass", "-o", "/dev/full"], 2, &["unknown image format"]);
 }
 
-/// A reader that leaves before anything is written causes no message, and the verb keeps its own exit status.
+/// A reader that leaves before anything is written causes no message, and the subcommand keeps its own exit
+/// status.
 #[test]
 fn closed_pipes_are_ignored() {
     let home = tempfile::tempdir().unwrap();
@@ -61,7 +63,7 @@ fn closed_pipes_are_ignored() {
     check(&["--json", "describe", "hailglass"], 0);
     check(&["--help"], 0);
     check(&["fmt", "loose.vgdl", "--check"], 1);
-    // The work is done anyway.
+    // The work is done nevertheless.
     check(&["--json", "render", "hailglass", "-o", "board.svg"], 0);
     assert!(home.path().join("board.svg").exists());
 }
@@ -86,7 +88,7 @@ fn unreadable_folders_are_not_reported_absent() {
     says(folder, &["render", "hailglass", "-o", "board.png"], 2, &["it is a folder"]);
 }
 
-/// A line break in the name of a file would forge a line of the message.
+/// A line break in a file name would forge a line of the message.
 #[test]
 fn paths_are_spelt_out() {
     let home = tempfile::tempdir().unwrap();
@@ -261,7 +263,7 @@ fn the_manual_is_in_the_binary() {
     says(home.path(), &["docs", "promts"], 2, &["did you mean `prompts`?"]);
 }
 
-/// Writes a file, with all folders above it.
+/// Writes a file, and creates all folders above it.
 fn put(path: &Path, content: &str) {
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(path, content).unwrap();
@@ -272,18 +274,18 @@ fn only_leftovers_are_removed() {
     let home = tempfile::tempdir().unwrap();
     let (work, temporary) = (home.path().join("work"), home.path().join("tmp"));
     fs::create_dir_all(&temporary).unwrap();
-    // In the form that killed runs leave.
+    // The lock has the form that killed runs leave.
     let lock = "unfinished work of `arcade`, which replaces or removes it (infinite-arcade draft 1)\n";
     for name in ["new", "releases/deep/month"] {
         put(&work.join(format!("{name}.partial/.lock")), lock);
         put(&work.join(format!("{name}.partial/tree/games/a/game.vgdl")), "half");
     }
-    // Killed as it began.
+    // The run was killed at its start.
     put(&work.join("begun.partial/.lock"), "");
     put(&work.join("mint.partial/.lock"), lock);
     put(&work.join("mint.partial/lots/game-1.json"), "{}");
     put(&work.join(".arcade-a1B2c3.partial"), "GIF8");
-    // Files of other programs.
+    // These are files of other programs.
     let foreign = [
         "results.partial/data.csv",
         "tree.partial/tree/a",
@@ -365,7 +367,8 @@ fn completions_and_manual_pages() {
     assert_eq!(text(&run(home.path(), &["man"], 0).stdout), text(&pages["arcade.1"]));
 }
 
-/// No verb writes through a link, waits for a pipe, or overwrites what it reads; and it says so before the work.
+/// No subcommand writes through a link, waits for a pipe, or overwrites a file that it reads. The rejection
+/// comes before the work.
 #[cfg(unix)]
 #[test]
 fn files_are_written_where_they_were_named() {
@@ -404,7 +407,7 @@ fn files_are_written_where_they_were_named() {
     says(folder, &many, 2, &["2000000 episodes in total, exceed the limit of 1000000; lower --runs"]);
 }
 
-/// A pipe among the files of a game is told: nobody waits for its other end.
+/// A pipe among the files of a game is reported, and nobody waits for its other end.
 #[cfg(unix)]
 #[test]
 fn pipes_are_no_files_of_games() {

@@ -1,4 +1,4 @@
-//! `arcade validate`, `arcade describe` and `arcade fmt` on good, bad and hostile files.
+//! Tests of `arcade validate`, `arcade describe` and `arcade fmt` on good, bad and hostile files.
 
 use crate::arcade::{run, text};
 use serde_json::Value;
@@ -32,7 +32,7 @@ BasicGame
 
 const LEVEL: &str = "wwwwwwwwww\nwA.t...t.w\nw.....t..w\nw.t.....nw\nwn...t...w\nwwwwwwwwww\n";
 
-/// Makes a folder with a game and a level.
+/// Creates a folder with a game and a level.
 fn folder(game: &str, level: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("game.vgdl"), game).unwrap();
@@ -61,7 +61,7 @@ fn a_good_level_passes_and_its_witness_replays() {
     let game = engine::Game::from_source(GAME).unwrap();
     let level = game.level(LEVEL).unwrap();
     assert_eq!(witness.replay(&game, &level).unwrap().outcome(), engine::Outcome::Won);
-    // Also by file, and the same answer twice.
+    // The same works by file, and gives the same answer twice.
     let args = ["--json", "validate", "game.vgdl", "lvl0.txt"];
     let (one, two) = (run(folder.path(), &args, 0), run(folder.path(), &args, 0));
     assert_eq!(one.stdout, two.stdout);
@@ -98,7 +98,7 @@ fn a_goal_walled_in_fails_with_its_line_and_cell() {
 
 #[test]
 fn unfound_wins_are_unknown() {
-    // Thorns all around the nectar, and a bee that makes the game stochastic.
+    // There are thorns all around the nectar, and a bee makes the game stochastic.
     let game = GAME
         .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
         .replace("        A > floor", "        b > floor bee\n        A > floor")
@@ -113,7 +113,7 @@ fn unfound_wins_are_unknown() {
 
 #[test]
 fn game_criteria_cover_all_levels() {
-    // Each level alone lacks something; together they have everything.
+    // Each level alone lacks something, but together the levels have everything.
     let folder = folder(GAME, "wwwwwwwwww\nwA.t...t.w\nw.....t..w\nw.t.....nw\nwn...t...w\nwwwwwwwwww\n");
     fs::write(folder.path().join("lvl1.txt"), "wwwwwwwww\nwA..n...w\nw.n...n.w\nwwwwwwwww\n").unwrap();
     let judgements = |args: &[&str], status| {
@@ -123,7 +123,7 @@ fn game_criteria_cover_all_levels() {
     };
     let together: Vec<Value> = judgements(&["--json", "validate", "."], 1);
     assert_eq!(together, ["pass", "pass"]);
-    // The second level alone is won by random keys, and does not judge the game.
+    // Random keys win the second level alone, so it does not judge the game.
     let alone: Vec<Value> = judgements(&["--json", "validate", ".", "1"], 1);
     assert!(alone.is_empty());
 }
@@ -333,7 +333,7 @@ fn planners_play_and_report() {
     run(folder.path(), &["run", ".", "--jobs", "0"], 2);
 }
 
-/// A corridor: the exit opens for two lamps.
+/// A corridor in which the exit opens for two lamps.
 const CORRIDOR: &str = "\
 BasicGame
     SpriteSet
@@ -364,7 +364,7 @@ fn a_level_that_cannot_be_won_is_explained_as_a_chain() {
         "- the exit opens for 2 lamps; ./game.vgdl:14 `exit avatar > killIfOtherHasMore resource=lamp limit=2`",
         "- 1 lamp exists; column 5, row 2; ./game.vgdl:13 `lamp avatar > collectResource`",
         "try: place 1 lamp more, or require only 1",
-        // Criteria that do not apply to it.
+        // These criteria do not apply to the level.
         "-    length       skipped: the level cannot be won",
         "-    skill        skipped: the level cannot be won",
     ] {
@@ -395,7 +395,7 @@ fn a_swapped_rule_is_named_with_its_repair() {
 
 #[test]
 fn no_verdict_contradicts_another() {
-    // Won by the search, and by no player of the ladder: both are reported.
+    // The search wins the level, but no player of the ladder does. Both facts are reported.
     let folder = folder(GAME, LEVEL);
     let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
     assert!(said.contains("the witness wins in ") && said.contains("proven minimal"), "{said}");
@@ -425,7 +425,7 @@ fn problems_of_the_game_hide_none_of_its_levels() {
         .collect();
     assert_eq!(codes, ["no-avatar", "undefined-character"]);
     assert_eq!(document["levels"][1]["problems"].as_array().unwrap().len(), 0);
-    // Also of a sound game.
+    // This also holds for a sound game.
     malformed(
         GAME,
         &LEVEL.replace('A', "X"),
@@ -492,7 +492,7 @@ fn consequences_of_other_faults_are_skipped() {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
     assert!(!said.contains("remove it"), "{said}");
-    // Lost in its first tick, whatever the player does.
+    // The game is lost in its first tick, regardless of the player's actions.
     let over = folder(&GAME.replace("stype=avatar limit=0", "stype=avatar limit=1"), LEVEL);
     let said = text(&run(over.path(), &["validate", ".", "--budget", "2000"], 1).stdout);
     assert!(said.contains("FAILS well-formed: the game is lost in its first tick"), "{said}");
@@ -501,7 +501,7 @@ fn consequences_of_other_faults_are_skipped() {
         let line = format!("  -    {criterion:<13}skipped: the game is over in its first tick\n");
         assert!(said.contains(&line), "`{line}` is not in\n{said}");
     }
-    // Lost by waiting alone: there is play to judge.
+    // Only waiting loses the game, so there is play to judge.
     let pricked = folder(&GAME.replace("A > floor avatar", "A > floor thorn avatar"), LEVEL);
     let said = text(&run(pricked.path(), &["validate", ".", "--budget", "2000"], 1).stdout);
     assert!(said.contains("FAILS well-formed: the game is lost in its first tick"), "{said}");
@@ -567,7 +567,7 @@ fn duplicate_parameters_are_reported() {
 
 #[test]
 fn a_small_budget_is_a_small_piece_of_work() {
-    // No player needs less than 300 ticks, and no player decides on fewer calls than its minimum.
+    // No player needs less than 300 ticks, and no player decides with fewer calls than its minimum.
     let game = GAME
         .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
         .replace("        A > floor", "        b > floor bee\n        A > floor")
@@ -630,14 +630,14 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
         "where a `raft` is, too; tick ",
         "try: move `duckling pond > killSprite` below `duckling raft > shieldFrom",
         "the closest any play can come: 1 nest left",
-        // The author's own characters.
+        // The legend uses the author's own characters.
         "D duckling, ",
         "~ pond",
     ] {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
     assert!(!said.contains("the rules alone do not show why"), "{said}");
-    // Not found, and not proved either.
+    // A win is neither found nor proved impossible.
     let hedge = POND.replace("nw\n", "nw\nwwwwwwwwwwwwww\n");
     let hedge = folder(FERRY, &hedge);
     let said = text(&run(hedge.path(), &["validate", ".", "--budget", "40000"], 1).stdout);
@@ -646,7 +646,7 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
     assert!(said.contains("it can be won without `duckling wall > stepBack`: a search wins it in"), "{said}");
 }
 
-/// A quiet answer has what fails, and nothing of what passes.
+/// A quiet answer lists the failures, and nothing that passes.
 #[test]
 fn quiet_answers_say_what_fails() {
     let folder = folder(GAME, LEVEL);
@@ -682,7 +682,7 @@ fn warnings_about_files_follow_the_verdict() {
         place(
             "removes the player's `avatar`, and nothing is lost by that: add `SpriteCounter stype=avatar win=False`",
         );
-        // What is asked stands where the answer is not yes.
+        // The criterion's question is shown if the answer is not yes.
         place("asks: ");
     }
 }

@@ -1,4 +1,4 @@
-//! `arcade study well`, as users run it.
+//! Tests of `arcade study well`, as users run it.
 
 use crate::arcade::{run, text};
 use serde_json::Value;

@@ -16,19 +16,21 @@ const TAB: char = '→';
 pub(super) struct Excerpt {
     name: String,
     text: String,
-    /// The index of the first line of `text` in the file, and the number of lines.
+    /// The index of the first line of `text` in the file.
     first: usize,
+    /// The number of lines in `text`.
     count: usize,
-    /// The position of the problem in the file: line and column, from 0.
+    /// The line of the problem in the file, counted from 0.
     line: usize,
+    /// The column of the problem in the file, counted from 0.
     column: usize,
-    /// The position of the problem in `text`: start and length.
+    /// The start of the problem's position in `text`, and its length.
     span: (usize, usize),
 }
 
 impl Excerpt {
-    /// Creates the excerpt around the bytes `start..end` of a text. If a problem spans several lines, only its part on the first
-    /// line is marked.
+    /// Creates the excerpt around the bytes `start..end` of a text. If a problem spans several lines, only its part on
+    /// the first line is marked.
     pub(super) fn of(name: &str, source: &str, start: usize, end: usize) -> Excerpt {
         let boundary = |mut at: usize| {
             at = at.min(source.len());
@@ -70,7 +72,7 @@ impl Excerpt {
         excerpt
     }
 
-    /// Adds a line, cropped around a column, and returns the position of that column in the text.
+    /// Adds a line, cropped around a column. Returns the position of that column in the text.
     fn push(&mut self, line: &str, column: usize) -> usize {
         let line = line.strip_suffix('\r').unwrap_or(line);
         let skipped = if column >= MAX_WIDTH - BEFORE { column - BEFORE } else { 0 };

@@ -6,12 +6,12 @@ use engine::{Diagnostic, Severity};
 use excerpt::Excerpt;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, Report};
 
-/// A text with problems, and how to show it.
+/// A text with problems, and the way to show it.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
     /// The name that messages use for the text, such as the path of a file.
     pub name: &'a str,
-    /// The text.
+    /// The text with the problems.
     pub text: &'a str,
     /// `true` to use colours, for a terminal.
     pub is_coloured: bool,

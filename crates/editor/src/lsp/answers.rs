@@ -321,7 +321,7 @@ fn text_edits(edits: &[Edit], text: &Text, unit: Unit) -> Value {
     edits.iter().map(edit).collect()
 }
 
-/// Returns a completion item; `place` determines its position among the other items.
+/// Returns a completion item. `place` determines its position among the other items.
 fn completion_item(item: &Item, place: usize, range: &Value) -> Value {
     let kind = match item.kind {
         ItemKind::Class => 7,

@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 /// The kind of a document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A game.
+    /// The text of a game.
     Game,
-    /// A level.
+    /// The text of a level.
     Level,
-    /// Anything else.
+    /// A document of any other kind.
     Other,
 }
 
@@ -140,7 +140,7 @@ impl Documents {
         }
     }
 
-    /// Returns a level's game with its URI: the open document, or the file on disk.
+    /// Returns a level's game with its URI. The game is the open document, or else the file on disk.
     pub(super) fn game_of(&self, level: &str) -> Option<(String, Text)> {
         let path = uri::path(level)?;
         let (folder, name) = (path.parent()?, path.file_name()?.to_str()?);
@@ -149,7 +149,7 @@ impl Documents {
         self.text_at(&folder.join(game), MAX_SOURCE)
     }
 
-    /// Returns a game's levels with their URIs: the open documents, and the files on disk.
+    /// Returns a game's levels with their URIs. The levels are the open documents and the files on disk.
     pub(super) fn levels_of(&self, game: &str) -> Vec<(String, Text)> {
         let Some(path) = uri::path(game) else { return Vec::new() };
         let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str()))
@@ -170,7 +170,7 @@ impl Documents {
         open.chain(files.filter_map(|entry| entry.file_name().into_string().ok())).collect()
     }
 
-    /// Returns the text of a file: that of the open document, or else the content on disk.
+    /// Returns the text of a file, which is the text of the open document, or else the content on disk.
     fn text_at(&self, path: &Path, most: usize) -> Option<(String, Text)> {
         let open = self.0.iter().find(|(uri, _)| uri::path(uri).as_deref() == Some(path));
         if let Some((uri, document)) = open {

@@ -1,8 +1,8 @@
-//! The frames of the protocol: a header with a length, followed by that many bytes.
+//! The frames of the protocol. A frame is a header with a length, followed by that number of bytes.
 
 use std::io::{self, BufRead, Read, Write};
 
-/// The maximum size of a message in bytes. Nothing of a larger message is kept.
+/// The maximum size of a message in bytes. No part of a larger message is kept.
 const MAX_MESSAGE: u64 = 1 << 25;
 /// The maximum length of a header line.
 const MAX_LINE: u64 = 1 << 12;
@@ -12,13 +12,13 @@ const MAX_LINE: u64 = 1 << 12;
 pub(super) enum Frame {
     /// The bytes of a message.
     Message(Vec<u8>),
-    /// A message or a header that was rejected, with the reason. The input continues after it.
+    /// A message or a header that was rejected, with the reason. The input continues after the rejected part.
     Unread(String),
     /// The end of the input.
     End,
 }
 
-/// Reads the next frame. The length promised in the header is never allocated before the bytes have arrived.
+/// Reads the next frame. The length in the header is never allocated before the bytes have arrived.
 pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
     let mut length = None;
     let mut is_empty = true;
@@ -63,7 +63,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
     Ok(Frame::Message(message))
 }
 
-/// Writes a message.
+/// Writes a message as a frame.
 pub(super) fn write(output: &mut impl Write, message: &serde_json::Value) -> io::Result<()> {
     let text = message.to_string();
     write!(output, "Content-Length: {}\r\n\r\n{text}", text.len())?;

@@ -1,6 +1,6 @@
 //! A language server for games (`*.vgdl`, `game.txt`) and levels (`lvlN.txt` beside a game), over any pair of streams.
 //!
-//! Every malformed message is answered with an error. None of them stops the server.
+//! Every malformed message is answered with an error, and no malformed message stops the server.
 
 mod answers;
 mod documents;
@@ -17,7 +17,7 @@ use std::thread;
 /// The number of messages that are read ahead, so that only the last of several changes is checked.
 const AHEAD: usize = 8;
 
-/// Serves one client until it leaves. Returns `true` if the client requested the shutdown first.
+/// Serves one client until the client leaves. Returns `true` if the client requested the shutdown first.
 ///
 /// # Errors
 ///

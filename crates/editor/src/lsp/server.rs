@@ -8,12 +8,12 @@ use serde_json::{Value, json};
 /// The phases of a session.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Phase {
-    /// Before `initialize`.
+    /// The phase before `initialize`.
     #[default]
     Fresh,
-    /// After `initialize`.
+    /// The phase after `initialize`.
     Running,
-    /// After `shutdown`.
+    /// The phase after `shutdown`.
     ShutDown,
 }
 

@@ -103,7 +103,7 @@ fn every_word_of_the_corpus_is_offered_and_explained() {
     }
 }
 
-/// Damaged texts get answers too, and every span in them is a valid slice of the text.
+/// Damaged texts also get answers, and every span in them is a valid slice of the text.
 #[test]
 fn damaged_texts_have_answers() {
     let games = corpus();
@@ -164,7 +164,7 @@ fn damaged_texts_have_answers() {
     }
 }
 
-/// Texts with as much inheritance, as many placements and as many names as their length allows.
+/// The texts have as much inheritance, as many placements and as many names as their length allows.
 #[test]
 fn texts_at_the_limit_have_answers() {
     let params: String = (0..250).map(|number| format!(" k{number}=1")).collect();

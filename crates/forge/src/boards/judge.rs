@@ -20,29 +20,31 @@ use validators::{Criterion, CriterionSet, Gates, Judging, NotInstant, Panel, Rep
 const GRACE: usize = 10;
 /// The number of ticks in which doing nothing must not win.
 const IDLE: usize = 200;
-/// The number of episodes with random actions, the maximum number of them that may win, and their length in ticks.
+/// The number of episodes with random actions.
 const RANDOM_PLAYS: u64 = 24;
+/// The maximum number of episodes with random actions that may win.
 const LUCKY: u64 = 1;
+/// The length of an episode with random actions, in ticks.
 const RANDOM_TICKS: usize = 400;
-/// The number of ticks by which a search for a win looks beyond the longest wanted win.
+/// The number of ticks by which a search for a win exceeds the longest wanted win.
 const BEYOND: usize = 20;
 /// The minimum and maximum fraction of deviations that should have a cost.
 pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
-/// The fraction of deviations that should kill, because players do not notice the cost of a mere dead end.
+/// The fraction of deviations that should kill the player, because players do not notice the cost of a mere dead end.
 const DEATHS: f64 = 0.15;
 /// The number of cells that a mover should sweep.
 const SWEEP: f64 = 5.0;
-/// The fraction of the board that may be one empty rectangle.
+/// The maximum fraction of the board that may be one empty rectangle.
 const EMPTY: f64 = 0.25;
-/// The fraction of a win that may pass without an event.
+/// The maximum fraction of a win that may pass without an event.
 const DEAD: f64 = 0.4;
 /// The weight of deviations in the quality.
 const TRAPS_WEIGHT: f64 = 0.24;
-/// The distance from the best quality beyond which a board is not examined closely.
+/// The difference from the best quality beyond which a board is not examined closely.
 const MARGIN: f64 = 0.05;
 /// The number of other futures in which a win is replayed.
 const FUTURES: u64 = 6;
-/// The number of constraints that are tested before a win is searched for.
+/// The number of constraints that are checked before a win is searched for.
 const SEARCHED: f64 = 3.0;
 /// The fraction of its quality that a board loses if it meets no gate.
 const GATES_WEIGHT: f64 = 0.3;
@@ -76,7 +78,7 @@ pub(super) struct Judged {
 
 impl Judged {
     /// Returns the judgement on an infeasible board, from the number of constraints that it meets, and the degree to
-    /// which it meets the next one.
+    /// which it meets the next constraint.
     fn failed(met: f64, degree: f64, calls: u64) -> Judged {
         let feasibility = ((met + degree.clamp(0.0, 1.0)) / CONSTRAINTS).min(0.999);
         Judged {
@@ -89,8 +91,8 @@ impl Judged {
 }
 
 impl Judge<'_> {
-    /// Judges a board. If a board is clearly worse than the best quality so far, whatever its deviations cost, they are
-    /// not tried and count as costing nothing.
+    /// Judges a board. The deviations of a board that is clearly worse than the best quality so far are not tried,
+    /// because no cost of deviations could change that. Such deviations count as costing nothing.
     pub(super) fn judge(&self, level: &Level, best: f64) -> Judged {
         if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
             return Judged::failed(0.0, 0.0, 0);
@@ -123,9 +125,9 @@ impl Judge<'_> {
             return Judged::failed(6.0, 0.0, calls);
         }
         let events = events(self.analysis, level, &win);
-        // The uses decide most, so the other interactions are tried only after them.
+        // The uses matter most, so the other interactions are tried only after the uses.
         let ordered: BTreeSet<usize> = self.order.uses.concat().into_iter().collect();
-        // Guards leave no events in a win, so only a search without them can tell whether they are needed.
+        // Guards leave no events in a win, so only a search without them can show whether they are needed.
         let is_tried = |line: &usize| events.firsts.contains(line) || is_guard(self.analysis, *line);
         let tried = ordered.iter().copied().filter(is_tried);
         let (mut needed, spent) = self.ablations.needed(tried, level, &win, self.budget.small_calls);
@@ -144,8 +146,8 @@ impl Judge<'_> {
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
 
-    /// Returns `None` if doing nothing neither wins nor loses soon; otherwise returns how close the level comes to
-    /// that, from 0 to 0.5.
+    /// Returns `None` if a player who does nothing neither wins nor loses soon. Otherwise returns how close the level
+    /// comes to that, from 0 to 0.5.
     fn idle_fault(&self, level: &Level, calls: &mut u64) -> Option<f64> {
         let game = self.analysis.game();
         let mut state = game.start(level, self.seed);
@@ -161,7 +163,7 @@ impl Judge<'_> {
         None
     }
 
-    /// Counts the episodes with random actions that win, and stops once there are too many.
+    /// Counts the winning episodes with random actions, and stops once there are too many.
     fn lucky_plays(&self, level: &Level, calls: &mut u64) -> u64 {
         let game = self.analysis.game();
         let mut wins = 0;
@@ -188,7 +190,8 @@ impl Judge<'_> {
         wins
     }
 
-    /// Searches for a shortest win or, if that fails, for any win; otherwise returns how close the search came.
+    /// Searches for a shortest win or, if that fails, for any win. If no win is found, returns how close the search
+    /// came.
     fn win(&self, level: &Level, calls: &mut u64) -> Result<(Episode, bool), f64> {
         let game = self.analysis.game();
         let start = game.start(level, self.seed);
@@ -264,7 +267,7 @@ impl Judge<'_> {
 }
 
 impl Judge<'_> {
-    /// Returns the fraction of the ordered uses that are needed.
+    /// Returns the fraction of the ordered uses that the win needs.
     fn needed_uses(&self, needed: &[usize]) -> f64 {
         let is_needed = |lines: &&Vec<usize>| lines.iter().any(|line| needed.contains(line));
         match self.order.uses.len() {
@@ -299,7 +302,7 @@ impl Judge<'_> {
 pub(super) const ALONE: CriterionSet =
     CriterionSet::of(&[Criterion::Drama, Criterion::NoDeadTime, Criterion::ActorsMatter, Criterion::Tight]);
 
-/// Returns the quality of a won board: necessity weighs most, followed by wrong choices that have a cost; missed gates
+/// Returns the quality of a won board. Necessity weighs most, followed by wrong choices that have a cost. Missed gates
 /// lower the total.
 fn quality(measures: &BoardMeasures) -> f64 {
     let (low, high) = TRAPS;
@@ -324,7 +327,7 @@ fn quality(measures: &BoardMeasures) -> f64 {
     own * (1.0 - GATES_WEIGHT * (1.0 - measures.gates))
 }
 
-/// Returns `true` if a board has everything that the search looks for.
+/// Returns `true` if a board has every property that the search looks for.
 pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
         && measures.uses >= 1.0

@@ -9,7 +9,7 @@ use generators::boards::BoardVariation;
 use generators::{Annealing, AnnealingConfig, Search};
 use validators::{Effort, Panel};
 
-/// The number of boards to request per board of the budget, which counts only boards for which a win is searched.
+/// The number of boards to request per board of the budget. The budget counts only boards for which a win is searched.
 const CHEAP: usize = 3;
 /// The maximum number of tidied boards that are judged at the end.
 const TIDIED: usize = 12;
@@ -36,13 +36,13 @@ pub fn make_board(
 pub(crate) struct BoardSearch {
     /// The board as returned by [`make_board`].
     pub(crate) made: Option<MadeBoard>,
-    /// The fraction of the constraints met by the board that is closest to being won as ordered; 1.0 if one is won.
+    /// The fraction of the constraints met by the board that is closest to being won as ordered; 1.0 if a board is won.
     pub(crate) feasibility: f64,
     /// The number of forward-model calls.
     pub(crate) calls: u64,
 }
 
-/// Makes a board as [`make_board`] does, and also returns how close the search came if it makes no board.
+/// Makes a board like [`make_board`], and also returns how close the search came if no board was made.
 pub(crate) fn search_boards(
     analysis: &Analysis,
     order: &BoardOrder,
@@ -87,18 +87,18 @@ pub(crate) fn search_boards(
 /// The best boards so far, and the cost.
 #[derive(Default)]
 struct Best {
-    /// The boards in the order found; each is better or tidier than the board before it.
+    /// The boards in the order found. Each board is better or tidier than the board before it.
     boards: Vec<(Level, Episode, BoardMeasures)>,
     evaluations: usize,
     /// The number of boards for which a win was searched for.
     searched: usize,
-    /// The number of boards judged since the best one.
+    /// The number of boards judged since the best board was found.
     stale: usize,
     calls: u64,
 }
 
 impl Best {
-    /// Returns `true` if a board was won, and neither the compositions nor many changes since have been better.
+    /// Returns `true` if a board was won, and neither the compositions nor many later changes have been better.
     fn is_stale(&self, budget: &BoardBudget) -> bool {
         !self.boards.is_empty()
             && self.stale >= budget.patience
@@ -113,7 +113,7 @@ impl Best {
         self.boards.last().map_or(0.0, |(.., measures)| measures.quality)
     }
 
-    /// Counts a judged board, and keeps it if it is the best so far.
+    /// Counts a judged board, and keeps the board if it is the best so far.
     fn note(&mut self, level: &Level, judged: Judged) {
         self.evaluations += 1;
         self.calls += judged.calls;
@@ -151,8 +151,8 @@ impl Best {
         }
     }
 
-    /// Judges the best board again, with more calls. If its shortest win turns out to be too short, the board that it
-    /// had replaced takes its place and is judged again.
+    /// Judges the best board again, with more calls. If its shortest win turns out to be too short, the previous best
+    /// board replaces it and is judged again.
     fn scrutinize(&mut self, judge: &Judge<'_>) {
         let last = self.boards.len().saturating_sub(SCRUTINIZED);
         self.boards.drain(..last);
@@ -206,7 +206,8 @@ mod tests {
         assert_ne!(make("another board").map(|made| made.level), Some(made.level));
     }
 
-    /// Every win takes the plum. No win needs to be killed by the dog: without that rule, the same actions win.
+    /// Every win takes the plum. No win needs the dog to kill the avatar, because the same actions win without that
+    /// rule.
     #[test]
     fn wins_need_the_ordered_uses() {
         let game = Game::from_source(GAME).unwrap();

@@ -1,5 +1,5 @@
-//! Boards for any game, found by a search with players: they are composed by [`generators::boards`], then changed until
-//! a shortest win needs every clause, wrong choices have a cost, and nothing is superfluous.
+//! Boards for any game, found by a search with players. [`generators::boards`] composes the boards. The search then
+//! changes them until a shortest win needs every clause, wrong choices have a cost, and nothing is superfluous.
 
 mod deviations;
 mod judge;

@@ -1,15 +1,15 @@
-//! The interactions without which a board cannot be won, or not as fast.
+//! The interactions without which a board cannot be won, or not as quickly.
 
 use super::shortest::{Limits, shortest_win};
 use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};
 use std::collections::BTreeMap;
 
-/// The minimum length of a win without an interaction, in hundredths of the win's ticks, at which it counts as a
-/// different win.
+/// The minimum length of a win without an interaction at which the win counts as different, in hundredths of the ticks
+/// of the known win.
 const LONGER: usize = 115;
 
-/// The games without each one of the interactions, with their analyses.
+/// Variants of a game, each without one of the interactions, with their analyses.
 pub(crate) struct Ablations {
     without: BTreeMap<usize, Analysis>,
 }
@@ -22,8 +22,8 @@ impl Ablations {
         Ablations { without: lines.map(|line| (line, Analysis::of(&game.without(line)))).collect() }
     }
 
-    /// Returns those of some interactions that a win of a level needs, and the number of calls; each search for another
-    /// win may make `calls` of them.
+    /// Returns the interactions, among those given, that a win of a level needs. Also returns the number of calls. Each
+    /// search for a different win may make `calls` calls.
     pub(crate) fn needed(
         &self,
         lines: impl IntoIterator<Item = usize>,
@@ -40,8 +40,8 @@ impl Ablations {
         (needed, all)
     }
 
-    /// Returns whether a win of a level needs an interaction: without it, the actions do not win, and no win of about
-    /// the same length is found. Also returns the number of calls.
+    /// Returns whether a win of a level needs an interaction. A win needs an interaction if its actions do not win
+    /// without the interaction, and no win of about the same length is found. Also returns the number of calls.
     fn needs(&self, line: usize, level: &Level, win: &[Action], seed: Seed, calls: u64) -> (bool, u64) {
         let Some(analysis) = self.without.get(&line) else { return (false, 0) };
         let game = analysis.game();
@@ -78,8 +78,8 @@ mod tests {
         let limits = Limits { calls: 10_000, ticks: 40 };
         let found = shortest_win(&analysis, &game.start(&level, seed), limits);
         let win = found.win.expect("the level can be won");
-        // The key is one step away and the plum is four steps from there. The gate stops the avatar in the tick in
-        // which it opens.
+        // The key is one step away, and the plum is four more steps away. The gate stops the avatar in the tick in
+        // which the gate opens.
         assert_eq!((win.len(), found.is_proved), (6, true));
         let ablations = Ablations::of(&analysis);
         let needs = |line: usize| ablations.needs(line, &level, &win, seed, 10_000).0;

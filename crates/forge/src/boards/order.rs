@@ -1,32 +1,32 @@
-//! Orders of boards, the budget of a search, and its result.
+//! Orders of boards, search budgets, and search results.
 
 use engine::{Episode, Level};
 use generators::boards::BoardBrief;
 use validators::CheckedCriteria;
 
-/// The minimum and maximum lengths of a shortest win by slot, in ticks.
+/// The minimum and maximum length of a shortest win by slot, in ticks.
 const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
 
-/// The order of a board.
+/// An order for a board.
 #[derive(Clone, Debug)]
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The uses of types that a win must need, each a set of interactions, as indices into
-    /// [`Description::interactions`](engine::Description). A win needs a use if it needs one of its interactions.
+    /// The uses of types that a win must need. Each use is a set of interactions, as indices into
+    /// [`Description::interactions`](engine::Description). A win needs a use if it needs one of the use's interactions.
     pub uses: Vec<Vec<usize>>,
-    /// The boards that the new board must not resemble.
+    /// Earlier boards that the new board must not resemble.
     pub unlike: Vec<Level>,
-    /// For each earlier win, the order in which it first executed each interaction; see [`BoardMeasures::firsts`].
+    /// For each earlier win, the order of its first executions of interactions; see [`BoardMeasures::firsts`].
     pub known: Vec<Vec<usize>>,
     /// The minimum and maximum number of ticks of the shortest win.
     pub ticks: (usize, usize),
-    /// The criteria whose gates the board should meet by itself, as far as a single level can.
+    /// The criteria whose gates the board should meet by itself, as far as a single level can meet them.
     pub gates: Option<CheckedCriteria>,
 }
 
 impl BoardOrder {
-    /// Creates an order with the usual contents and length for the slot of a brief.
+    /// Creates an order with the usual contents and length for the brief's slot.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
         BoardOrder { brief, uses: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
@@ -37,19 +37,19 @@ base::with_defaults! {
     /// The budget of a search for a board. It contains no times, so the result is the same on every machine.
     #[derive(Clone, Debug, PartialEq)]
     pub struct BoardBudget {
-        /// The number of compositions to begin with; the best one is changed.
+        /// The number of compositions to begin with. The search then changes the best composition.
         pub compositions: usize = 24,
         /// The total number of boards for which a win is searched, including compositions.
         pub evaluations: usize = 60,
-        /// The number of boards without an improvement after which the search ends, once some board is won.
+        /// The number of boards without an improvement after which the search ends, once a board is won.
         pub patience: usize = 24,
         /// The maximum number of forward-model calls of a search for the shortest win.
         pub calls: u64 = 40_000,
         /// The maximum number of forward-model calls of a search for a win without one of the interactions, or after a
         /// deviation.
         pub small_calls: u64 = 5_000,
-        /// The factor by which `calls` and `small_calls` grow for the final judging of the best board; at 1, there is no
-        /// final judging.
+        /// The factor by which `calls` and `small_calls` grow for the final judging of the best board. With a factor of
+        /// 1, there is no final judging.
         pub scrutiny: u64 = 8,
         /// The number of deviations from the win to try.
         pub deviations: usize = 10,
@@ -61,13 +61,13 @@ base::with_defaults! {
 /// A board with its win.
 #[derive(Clone, Debug)]
 pub struct MadeBoard {
-    /// The level.
+    /// The level with the board.
     pub level: Level,
     /// The shortest win found.
     pub win: Episode,
     /// The properties of the board.
     pub measures: BoardMeasures,
-    /// `true` if the board has everything that the search looks for.
+    /// `true` if the board has every property that the search looks for.
     pub is_complete: bool,
     /// The number of boards judged in the search.
     pub evaluations: usize,
@@ -86,7 +86,7 @@ pub struct BoardMeasures {
     pub is_shortest: bool,
     /// The fraction of other futures of the game in which the same actions win; 1.0 in deterministic games.
     pub steady: f64,
-    /// The interactions without which there is no win, or only a clearly longer one.
+    /// The interactions without which there is no win, or only a clearly longer win.
     pub needed: Vec<usize>,
     /// The fraction of the ordered uses that the win needs; 1.0 if no use was ordered.
     pub uses: f64,
@@ -107,7 +107,7 @@ pub struct BoardMeasures {
     /// The interactions of the win, except those that only stop or turn something, in the order of their first
     /// executions.
     pub firsts: Vec<usize>,
-    /// `true` if no known win has that order.
+    /// `true` if no known win has the same order of first executions.
     pub is_new: bool,
 }
 

@@ -11,7 +11,7 @@ pub(super) struct Events {
     pub(super) firsts: Vec<usize>,
     /// The fraction of placed types, not counting walls and floor, that took part.
     pub(super) used: f64,
-    /// The longest stretch without such an interaction, as a fraction of the ticks.
+    /// The longest stretch without an interaction of `firsts`, as a fraction of the win's ticks.
     pub(super) dead: f64,
     /// The mean number of cells swept by sprites that move by themselves.
     pub(super) sweep: Option<f64>,

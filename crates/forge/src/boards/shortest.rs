@@ -22,20 +22,21 @@ pub(super) struct Limits {
 pub(super) struct Found {
     /// The actions of a win.
     pub(super) win: Option<Vec<Action>>,
-    /// `true` if it is proved that no win is shorter or, without a win, that there is none within the ticks.
+    /// `true` if the result is proved: no win is shorter than the one found, or no win exists within the maximum
+    /// number of ticks.
     pub(super) is_proved: bool,
     pub(super) calls: u64,
-    /// The minimum number of sprites that still have to be removed or created for a win, over all states found.
+    /// The minimum number of sprites that must still be removed or created for a win, over all states found.
     pub(super) missing: u32,
 }
 
-/// The keys of the states met so far.
+/// The keys of the states found so far.
 #[expect(clippy::disallowed_types, reason = "used for look-ups, never iterated")]
 type Met = std::collections::HashSet<SearchKey>;
 
 /// Searches for a shortest win layer by layer. Once half of the calls are spent, only the most promising states of a
 /// layer are kept, spread over the positions of the avatar. In a stochastic game, the future of the start state
-/// represents all futures, and states are distinguished without their randomness; nothing is proved then.
+/// represents all futures, and states are distinguished without their randomness. Such a search proves nothing.
 pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -> Found {
     let is_certain = analysis.is_deterministic_from(start);
     let abstraction = analysis.abstraction(start).without_chance();
@@ -76,7 +77,7 @@ struct Search<'a> {
     analysis: &'a Analysis,
     abstraction: StateAbstraction,
     goals: Vec<&'a Goal>,
-    /// For each node, the parent and the action that leads from it to the node.
+    /// For each node, the parent and the action that leads from the parent to the node.
     steps: Vec<(u32, Action)>,
     met: Met,
     /// The states of expanded layers, whose buffers are used again.
@@ -123,7 +124,7 @@ impl Search<'_> {
         self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(u32::MAX)
     }
 
-    /// Returns the maximum number of states of a layer, with `ticks` ticks left.
+    /// Returns the maximum number of states in a layer if `ticks` ticks remain.
     fn width(&self, ticks: usize) -> u64 {
         let left = self.limits.calls.saturating_sub(self.found.calls);
         if left > self.limits.calls / 2 {

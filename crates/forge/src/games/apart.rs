@@ -1,21 +1,22 @@
-//! Inventions that lie far from known games.
+//! Inventions at a large distance from known games.
 
 use base::{Sampler, Seed};
 use generators::Variation;
 use generators::invention::{Census, Invention, InventionConfig, InventionVariation};
 use validators::novelty::{GameForm, distance};
 
-/// The distance to every known game beyond which no further draw is compared.
+/// The distance to every known game at which a draw is accepted at once.
 const FAR: f64 = 0.6;
 /// The maximum number of draws that are compared.
 const DRAWS: u64 = 12;
 
-/// The number of attempts at a game after which another mechanic leads the draws.
+/// The number of attempts at a game after which a different mechanic leads the draws.
 const PATIENCE: u32 = 6;
-/// The number of turns by which the lead then moves on, which is more than a month has games.
+/// The number of turns by which the lead then advances, which exceeds the number of games in a month.
 const STRIDE: usize = 31;
 
-/// Inventions as candidates of a search, drawn far from known games. [`InventionVariation`] makes the changes.
+/// Inventions as candidates of a search, drawn at a large distance from known games. [`InventionVariation`] makes the
+/// changes.
 pub(crate) struct FarInventions<'a> {
     variation: InventionVariation,
     known: &'a [GameForm],
@@ -23,8 +24,8 @@ pub(crate) struct FarInventions<'a> {
 }
 
 impl<'a> FarInventions<'a> {
-    /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics that the census counts
-    /// least. If all games of an order use the same `seed`, different mechanics lead them.
+    /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics with the lowest counts in
+    /// the census. If all games of an order use the same `seed`, different mechanics lead their draws.
     pub(crate) fn new(
         census: &Census,
         known: &'a [GameForm],
@@ -37,8 +38,8 @@ impl<'a> FarInventions<'a> {
         FarInventions { variation: InventionVariation::new(config, census.clone()), known, lead }
     }
 
-    /// Returns the child, or its parent if the child has lost the lead: searches of different games would otherwise end
-    /// at the mechanics that pass most easily.
+    /// Returns the child, or its parent if the child has lost the lead mechanic. Otherwise, searches for different
+    /// games would end at the mechanics that pass most easily.
     fn led(&self, child: Invention, parent: &Invention) -> Invention {
         let has_lead = |invention: &Invention| invention.mechanics().any(|name| name == self.lead);
         if has_lead(parent) && !has_lead(&child) { parent.clone() } else { child }
@@ -48,7 +49,8 @@ impl<'a> FarInventions<'a> {
 impl Variation for FarInventions<'_> {
     type Candidate = Invention;
 
-    /// Returns the first draw that lies far from every known game or, if none of [`DRAWS`] draws does, the farthest one.
+    /// Returns the first draw that lies far from every known game. If none of [`DRAWS`] draws does, returns the
+    /// farthest draw.
     fn create(&self, seed: Seed) -> Option<Invention> {
         let mut farthest: Option<(f64, Invention)> = None;
         for draw in 0..DRAWS {

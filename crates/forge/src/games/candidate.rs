@@ -10,7 +10,7 @@ use validators::Judgement;
 /// A candidate before it has levels.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The rules.
+    /// The rules of the game.
     pub game: Game,
     /// The title in the game's own theme.
     pub title: String,
@@ -20,20 +20,20 @@ pub struct Candidate {
     pub goal: String,
     /// The kind of game.
     pub kind: String,
-    /// `true` if anything moves unless the player acts.
+    /// `true` if anything moves even while the player does nothing.
     pub real_time: bool,
     /// The origin of the game.
     pub origin: Origin,
 }
 
-/// A game with its levels, all of which its judges accepted.
+/// A game with its levels, all of which were accepted by its judges.
 #[derive(Clone, Debug)]
 pub struct MadeGame {
-    /// The rules.
+    /// The rules of the game.
     pub game: Game,
     /// The rules as text, headed by title and canary.
     pub text: String,
-    /// The card.
+    /// The card of the game.
     pub card: Card,
     /// The levels, from easiest to hardest.
     pub levels: Vec<FoundLevel>,
@@ -46,7 +46,8 @@ pub struct MadeGame {
 }
 
 impl Candidate {
-    /// Creates a candidate from a generated game, with its generator and its index among the candidates for its place.
+    /// Creates a candidate from a generated game, with its generator and its index among the candidates for the game's
+    /// position.
     pub(crate) fn generated(made: GeneratedGame, generator: &str, candidate: u32) -> Candidate {
         let GeneratedGame { rules: game, title, summary, goal, kind, real_time, patterns } = made;
         let origin = Origin::Generated { generator: generator.to_owned(), patterns, candidate };
@@ -82,7 +83,7 @@ impl Candidate {
     }
 }
 
-/// Returns the text of a game headed by its title, with a release's canary below the title, unless the canary is empty.
+/// Returns the text of a game headed by its title. A release's canary follows the title unless the canary is empty.
 pub fn marked(titled: &Description, canary: &str) -> String {
     let mut tree = titled.clone();
     if !canary.is_empty() {

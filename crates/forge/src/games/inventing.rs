@@ -1,4 +1,4 @@
-//! The making of invented games by each method.
+//! Making invented games by each method.
 
 use super::apart::FarInventions;
 use super::attempt::Attempted;
@@ -19,17 +19,19 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// The share of the looks of an attempt that a further round of an archive takes: there the judges said no.
+/// The divisor of an attempt's looks that gives the looks of a further round of an archive. Such a round follows when
+/// the judges have rejected the elites.
 const MENDING: usize = 3;
-/// The maximum number of games of a round. The games depend on it.
+/// The maximum number of games in a round. The resulting games depend on this number.
 const ROUND: usize = 4;
 /// The maximum number of attempted games per ordered game.
 const ROUNDS: u32 = 4;
 /// The maximum number of elites that are judged in a round of an archive.
 const ELITES: usize = 3;
 
-/// Invents game `number` of an order, and makes it if that succeeds within the order's attempts. Prefers the mechanics
-/// that the census counts least, and keeps the game apart from known games only. Cost: minutes of one core per game.
+/// Invents game `number` of an order, and makes the game within the order's attempts if possible. Prefers the mechanics
+/// with the lowest counts in the census, and keeps the game apart from known games only. Cost: minutes of one core per
+/// game.
 pub fn invent_one(
     order: &GameOrder,
     census: &Census,
@@ -42,10 +44,10 @@ pub fn invent_one(
     (made, tally)
 }
 
-/// Invents the games of an order in rounds, each of which knows the games of the rounds before it. Any two of the games
-/// and the `known` ones are at least [`NEAR`](validators::novelty::NEAR) apart, and no two games share a title or most
-/// of their names. `canary` marks the games' files. The same order, known games and seed give the same games on any
-/// number of threads. Cost: minutes of one core per game, on all threads of the current rayon pool.
+/// Invents the games of an order in rounds. Each round knows the games of all earlier rounds. Any two of the games and
+/// the `known` games are at least [`NEAR`](validators::novelty::NEAR) apart, and no two games share a title or most of
+/// their names. `canary` marks the games' files. The same order, known games and seed give the same games on any number
+/// of threads. Cost: minutes of one core per game, on all threads of the current rayon pool.
 ///
 /// If too few games succeed, the set has fewer games than ordered.
 ///
@@ -101,7 +103,8 @@ impl Maker<'_> {
         }
     }
 
-    /// Draws inventions, or anneals them, until one is accepted. Where a search finds none, the judges see the one that was drawn.
+    /// Draws inventions, or anneals them, until one is accepted. If a search finds no invention, the judges see the
+    /// drawn one.
     fn invent_in_attempts<'a>(&self, variation: impl Fn(u32) -> FarInventions<'a>, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         for attempt in 0..self.order.effort.attempts {
@@ -122,7 +125,8 @@ impl Maker<'_> {
     }
 
     /// Fills an archive with different inventions, and judges elites that lie far apart until one is accepted. Each
-    /// attempt is a round: the first one fills the archive, and the others refill the cells that the judges rejected.
+    /// attempt is a round. The first round fills the archive, and later rounds refill the cells that the judges
+    /// rejected.
     fn invent_from_archive(&self, variation: &FarInventions<'_>, number: u32) -> Attempted {
         let GameEffort { attempts, looks, .. } = self.order.effort;
         let (seed, looks) = (self.seed_of(number), looks as usize);
@@ -164,7 +168,7 @@ mod tests {
     use crate::pipeline::tests::order;
     use base::Seed;
 
-    /// Makes one round with few looks, and judges that accept whatever is won.
+    /// Runs one round with few looks, and with judges that accept whatever is won.
     fn invent(method: Method, threads: usize) -> (Option<String>, Tally) {
         let order = GameOrder { method, levels: 1, level_tries: 1, ..order() };
         let order =

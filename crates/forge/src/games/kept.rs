@@ -16,7 +16,7 @@ use validators::Report;
 pub struct Kept {
     /// The game that its judges accepted.
     pub game: Option<KeptGame>,
-    /// The counts of everything that was tried.
+    /// The counts of all candidates tried.
     pub tally: Tally,
 }
 
@@ -28,7 +28,7 @@ pub struct KeptGame {
     pub text: String,
     /// The game's card.
     pub card: Card,
-    /// The levels.
+    /// The texts of the levels.
     pub levels: Vec<String>,
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,

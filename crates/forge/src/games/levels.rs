@@ -15,7 +15,7 @@ use validators::{
 /// A level that its judges accepted.
 #[derive(Clone, Debug)]
 pub struct FoundLevel {
-    /// The level.
+    /// The accepted level.
     pub level: Level,
     /// The findings of the level's judges, whose witness wins the level.
     pub report: Report,
@@ -23,7 +23,7 @@ pub struct FoundLevel {
     pub generator: &'static str,
     /// The difficulty requested from the generator, from 0 to 1.
     pub difficulty: f64,
-    /// The level's index among the candidates for its place, from 0.
+    /// The level's index among the candidates for its position, from 0.
     pub candidate: u32,
     /// The seed of the candidate.
     pub seed: SeedPath,
@@ -31,25 +31,25 @@ pub struct FoundLevel {
     pub demand: Option<Demand>,
 }
 
-/// A candidate for a place, before it is judged.
+/// A candidate for a position in the game, before it is judged.
 #[derive(Clone)]
 pub(crate) struct Drawn {
     pub(crate) level: Level,
     /// The difficulty requested from the generator, from 0 to 1.
     pub(crate) difficulty: f64,
-    /// The candidate's index among the candidates for its place, from 0.
+    /// The candidate's index among the candidates for its position, from 0.
     pub(crate) candidate: u32,
     /// The seed of the candidate.
     pub(crate) seed: SeedPath,
-    /// A known win.
+    /// A known win; `None` if no win is known.
     pub(crate) win: Option<Episode>,
 }
 
 /// The levels of a game, and the findings about all of them together.
 #[derive(Clone, Debug)]
 pub struct FoundLevels {
-    /// The levels in the order of the game: from easiest to hardest for the ladder if it played, otherwise as
-    /// requested.
+    /// The levels in the order of the game. If a ladder played, the levels go from easiest to hardest for the
+    /// ladder. Otherwise they have the requested order.
     pub levels: Vec<FoundLevel>,
     /// The win rate of plain tree search on each level.
     pub mcts: Vec<Rate>,
@@ -68,7 +68,7 @@ pub struct Levels<'a> {
     pub tries: u32,
     /// The source of candidates.
     pub source: &'a dyn BoardSource,
-    /// The criteria that each level, and all levels together, have to meet.
+    /// The criteria that each level, and all levels together, must meet.
     pub criteria: &'a CheckedCriteria,
     /// The judges of these criteria.
     pub panel: &'a Panel,
@@ -82,12 +82,12 @@ pub(crate) fn judges_seed(candidate: &SeedPath) -> SeedPath {
 }
 
 impl Levels<'_> {
-    /// Returns the judges of the requested criteria that are in a set.
+    /// Returns the judges of those requested criteria that are in a set.
     pub(crate) fn panel_of(&self, set: CriterionSet) -> Panel {
         Panel::new(self.criteria.only(set), Effort::Sequential)
     }
 
-    /// Judges a candidate; returns `None` if it does not meet all criteria.
+    /// Judges a candidate. Returns `None` if it does not meet all criteria.
     pub(crate) fn judge_drawn(
         &self,
         panel: &Panel,
@@ -120,13 +120,13 @@ impl FoundLevel {
         used_rules(game, &self.level, win).into_iter().filter(|line| !guards.contains(line)).collect()
     }
 
-    /// Returns the level's ease for the ladder, from 0 to 1; 0 for all levels if no ladder played.
+    /// Returns the level's ease for the ladder, from 0 to 1. If no ladder played, the ease is 0 for all levels.
     pub(crate) fn ease(&self) -> f64 {
         self.report.ladder().and_then(|ladder| ladder.ease).unwrap_or_default()
     }
 
-    /// Returns the card of the level and the winning episode; `None` unless the judges were asked about idle play,
-    /// random play and winning.
+    /// Returns the card of the level and the winning episode; `None` unless the judges include those for idle
+    /// play, random play and winning.
     pub(crate) fn card(&self, number: usize, mcts: &Rate) -> Option<(LevelCard, Episode)> {
         let report = &self.report;
         let rate = |criterion: Criterion| -> Option<Rate> { report.finding(criterion)?.measured.clone() };

@@ -1,9 +1,10 @@
-//! The likeness of two boards up to mirroring and rotation, which ensures that a course does not show a board twice.
+//! The likeness of two boards up to mirroring and rotation. It ensures that a course does not show the same board
+//! twice.
 
 use engine::Level;
 
 /// The likeness at which two levels of a course count as the same board. The median of the highest likeness within a
-/// hand-written game is 0.54; two of 27 such games have levels above this threshold.
+/// hand-written game is 0.54. Two of 27 such games have levels above this threshold.
 const ONE_BOARD: f64 = 0.75;
 /// The symbol of bare floor in the levels of courses.
 const FLOOR: u8 = b'.';
@@ -17,14 +18,14 @@ struct Board {
     cells: Vec<u8>,
 }
 
-/// Returns `true` if two levels show the same board, perhaps mirrored, rotated or shifted, and up to a few cells.
+/// Returns `true` if two levels show the same board, up to mirroring, rotation, a shift, and a few cells.
 pub(crate) fn are_one_board(one: &Level, other: &Level) -> bool {
     likeness(&Board::of(one), &Board::of(other)) >= ONE_BOARD
 }
 
-/// Returns the fraction of equal cells among all cells that are not bare floor on both boards, from 0 to 1, for the
-/// position of the second board with the most equal cells. Cost: half a million comparisons for the largest boards of
-/// courses.
+/// Returns the likeness of two boards, from 0 to 1. It is the fraction of equal cells among all cells that are not bare
+/// floor on both boards, for the best position of the second board. Cost: half a million comparisons for the largest
+/// boards of courses.
 fn likeness(one: &Board, other: &Board) -> f64 {
     let shifts = |a: usize, b: usize| {
         let spare = a as isize - b as isize;
@@ -46,7 +47,7 @@ impl Board {
         Board { columns: level.columns(), rows: level.rows(), cells: level.cells().to_vec() }
     }
 
-    /// Returns the symbol of a cell; bare floor beyond the board.
+    /// Returns the symbol of a cell, or bare floor for a position outside the board.
     fn at(&self, x: isize, y: isize) -> u8 {
         match (usize::try_from(x), usize::try_from(y)) {
             (Ok(x), Ok(y)) if x < self.columns && y < self.rows => self.cells[y * self.columns + x],
@@ -59,7 +60,7 @@ impl Board {
         self.cells.iter().filter(|&&symbol| symbol != FLOOR).count()
     }
 
-    /// Returns the fraction of equal cells among all cells that are not bare floor on both boards, with the other board
+    /// Returns the fraction of equal cells among all cells that are not bare floor on both boards. The second board is
     /// shifted.
     fn overlap(&self, other: &Board, (dx, dy): (isize, isize)) -> f64 {
         let (mut equal, mut shared) = (0, 0);

@@ -1,4 +1,4 @@
-//! The making of games of kernels.
+//! Making games of kernels.
 
 use super::attempt::Attempted;
 use super::candidate::{Candidate, MadeGame};
@@ -15,12 +15,12 @@ use generators::kernels::KernelGenome;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// The games of an order.
+/// The games made for an order.
 #[derive(Clone, Debug, Default)]
 pub struct GameSet {
     /// The games that could be made, ordered by number.
     pub games: Vec<MadeGame>,
-    /// The candidates that were tried, and the reasons why some failed.
+    /// The numbers of candidates tried, and the reasons why some failed.
     pub tally: Tally,
     /// The reason why there are fewer games than ordered.
     pub shortfall: Option<Shortfall>,
@@ -31,26 +31,33 @@ pub struct GameSet {
 pub enum Shortfall {
     /// All attempts have been used.
     Attempts,
-    /// Every kernel has its maximum number of games or belongs to a kind that has: more games would be too similar.
+    /// Every kernel has its maximum number of games, or belongs to a kind that has its maximum. More games would be too
+    /// similar.
     Room,
 }
 
 /// The errors of making games.
 #[derive(Debug, thiserror::Error)]
 pub enum GamesError {
-    /// No candidate passed.
+    /// No candidate passed all judges.
     #[error(
         "no game was accepted ({looks} inspected, {} judged): {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
     )]
     NoneAccepted {
-        /// Candidates that a search looked at, candidates that were judged, and their obstacles.
+        /// The candidates that a search looked at, the candidates that were judged, and the reasons why they failed.
         tally: Box<Tally>,
     },
 }
 
-/// Makes the games of an order, of kernels; no two of them, and none of them and a `known` game, are nearer than
-/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, each kernel has one game before any has two, and three of twenty are of one kind. `canary` marks their files. Cost: 20 to 30 seconds of one core a game, on all threads
-/// of the current rayon pool. The same order, known games and seed give the same games on any number of threads.
+/// Makes the games of an order from kernels. `canary` marks their files. The same order, known games and seed give the
+/// same games on any number of threads.
+///
+/// - Any two of the games and the `known` games are at least [`NEAR`](validators::novelty::NEAR) apart.
+/// - No two games share a title or most of their names.
+/// - Each kernel has one game before any kernel has two.
+/// - At most three games of twenty are of the same kind.
+///
+/// Cost: 20 to 30 seconds of one core per game, on all threads of the current rayon pool.
 ///
 /// Games that could not be made are missing from the set.
 ///
@@ -66,8 +73,9 @@ pub fn make_games(
     Maker::of_kernels(order, known, canary, seed.into(), progress).make_in_rounds().unless_empty(order)
 }
 
-/// The game of a kernel of this number of an order that is made one by one, if it can be made, of the [rules](RuleSets) that are shared out to it
-/// and whatever the others are like: known games only are kept apart from. Cost, and what decides it: as of [`make_games`].
+/// Makes game `number` of an order whose games are made one by one, from the [rules](RuleSets) assigned to that number.
+/// The game is kept apart from known games only, and does not depend on the other games of the order. Returns no game
+/// if all attempts fail. Cost and reproducibility are those of [`make_games`].
 pub fn make_one(
     order: &GameOrder,
     sets: &RuleSets,
@@ -79,9 +87,9 @@ pub fn make_one(
     (made, tally)
 }
 
-/// Attempts to make a game of a kernel, in one of the open forms, for authors of kernels; `number` is the number of the
-/// attempt. Cost: one to 15 seconds of one core. Returns no game if there is no such kernel or form, or if the attempt
-/// fails for a reason in the tally.
+/// Attempts to make a game of a kernel, in one of the open forms. This function is meant for authors of kernels.
+/// `number` is the number of the attempt. Cost: 1 to 15 seconds of one core. Returns no game if there is no such kernel
+/// or form, or if the attempt fails for a reason in the tally.
 pub fn attempt_kernel(
     order: &GameOrder,
     kernel: &str,
@@ -99,7 +107,7 @@ pub fn attempt_kernel(
     (attempted.made, attempted.tally)
 }
 
-/// The reason that a place is left empty which no rules are left for.
+/// The reason for leaving a position empty because no rules are left for it.
 pub const NO_RULES: &str = "no rules left";
 
 /// A maker of games by any of the methods.
@@ -119,7 +127,7 @@ impl GameSet {
         }
     }
 
-    /// Completes the set: if there are fewer games than wanted, removes games of crowded kinds.
+    /// Completes the set. If there are fewer games than wanted, removes games of crowded kinds.
     pub(super) fn end(&mut self, company: &Company, wanted: usize, shortfall: Shortfall) {
         if self.games.len() < wanted {
             self.shortfall = Some(shortfall);
@@ -131,7 +139,7 @@ impl GameSet {
 }
 
 impl<'a> Maker<'a> {
-    /// A maker of games of kernels, which are drawn whatever the method of the order is.
+    /// Creates a maker of games of kernels. Such games are drawn, regardless of the method of the order.
     fn of_kernels(
         order: &'a GameOrder,
         known: &'a [GameForm],
@@ -143,12 +151,13 @@ impl<'a> Maker<'a> {
         Maker { order, gate, seed, progress }
     }
 
-    /// The seed of an attempt of a set.
+    /// Returns the seed for one attempt at making a set.
     pub(super) fn seed_of(&self, number: u32) -> SeedPath {
         self.seed.child("game", u64::from(number))
     }
 
-    /// Returns the result of an attempt: the one kept by an interrupted run, or else a new one, which is then kept.
+    /// Returns the result of an attempt. If an interrupted run has kept the result, returns that result. Otherwise
+    /// makes the attempt and keeps its result.
     pub(super) fn kept_or_made(&self, attempt: &str, make: impl FnOnce() -> Attempted) -> Attempted {
         if let Some(attempted) = self.progress.kept(attempt).and_then(Kept::restored) {
             return attempted;
@@ -177,7 +186,7 @@ impl<'a> Maker<'a> {
         }
     }
 
-    /// Attempts at the game of a place, until one is accepted.
+    /// Attempts to make the game for a position, until a game is accepted.
     fn attempt(&self, sets: &RuleSets, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         let GameEffort { attempts, patience, .. } = self.order.effort;
@@ -205,7 +214,7 @@ mod tests {
     use super::*;
     use crate::pipeline::tests::order;
 
-    /// This is the situation at the end of a chain of releases that has used up all rules.
+    /// A chain of releases that has used up all rules ends in this situation.
     #[test]
     fn no_rules_are_no_games() {
         let (order, seed) = (order(), SeedPath::from(Seed::from_text("none")));

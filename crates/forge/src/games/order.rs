@@ -1,4 +1,4 @@
-//! Orders of games.
+//! Orders of games, which state what to make.
 
 use crate::levels::Method;
 use generators::games::Kind;
@@ -9,7 +9,7 @@ use validators::{CheckedCriteria, Criteria, Criterion, CriterionSet};
 /// An order of games.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameOrder {
-    /// The method of inventing them. Games of kernels are drawn, whatever it is.
+    /// The method of inventing games. Games of kernels are drawn, regardless of the method.
     pub method: Method,
     /// The number of games.
     pub count: u32,
@@ -17,15 +17,15 @@ pub struct GameOrder {
     pub kinds: Vec<Kind>,
     /// The number of levels per game, from easiest to hardest.
     pub levels: u32,
-    /// The maximum number of levels that are tried for one place.
+    /// The maximum number of levels that are tried for one position.
     pub level_tries: u32,
     /// The minimum number of interactions in a game, including guards.
     pub least_interactions: usize,
     /// The minimum number of different interactions, not counting guards, that the wins of all levels execute together.
     pub least_mechanics: usize,
-    /// The criteria that each game has to meet; see [`GameOrder::criteria_by_default`].
+    /// The criteria that each game must meet; see [`GameOrder::criteria_by_default`].
     pub criteria: CheckedCriteria,
-    /// The effort.
+    /// The effort for one game.
     pub effort: GameEffort,
 }
 
@@ -53,18 +53,19 @@ impl Board {
 pub struct GameEffort {
     /// The number of attempts: constructive games, searches, or rounds of archives.
     pub attempts: u32,
-    /// Attempts at a game of a kernel that is made independently, in each turn of a set of rules.
+    /// The number of attempts at a game of a kernel with one set of rules, for games that are made independently.
     pub patience: u32,
-    /// Inventions that a search looks at in one attempt.
+    /// The number of inventions that a search looks at in one attempt.
     pub looks: u32,
-    /// The number of candidates that are looked at together, on all threads. The resulting bytes depend on it.
+    /// The number of candidates that are looked at together, on all threads. The resulting bytes depend on this number.
     pub batch: usize,
-    /// The number of further judges, each with its own seed, that put a game through the gates before it is accepted.
+    /// The number of further judges, each with its own seed. Each judge puts a game through the gates before the game
+    /// is accepted.
     pub judges: u64,
 }
 
 impl GameOrder {
-    /// `count` games of kernels of all kinds, five levels each.
+    /// Creates an order of `count` games of kernels of all kinds, with five levels each.
     pub fn new(count: u32) -> GameOrder {
         GameOrder {
             method: Method::Constructive,
@@ -96,8 +97,8 @@ impl GameOrder {
         }
     }
 
-    /// Returns the order with a different number of levels. Fewer than three levels cannot show a progression, so that
-    /// criterion is then dropped.
+    /// Returns the order with a different number of levels. Fewer than three levels cannot show a progression, so they
+    /// drop that criterion.
     #[must_use]
     pub fn with_levels(mut self, levels: u32) -> GameOrder {
         if levels < 3 {
@@ -107,8 +108,8 @@ impl GameOrder {
     }
 
     /// Returns the criteria for games that are meant to be played: the criteria for levels, and all
-    /// [gates](CriterionSet::GATES). For stochastic games they are stricter than the criteria for a release, so that
-    /// judges with other seeds reach the same verdict: random keys win at most 5 of 40 episodes instead of 8. The
+    /// [gates](CriterionSet::GATES). For stochastic games, the criteria are stricter than for a release, so that judges
+    /// with other seeds reach the same verdict. For example, random keys win at most 5 of 40 episodes instead of 8. The
     /// ladder of players is left to releases, which use it to label levels.
     pub fn criteria_by_default() -> Criteria {
         Criteria {

@@ -15,7 +15,7 @@ use validators::Tier;
 /// The request for the puzzles of a game.
 #[derive(Clone, Debug)]
 pub struct PuzzleLevels {
-    /// The board sizes.
+    /// The configuration of the levels, with the board sizes.
     pub config: LevelConfig,
     /// The tier of each level.
     pub tiers: Vec<Tier>,
@@ -28,7 +28,7 @@ pub struct PuzzleLevels {
 /// The rules of puzzles. The generator of pushing puzzles derives them from the game.
 #[derive(Clone, Debug)]
 pub enum PuzzleRules {
-    /// Pushing puzzles.
+    /// The rules of pushing puzzles.
     Pushing,
     /// Lock puzzles, in which doors use up keys.
     Locks(Retold<LockRules>),
@@ -80,12 +80,11 @@ impl<Rules> Retold<Rules> {
     }
 }
 
-/// A generator of puzzles for one place.
+/// A generator of puzzles for one position.
 pub(crate) enum PuzzleGenerator<'a> {
     /// Generates pushing puzzles that meet a target.
     Pushing(Box<PuzzleVariation<'a>>),
-    /// Generates pushing puzzles without a target, with the range of the number of actions in a win that the tier
-    /// requires.
+    /// Generates pushing puzzles without a target. The range is the number of actions in a win that the tier requires.
     Easy(Box<PuzzleVariation<'a>>, Range<usize>),
     Locks(LockConfig, &'a Retold<LockRules>),
     Yards(YardConfig, &'a Retold<YardRules>),
@@ -93,8 +92,8 @@ pub(crate) enum PuzzleGenerator<'a> {
 }
 
 impl PuzzleGenerator<'_> {
-    /// Generates the level for a seed, with actions that win it, either with the randomness of the seed `of_win` or if
-    /// no stray is in the way.
+    /// Generates the level for a seed, with actions that win it. The actions win either with the randomness of the
+    /// seed `of_win`, or if no stray is in the way.
     pub(crate) fn create_solved(
         &self,
         game: &Game,
@@ -134,22 +133,22 @@ impl PuzzleGenerator<'_> {
     }
 }
 
-/// The exclusive maximum number of actions in a win among strays: the longest fuse allows half as many again.
+/// The exclusive maximum number of actions in a win among strays. The longest fuse allows half as many actions again.
 const MOST_ACTIONS: usize = 160;
 /// The maximum number of floor plans to examine for a level.
 const FLOOR_PLANS: usize = 20_000;
-/// The maximum number of floor plans without a target, and the number of levels to draw until one takes the number of
-/// actions that the tier requires.
+/// The maximum number of floor plans without a target.
 const FEW_FLOOR_PLANS: usize = 60;
+/// The number of levels to draw to find one with the number of actions that the tier requires.
 const DRAWS: u64 = 40;
 
 impl PuzzleLevels {
-    /// Returns the tier of a place.
+    /// Returns the tier of a position in the game.
     pub(crate) fn tier(&self, number: u32) -> Tier {
         self.tiers.get(number as usize).copied().unwrap_or(Tier::Four)
     }
 
-    /// Returns the generator for a place.
+    /// Returns the generator for a position in the game.
     pub(crate) fn generator<'a>(
         &'a self,
         game: &'a Game,
@@ -203,7 +202,7 @@ impl PuzzleLevels {
     }
 }
 
-/// Returns the fraction of dead ends that a lock puzzle is made for, which is above the tier's threshold because a
+/// Returns the fraction of dead ends that a lock puzzle is made for. It is above the tier's threshold because a
 /// bounded search does not prove all dead ends.
 fn dead_ends(tier: Tier) -> f64 {
     match tier {
@@ -213,7 +212,8 @@ fn dead_ends(tier: Tier) -> f64 {
     }
 }
 
-/// Returns the number of carts in a yard, and the fraction of the win's ticks at which they make it deadly to stay.
+/// Returns the number of carts in a yard, and the fraction of the win's ticks at which the carts make it deadly to
+/// stay.
 fn traffic(tier: Tier) -> (usize, f64) {
     match tier {
         Tier::One => (1, 0.0),
@@ -223,9 +223,9 @@ fn traffic(tier: Tier) -> (usize, f64) {
     }
 }
 
-/// Returns the target for a tier; `None` for tiers that need none. The generator counts the actions of a win with the
-/// minimum number of pushes; the shortest win has fewer actions, so there is a margin. Puzzles with more than three
-/// things require more pushes and actions.
+/// Returns the target for a tier; `None` for tiers without a target. The generator counts the actions of a win with
+/// the minimum number of pushes. The shortest win has fewer actions, so there is a margin. Puzzles with more than
+/// three things require more pushes and actions.
 fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     let pushes = match tier {
         Tier::One | Tier::Two => return None,
@@ -240,10 +240,10 @@ fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     })
 }
 
-/// Returns the win of a puzzle: the shortest one if `calls` forward-model calls suffice to prove that it is, otherwise
-/// the one that the generator knows. In stochastic games nothing can be proved, so a known win is not improved by a
-/// search. Also returns whether the win is proved to be the shortest, and the number of calls. Returns `None` if the
-/// known actions do not win.
+/// Returns the win of a puzzle. This is the shortest win if `calls` forward-model calls suffice to prove that it is
+/// the shortest, and otherwise the win that the generator knows. In stochastic games nothing can be proved, so no
+/// search improves a known win. Also returns whether the win is proved to be the shortest, and the number of calls.
+/// Returns `None` if the known actions do not win.
 pub(crate) fn win(
     analysis: &Analysis,
     level: &Level,
@@ -293,8 +293,8 @@ mod tests {
         }
     }
 
-    /// In a different theme, a lock puzzle or a yard is the same level, and the same actions win it. Outside of `cargo
-    /// xtask sweep`, this tests every second set of rules.
+    /// In a different theme, a lock puzzle or a yard is the same level, and the same actions win it. Outside of
+    /// `cargo xtask sweep`, this test checks every second set of rules.
     #[test]
     fn puzzles_are_won_under_every_theme() {
         let seed = Seed::from_text("puzzles");
@@ -335,7 +335,7 @@ mod tests {
         }
     }
 
-    /// In a different theme too, a thing that is pushed off a mat lands on floor: no cell is bare.
+    /// In a different theme too, a thing that is pushed off a mat lands on floor, so no cell is bare.
     #[test]
     fn puzzles_have_floor_under_every_theme() {
         for rules in PushRules::ALL.into_iter().filter(|rules| rules.name().contains("mat")).take(2) {

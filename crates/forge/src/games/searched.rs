@@ -1,4 +1,4 @@
-//! Searches for invented games: looks at inventions, and the best of them for the judges.
+//! Searches for invented games: looks at inventions, and passes the best of them to the judges.
 
 use super::attempt::Attempted;
 use super::make::Maker;
@@ -9,10 +9,11 @@ use base::Seed;
 use generators::invention::{Invention, Profile};
 use generators::{Annealing, AnnealingConfig, Evaluation, Search, Variation};
 
-/// The feasibility assigned to a game that passed a look and was rejected by the final judges.
+/// The feasibility of a game that passed a look and was rejected by the final judges.
 pub(super) const REFUSED: f64 = 0.95;
 
-/// Looks at an invention cheaply. Returns its evaluation, and the forward-model calls. Cost: that of the stage `quick look`.
+/// Looks at an invention cheaply. Returns the evaluation and the number of forward-model calls. Cost: that of the stage
+/// `quick look`.
 fn look(invention: &Invention, seed: Seed) -> (Evaluation, u64) {
     let Profile { coupling, verb, pace } = invention.profile();
     let measures = vec![coupling as f64, verb.number() as f64, pace];
@@ -44,7 +45,7 @@ impl Maker<'_> {
         });
     }
 
-    /// The best games of a search.
+    /// Returns the best games of a search.
     pub(super) fn annealed(
         &self,
         variation: &impl Variation<Candidate = Invention>,

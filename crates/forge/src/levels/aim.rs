@@ -10,7 +10,7 @@ pub(super) struct Aim<'a> {
     analysis: &'a Analysis,
     order: &'a LevelOrder,
     layout: Option<LevelMeasures>,
-    /// The players that measure a level's difficulty, if one is requested.
+    /// The players that measure a level's difficulty, if a difficulty is requested.
     climb: Option<LadderConfig>,
 }
 
@@ -26,17 +26,18 @@ pub(super) struct Told {
     pub(super) calls: u64,
 }
 
-/// The number of episodes of each player of the ladder in a look.
+/// The number of episodes of each ladder player in a look.
 const PLAYS: u64 = 6;
-/// The margin within a label's range of eases, next to other labels, that is not aimed at: another look may measure the
-/// level beyond the boundary.
+/// The margin within a label's range of eases, next to other labels, that searches avoid. A second look may measure
+/// such a level beyond the boundary.
 const MARGIN: f64 = 0.08;
-/// The margin that an archive leaves out. Levels that miss the remaining range count for at most nine tenths.
+/// The margin that an archive avoids. Levels outside the remaining range count for at most nine tenths.
 const KEPT: f64 = 0.03;
 const CLOSE: f64 = 0.9;
-/// The win rate over all episodes of a ladder at which another ladder will almost certainly have a winner, too.
+/// The win rate over all episodes of a ladder at which a second ladder will almost certainly have a winner too.
 const SURELY_BEATEN: f64 = 0.05;
-/// The number of times that the avatar could cross the board during the win, at which a level is long enough.
+/// The length at which a level is long enough, given as the number of times that the avatar could cross the board
+/// during the win.
 const CROSSINGS: f64 = 2.5;
 
 /// The measures that an archive may have as axes: the measures of the win, then [`LevelMeasure::ALL`].
@@ -57,8 +58,8 @@ impl<'a> Aim<'a> {
         Aim { analysis, order, layout: LevelMeasures::new(analysis), climb }
     }
 
-    /// Assesses a level that its witness wins. Cost: the witness is replayed a few times; a ladder is played as well if
-    /// a difficulty is requested.
+    /// Assesses a level that its witness wins. Cost: a few replays of the witness, and the episodes of a ladder if a
+    /// difficulty is requested.
     pub(super) fn tell(&self, case: Case<'_>) -> Told {
         let witness = case.witness.expect("a level that can be won");
         let measures =
@@ -75,7 +76,7 @@ impl<'a> Aim<'a> {
             (Some(climb), Some(asked)) => {
                 let ladder = climb.ladder(case);
                 // Levels are picked from an archive because they lie far apart, not because they are the best, so all
-                // of them have to bear the label.
+                // of them must bear the label.
                 if self.order.method == Method::Evolutionary {
                     let missed = CLOSE * closeness(&ladder, asked, KEPT);
                     constraint = constraint.min(if bears(&ladder, asked, KEPT) { 1.0 } else { missed });
@@ -87,8 +88,9 @@ impl<'a> Aim<'a> {
         Told { constraint, objective, measures, calls }
     }
 
-    /// Returns the quality of a level, whatever is requested: a win that is long for the board, most rules taking part
-    /// in it, choices that matter, losing never far away, and walls that are built rather than scattered.
+    /// Returns the quality of a level, regardless of what is requested. A good level has a win that is long for the
+    /// board and in which most rules take part, choices that matter, losing never far away, and walls that are built
+    /// rather than scattered.
     fn quality(&self, level: &Level, measures: &Measures) -> f64 {
         let sides = (level.columns() + level.rows()) as f64;
         let length = (measures.ticks as f64 / (CROSSINGS * sides)).min(1.0);
@@ -110,8 +112,8 @@ impl<'a> Aim<'a> {
     }
 }
 
-/// Returns how close a level is to a label: from 1.0, by a margin within the label's eases, down to 0.0, as far away as
-/// possible.
+/// Returns how close a level is to a label. The value is 1.0 if the level is within the label's eases by a margin, and
+/// 0.0 if it is as far away as possible.
 fn closeness(ladder: &Ladder, asked: Difficulty, margin: f64) -> f64 {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return 0.0 };
     let beyond = (low - ease).max(ease - high).max(0.0);
@@ -120,13 +122,13 @@ fn closeness(ladder: &Ladder, asked: Difficulty, margin: f64) -> f64 {
     (1.0 - beyond).max(0.0) * (0.8 + 0.2 * beaten)
 }
 
-/// Returns the range of eases of a label that are farther than a margin from any other label.
+/// Returns the part of a label's range of eases that is more than a margin away from any other label.
 fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
     let [low, high] = label.eases()?;
     Some([if low > 0.0 { low + margin } else { low }, if high < 1.0 { high - margin } else { high }])
 }
 
-/// Returns `true` if a ladder measured a label, by a margin.
+/// Returns `true` if a ladder measured a label with a margin.
 pub(crate) fn bears(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return false };
     ladder.difficulty == asked && (low..=high).contains(&ease)

@@ -10,7 +10,7 @@ const AXES: usize = 2;
 const LEAST_BINS: usize = 8;
 /// The number of cells in an archive per level that it should yield.
 const ROOM: usize = 6;
-/// The number of levels of a sample that have to be won before measures of wins distinguish levels.
+/// The number of won levels that a sample needs before measures of wins distinguish levels.
 const LEAST_WON: usize = 4;
 
 /// The axes of an archive, and their positions among all measures.
@@ -20,9 +20,9 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// Chooses the length of the solution and, among all other measures, the one in which the won levels of a sample
-    /// differ most. If hardly any level was won, chooses the two measures of the board in which all levels differ most.
-    /// The ranges are those of the sample without its outliers, extended by half on either side.
+    /// Chooses two axes: the length of the solution and, among all other measures, the one in which the won levels of a
+    /// sample differ most. If hardly any level was won, chooses the two measures of the board in which all levels
+    /// differ most. The ranges are those of the sample without its outliers, extended by half on either side.
     ///
     /// The looks of the sample contain all measures, in the order of [`names`].
     pub(super) fn of<'a>(sample: impl Iterator<Item = &'a Look> + Clone, wanted: usize) -> Axes {
@@ -61,8 +61,8 @@ mod tests {
     use super::*;
     use generators::Evaluation;
 
-    /// Returns a look at a level whose board differs in the measures 5 and 6, and whose win, if it has one, differs in
-    /// length.
+    /// Returns a look at a level whose board differs in measures 5 and 6. If the level has a win, its length also
+    /// differs.
     fn look(at: usize, is_won: bool) -> Look {
         let mut measures = vec![0.5; names().count()];
         measures[..OF_PLAY.len()].fill(0.0);
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(Axes::of([].iter(), 1000).axes[0].range, (0.0, 1.5));
     }
 
-    /// A level that nobody has won has no length, and would share a bin with all other such levels.
+    /// Levels that nobody has won have no length, and would all share one bin.
     #[test]
     fn levels_without_a_win_are_told_apart_by_their_boards() {
         let names: Vec<&str> = names().collect();

@@ -1,4 +1,4 @@
-//! Searches guided by judges, either for each level by itself or for an archive of different levels.
+//! Searches guided by judges: either one search per level, or an archive of different levels.
 
 use super::aim::Aim;
 use super::axes::Axes;
@@ -17,18 +17,19 @@ use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Search}
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// The feasibility assigned to a level that passed a look and was rejected by the panel.
+/// The feasibility of a level that passed a look and was rejected by the panel.
 const REFUSED: f64 = 0.95;
-/// The fraction of an archive's effort that goes into new levels before any is bred, because levels differ more than
-/// edits can change them.
+/// The fraction of an archive's effort that goes into new levels before breeding starts, because levels differ more
+/// than edits can change them.
 const CREATION: f64 = 0.4;
-/// The fraction of new levels later on.
+/// The fraction of new levels after breeding has started.
 const FRESH: f64 = 0.1;
-/// The number of rounds in which nearly equal levels are not both taken; after that, one is better than none.
+/// The number of rounds in which nearly equal levels are not both taken. After these rounds, a nearly equal level is
+/// better than no level.
 const CHOOSY: u32 = 2;
 
 impl Maker<'_> {
-    /// Anneals a level until the panel accepts one. Each round is a search of its own, and there are more rounds if
+    /// Anneals a level until the panel accepts a result. Each round is a separate search, and there are more rounds if
     /// most looks are cheap.
     pub(super) fn search_level(
         &self,
@@ -45,8 +46,8 @@ impl Maker<'_> {
         let mut left = f64::from(self.order.effort.rounds * self.order.effort.looks);
         let mut round = 0;
         while left > 0.0 {
-            // Half of the looks find a start that is worth improving, because levels differ more than edits can change
-            // them.
+            // Half of the looks search for a start that is worth improving, because levels differ more than edits can
+            // change them.
             let config = AnnealingConfig { starts: looks / 2, ..AnnealingConfig::of(looks) };
             let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::new();
@@ -111,7 +112,7 @@ impl Maker<'_> {
                     break;
                 }
             }
-            // Many levels that passed a look are not good: all of them are judged before more are bred.
+            // Many levels that passed a look are not good, so all of them are judged before more levels are bred.
             while set.levels.len() < wanted {
                 let is_near =
                     |one: &Level, other: &Level| round < CHOOSY && self.likeness.distance(one, other) <= NEAR;
@@ -141,8 +142,8 @@ impl Maker<'_> {
         set
     }
 
-    /// Creates levels until an effort is spent. They show in which measures the game's levels differ, and they start an
-    /// archive.
+    /// Creates levels until an effort is spent. These levels show in which measures the game's levels differ, and they
+    /// start an archive.
     fn create_levels(
         &self,
         variation: &LevelSearch<'_>,
@@ -172,15 +173,15 @@ impl Maker<'_> {
             found.extend(looked);
             at += batch;
             if found.is_empty() && at as f64 >= effort {
-                // Stop after the usual number of looks without a level, since further attempts will fail as well.
+                // Stop after the usual number of looks without a level, because further attempts will fail as well.
                 break;
             }
         }
         found
     }
 
-    /// Runs a search, looks at its proposals on all threads, and reports the results to it. Returns `true` if the
-    /// search proposed as many levels as requested.
+    /// Runs a search, looks at its proposals on all threads, and reports the results to the search. Returns `true` if
+    /// the search proposed as many levels as requested.
     fn run_search<S: Search<Candidate = Level>>(
         &self,
         search: &mut S,

@@ -11,21 +11,22 @@ use validators::{
     Case, Criteria, Criterion, Finding, NoEarlyDeath, NotIdle, NotRandom, Validator, Verdict, WellFormed,
 };
 
-/// The number of episodes of doing nothing in stochastic games.
+/// The number of episodes in stochastic games in which the player does nothing.
 const IDLE_PLAYS: u32 = 2;
 /// The number of episodes of random play.
 const RANDOM_PLAYS: u32 = 24;
-/// The number of further random episodes if one of the first was won; they correct for the selection of lucky levels.
+/// The number of further random episodes if one of the first episodes was won. They correct for the selection of lucky
+/// levels.
 const MORE_RANDOM_PLAYS: u32 = 48;
-/// The maximum fraction of random episodes that may be won: one of the first [`RANDOM_PLAYS`]. The panel, with other
-/// seeds, is stricter.
+/// The maximum fraction of random episodes that may be won, which is one of the first [`RANDOM_PLAYS`]. The panel, with
+/// other seeds, is stricter.
 const RANDOM_WINS: f64 = 0.05;
 /// The number of futures of a stochastic game in which the first ticks must be survived.
 const CHANCES: u32 = 4;
-/// The divisor of a look's calls that gives the budget for each of these futures.
+/// The divisor of a look's calls that gives the call budget for each of these futures.
 const EARLY: u64 = 50;
 
-/// Cheap looks at candidates for one order, with few episodes and a small budget. Candidates that pass still have to be
+/// Cheap looks at candidates for one order, with few episodes and a small budget. Candidates that pass must still be
 /// accepted by the panel.
 pub(super) struct Looker<'a> {
     game: &'a Game,
@@ -42,17 +43,17 @@ pub(super) struct Look {
     pub(super) evaluation: Evaluation,
     /// The first unmet constraint.
     pub(super) obstacle: Option<&'static str>,
-    /// `true` if a win, and with it the measures of a win, is known.
+    /// `true` if a win, and therefore the measures of a win, is known.
     pub(super) is_won: bool,
     /// The number of forward-model calls.
     pub(super) calls: u64,
-    /// The number of looks of usual cost that it counts for: [`LEAST_EFFORT`] if no win was searched for; otherwise one
-    /// for every [`super::Effort::calls`] that the search for a win took, and at least one.
+    /// The effort, as a number of looks of usual cost. It is [`LEAST_EFFORT`] if no win was searched for. Otherwise it
+    /// is one for every [`super::Effort::calls`] that the search for a win took, and at least one.
     pub(super) effort: f64,
 }
 
 impl Look {
-    /// Counts the look.
+    /// Counts the look in a tally.
     pub(super) fn count(&self, tally: &mut Tally) {
         tally.look(self.obstacle.is_none(), self.calls);
         self.obstacle.into_iter().for_each(|obstacle| tally.reject(obstacle));
@@ -67,7 +68,7 @@ pub(super) const LEAST_EFFORT: f64 = 1.0 / 8.0;
 struct Spent {
     /// The number of forward-model calls.
     calls: u64,
-    /// The number of calls of the search for a win, if there was one.
+    /// The number of calls of the search for a win; `None` if no win was searched for.
     searched: Option<u64>,
 }
 
@@ -77,21 +78,21 @@ impl Spent {
     }
 }
 
-/// The relative loss of objective per unit of the random win rate; one win in 24 episodes costs a third.
+/// The relative loss of objective per unit of the random win rate. One win in 24 episodes costs a third.
 const LUCK: f64 = 8.0;
-/// The number of calls per tick of an episode: a few decisions of several players.
+/// The number of calls per tick of an episode, which allows a few decisions by several players.
 const TICK: u64 = 500;
 /// The maximum calls of a search for a win, as a multiple of the calls of the effort.
 const MOST: u64 = 4;
 
-/// Graded constraints, each from 0.0 to 1.0.
+/// Graded constraints, each with a value from 0.0 to 1.0.
 struct Constraints {
     values: [f64; CONSTRAINTS],
     met: usize,
 }
 
 const CONSTRAINTS: usize = NAMES.len();
-/// The names of the constraints; the last one is the order's demand on the win.
+/// The names of the constraints. The last constraint is the order's demand on the win.
 const NAMES: [&str; 6] = [
     Criterion::WellFormed.name(),
     Criterion::NotIdle.name(),
@@ -102,7 +103,7 @@ const NAMES: [&str; 6] = [
 ];
 
 impl Constraints {
-    /// Records the next constraint; returns `true` if it is met.
+    /// Records the next constraint. Returns `true` if it is met.
     fn note(&mut self, value: f64) -> bool {
         self.values[self.met] = value;
         self.met += 1;
@@ -128,8 +129,8 @@ impl<'a> Looker<'a> {
         Looker { game: analysis.game(), analysis, order, aim, seed }
     }
 
-    /// Looks at a level. The same level always gets the same look. Cost: a few hundred random episodes and
-    /// [`super::Effort::calls`] forward-model calls, as well as those of a ladder if a difficulty is requested.
+    /// Looks at a level. The same level always gets the same look. Cost: a few hundred random episodes,
+    /// [`super::Effort::calls`] forward-model calls, and the calls of a ladder if a difficulty is requested.
     pub(super) fn look(&self, level: &Level) -> Look {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };
@@ -152,7 +153,7 @@ impl<'a> Looker<'a> {
         Look { evaluation, obstacle: constraints.obstacle(), is_won, calls: spent.calls, effort }
     }
 
-    /// Asks the cheap judges, one after the other. If all of them pass, returns a win and the fraction of random
+    /// Runs the cheap judges, one after the other. If all of them pass, returns a win and the fraction of random
     /// episodes that won.
     fn constrain(
         &self,
@@ -173,7 +174,7 @@ impl<'a> Looker<'a> {
         if !constraints.note(if can_win { sound } else { sound / 2.0 }) {
             return None;
         }
-        // If a level can be won without skill, a win by skill does not make it better.
+        // If a level can be won without skill, a win with skill does not make the level better.
         let idle = ask(Criterion::NotIdle, &NotIdle { plays: IDLE_PLAYS, ticks: usize::MAX }, 0, spent);
         let random_play = |plays, most| NotRandom { plays, most, ticks: usize::MAX };
         let random = ask(Criterion::NotRandom, &random_play(RANDOM_PLAYS, RANDOM_WINS), 0, spent);
@@ -218,8 +219,8 @@ impl<'a> Looker<'a> {
         Case { game: self.game, level, seed, analysis: self.analysis, witness }
     }
 
-    /// Returns the forward-model calls for a search for a win: more if episodes are long, because each of their ticks
-    /// takes a decision.
+    /// Returns the number of forward-model calls for a search for a win. It is larger if episodes are long, because
+    /// each tick takes a decision.
     fn budget(&self, random: &Finding) -> u64 {
         let calls = self.order.effort.calls;
         let longest = random.episodes.iter().map(|episode| episode.actions.len()).max().unwrap_or_default();
@@ -255,7 +256,7 @@ impl<'a> Looker<'a> {
 fn passes(finding: &Finding) -> f64 {
     match finding.verdict {
         Verdict::Pass { .. } => 1.0,
-        // An unknown verdict counts as a pass here; the panel decides.
+        // An unknown verdict counts as a pass in a look, because the panel makes the decision.
         Verdict::Unknown { .. } => 1.0,
         Verdict::Fail { .. } => 0.0,
     }

@@ -1,4 +1,4 @@
-//! The making of levels by each method.
+//! Making levels by each method.
 
 use super::order::{LevelOrder, MadeLevel, Method};
 use crate::pipeline::{DIFFICULTY, LevelGate};
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::{CheckedCriteria, CriteriaError, Criterion, Difficulty};
 
-/// The levels of an order.
+/// The levels made for an order.
 #[derive(Clone, Debug)]
 pub struct LevelSet {
     /// The levels that could be made, ordered by number.
@@ -31,19 +31,19 @@ pub enum LevelsError {
     /// The criteria are invalid.
     #[error("the criteria: {0}")]
     Criteria(#[from] CriteriaError),
-    /// No candidate passed.
+    /// No candidate passed all judges.
     #[error("no level was accepted ({looks} inspected, {judged} judged): {why}{}", .hint.as_ref().map_or(String::new(), |hint| format!("; {hint}")))]
     NoneAccepted {
         /// The number of candidates that a search looked at.
         looks: u64,
         /// The number of candidates that reached the panel.
         judged: u64,
-        /// The reasons why they failed.
+        /// The reasons why the candidates failed.
         why: String,
-        /// The consequence of the most frequent obstacle for the game or the order, if it has one.
+        /// The consequence of the most frequent obstacle for the game or the order, if the obstacle has one.
         hint: Option<String>,
     },
-    /// Not a single board could be furnished.
+    /// No board at all could be furnished.
     #[error("no board can hold what is requested: {0}")]
     NoBoard(String),
 }
@@ -75,14 +75,14 @@ fn hint(tally: &Tally) -> Option<String> {
     Some(hint.to_owned())
 }
 
-/// Makes the levels of an order for one game. Cost: [`LevelOrder::effort`]; on all threads of the current rayon pool.
-/// The same game, order and seed give the same levels on any number of threads.
+/// Makes the levels of an order for one game. The same game, order and seed give the same levels on any number of
+/// threads. Cost: [`LevelOrder::effort`], on all threads of the current rayon pool.
 ///
 /// Levels that could not be made are missing from the set.
 ///
 /// # Errors
-/// Returns an error if the generator does not support the game, if the criteria are invalid, or if not a single level
-/// was accepted.
+/// Returns an error if the generator does not support the game, if the criteria are invalid, or if no level was
+/// accepted.
 pub fn make_levels(
     game: &Game,
     order: &LevelOrder,
@@ -179,7 +179,7 @@ impl Maker<'_> {
         (None, tally)
     }
 
-    /// Makes all levels at once, each by itself, and then makes those again that are too similar to an earlier one.
+    /// Makes all levels at once, each by itself. Then makes any level again that is too similar to an earlier level.
     fn make_by_number(&self, make: impl Fn(u32, &BTreeSet<Digest>) -> Attempt + Sync) -> LevelSet {
         let attempts: Vec<Attempt> = (0..self.order.count)
             .into_par_iter()
@@ -209,8 +209,8 @@ impl Maker<'_> {
         set
     }
 
-    /// Returns `true` if no player of the ladder has won a single one of the levels judged for a difficulty at which
-    /// players must win often: the next levels will hardly be easier.
+    /// Returns `true` if no ladder player has won any of the levels judged for a difficulty at which players must win
+    /// often. The next levels will then hardly be easier.
     pub(super) fn is_hopeless(&self, tally: &Tally) -> bool {
         let by_difficulty = tally.rejections.get(DIFFICULTY).copied().unwrap_or_default();
         let often =
@@ -223,7 +223,7 @@ impl Maker<'_> {
     }
 }
 
-/// The number of levels without a win by any player of the ladder after which no win is expected.
+/// The number of levels without a win by any ladder player after which no win is expected.
 const HOPELESS: u64 = 6;
 
 /// The number of boards that are drawn for a level that nobody judges.
@@ -232,9 +232,9 @@ const DRAWS: u64 = 20;
 pub(super) const TWICE: &str = "the same level twice";
 pub(super) const NO_BOARD: &str = "no board holds what is asked";
 
-/// Generates levels without a requested difficulty, from the easiest that the constructive generator aims at to the
-/// hardest: the pool to pick from if a difficulty could not be requested. Levels that cannot be made are left out.
-/// Cost: about a millisecond per level.
+/// Generates levels without a requested difficulty, evenly from the easiest to the hardest that the constructive
+/// generator aims at. They form the pool to pick from if a difficulty could not be requested. Levels that cannot be
+/// made are left out. Cost: about a millisecond per level.
 ///
 /// # Errors
 /// Returns an error if the generator does not support the game.

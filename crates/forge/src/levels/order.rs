@@ -11,19 +11,20 @@ use validators::{
 base::named_enum! {
     /// The method of making levels or games.
     pub enum Method {
-        /// Draws walls, then furniture by role. This takes no time, and levels are judged only if something is
-        /// requested that has to be measured.
+        /// Draws walls, then furniture by role. This method takes almost no time, and levels are judged only if the
+        /// request contains something that must be measured.
         Constructive = "constructive",
-        /// Changes each level by itself step by step, guided by judges.
+        /// Changes each level step by step, independently of other levels and guided by judges.
         Search = "search",
         /// Evolves an archive of different levels, guided by judges, and picks the levels from it.
         Evolutionary = "evolutionary",
     }
 }
 
-/// The number of floor plans for each puzzle of a search that improves levels itself.
+/// The number of floor plans for each puzzle of a search that improves the levels itself.
 const PLANS_OF_ARCHIVE: usize = 40;
-/// The range of fractions of the longest distance to a solution, if a level's difficulty is measured.
+/// The range of distances to a solution, as fractions of the longest distance, for a level whose difficulty is
+/// measured.
 const ANY_WAY: (f64, f64) = (0.05, 1.0);
 
 impl fmt::Display for Method {
@@ -43,23 +44,23 @@ impl FromStr for Method {
     }
 }
 
-/// An order of levels.
+/// An order for levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelOrder {
     /// The method of making the levels.
     pub method: Method,
     /// The number of levels.
     pub count: u32,
-    /// The size, and the other settings of the constructive generator. The configuration's difficulty is replaced if
-    /// [`LevelOrder::difficulty`] is set.
+    /// The size, and the other settings of the constructive generator. If [`LevelOrder::difficulty`] is set, it
+    /// replaces the configuration's difficulty.
     pub config: LevelConfig,
     /// The difficulty of each level, measured with the ladder of the criteria.
     pub difficulty: Option<Difficulty>,
     /// The minimum number of ticks of the shortest win that is found.
     pub min_solution: Option<usize>,
-    /// The rules that the win has to use, all of them.
+    /// The rules that the win must use. All of them are required.
     pub uses: Vec<RuleRef>,
-    /// The criteria that each level has to meet; see [`LevelOrder::criteria_by_default`].
+    /// The criteria that each level must meet; see [`LevelOrder::criteria_by_default`].
     pub criteria: Criteria,
     /// The effort of a search.
     pub effort: Effort,
@@ -69,13 +70,15 @@ base::with_defaults! {
     /// The effort of a search for one level, or for one level of an archive.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Effort {
-        /// The number of candidates that are looked at between two attempts to have the best of them accepted.
+        /// The number of candidates that are looked at between two attempts to get the best of them accepted.
         pub looks: u32 = 32,
-        /// The number of candidates that are looked at together, on all threads. The resulting bytes depend on it.
+        /// The number of candidates that are looked at together, on all threads. The resulting bytes depend on this
+        /// number.
         pub batch: usize = 8,
-        /// The number of attempts; a single level gets more if most looks are cheap.
+        /// The number of attempts. A single level gets more attempts if most looks are cheap.
         pub rounds: u32 = 6,
-        /// The forward-model calls of a search for a win; up to four times as many if episodes are long.
+        /// The maximum number of forward-model calls of a search for a win. If episodes are long, the maximum is up to
+        /// four times as high.
         pub calls: u64 = 100_000,
     }
 }
@@ -85,11 +88,11 @@ base::with_defaults! {
 pub struct MadeLevel {
     /// The level's number in the order.
     pub number: u32,
-    /// The level.
+    /// The level itself.
     pub level: Level,
-    /// The findings of the level's judges; `None` if nobody has judged it.
+    /// The findings of the level's judges; `None` if the level was not judged.
     pub report: Option<Report>,
-    /// The ladder that measured the level's difficulty, if requested.
+    /// The ladder that measured the level's difficulty; `None` if no difficulty was requested.
     pub ladder: Option<Ladder>,
 }
 
@@ -108,8 +111,8 @@ impl LevelOrder {
         }
     }
 
-    /// Returns the criteria of a release for levels, with a stricter limit for random play: it may win at most 1 of 40
-    /// episodes, so that a second look with other seeds finds 10% or less.
+    /// Returns the criteria of a release for levels, with a stricter limit for random play. Random play may win at most
+    /// 1 of 40 episodes, so that a second look with other seeds finds a win rate of 10% or less.
     ///
     /// `readable` is left out because it is a property of the rules.
     pub fn criteria_by_default() -> Criteria {
@@ -133,9 +136,9 @@ impl LevelOrder {
         LevelConfig { difficulty, ..self.config.clone() }
     }
 
-    /// Returns the configuration of puzzles, with as many things to push as the configuration counts. An archive
-    /// improves its levels one by one, so it needs few floor plans. If a difficulty is requested, the farthest position
-    /// is seldom suitable, because few of the players that measure the difficulty win puzzles that long.
+    /// Returns the configuration of puzzles, with the number of things to push taken from the order's configuration. An
+    /// archive improves its levels one by one, so it needs few floor plans. If a difficulty is requested, the farthest
+    /// position is seldom suitable, because few of the players that measure the difficulty win such long puzzles.
     pub(super) fn puzzle(&self, analysis: &Analysis) -> PuzzleConfig {
         let pushed =
             |stype: &SpriteType| analysis.pushables().iter().any(|pushable| pushable.stype == *stype);

@@ -12,23 +12,25 @@ use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention, JointType};
 use validators::CheckedCriteria;
 
-/// The demand of a place with difficulty 1.
+/// The demand of a board at difficulty 1.
 const DEMANDS: u8 = 4;
 
-/// The minimum demand at which a board has to need both uses of a type.
+/// The minimum demand at which a board must need both uses of a type.
 const OPPOSED: u8 = 2;
 
-/// The demand of the boards of a quick look, their number, and the forward-model calls for all of them.
+/// The demand of the boards of a quick look.
 const LOOK_DEMAND: u8 = 1;
+/// The number of boards of a quick look.
 const LOOKS: usize = 24;
+/// The number of forward-model calls for all boards of a quick look.
 const LOOK_CALLS: u64 = 1_500_000;
 /// The forward-model calls of the search for a board whose win needs the opposed uses.
 const USES_CALLS: u64 = 2_000_000;
-/// The reason for rejecting a game without such a board.
+/// The reason for rejecting a game without a board whose win needs the opposed uses.
 pub(super) const USELESS: &str = "no win needs the opposed uses";
-/// The minimum fractions of necessary interactions, and of wrong choices that have a cost, on the best board of a quick
-/// look.
+/// The minimum fraction of necessary interactions on the best board of a quick look.
 const LEAST_NECESSITY: f64 = 0.4;
+/// The minimum fraction of wrong choices that have a cost, on the best board of a quick look.
 const LEAST_TRAPS: f64 = 0.1;
 /// The maximum value of an unmet condition.
 const NEARLY: f64 = 0.999;
@@ -102,7 +104,7 @@ impl BoardSource for MadeBoards {
 
 /// The result of a quick look at an invented game.
 pub(crate) struct QuickLook {
-    /// The measures of the best one of a few boards, if one was won.
+    /// The measures of the best of a few boards; `None` if no board was won.
     board: Option<BoardMeasures>,
     /// The fraction of the board constraints met by the board that is closest to being won.
     nearness: f64,
@@ -111,7 +113,7 @@ pub(crate) struct QuickLook {
 }
 
 impl QuickLook {
-    /// Returns the reason why no board is worth a search, if there is one.
+    /// Returns the reason why no board is worth a search; `None` if there is no such reason.
     pub(crate) fn obstacle(&self) -> Option<&'static str> {
         let names = [
             "no board was won",
@@ -171,7 +173,7 @@ impl MadeBoards {
         self.joint.iter().flat_map(|stype| stype.uses.clone()).collect()
     }
 
-    /// Composes a few boards of a game and measures the best one.
+    /// Composes a few boards of a game and measures the best board.
     pub(crate) fn look_quickly(&self, game: &Game, seed: Seed) -> QuickLook {
         let analysis = Analysis::of(game);
         let order = BoardOrder::of(self.brief(&analysis, LOOK_DEMAND));
@@ -188,7 +190,7 @@ impl MadeBoards {
     }
 }
 
-/// The boards for one place of an invented game.
+/// The boards for one position in an invented game.
 struct PlaceBoards<'a> {
     source: &'a MadeBoards,
     analysis: Analysis,
@@ -199,8 +201,8 @@ struct PlaceBoards<'a> {
 }
 
 impl PlaceBoards<'_> {
-    /// Returns the types that the board of a candidate lacks: introductions leave out a mechanic, a different one each
-    /// time.
+    /// Returns the types that the board of a candidate lacks. Introductions leave out a mechanic, and each candidate
+    /// leaves out a different one.
     fn left_out(&self, candidate: &SeedPath) -> Vec<SpriteType> {
         let optional: Vec<&Vec<String>> =
             self.source.own_types.iter().filter(|own| !own.is_empty()).collect();
@@ -230,7 +232,7 @@ impl PlaceBoards<'_> {
         }
     }
 
-    /// Returns the orders in which the wins of other levels first execute each interaction.
+    /// Returns, for each win of another level, the order in which it first executes each interaction.
     fn known(&self) -> Vec<Vec<usize>> {
         let firsts = |(_, found): &(u32, FoundLevel)| {
             let win = found.report.witness.as_ref()?;

@@ -7,14 +7,14 @@ use crate::tally::Tally;
 use engine::{Episode, Game, Level, Outcome};
 use validators::{Cost, Criterion, CriterionSet, Effort, Judgement, Panel, Verdict, ended_share};
 
-/// The numbers of ticks at which games are lost: round numbers, as authors choose them.
+/// The numbers of ticks at which games are lost. They are round numbers, as authors choose them.
 const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
 /// The minimum time limit, as a multiple of the longest known win of the levels.
 const TIME_PER_WIN: f64 = 2.5;
-/// The minimum fraction of careless episodes that end by the rules, averaged over the levels, for a game to have no
-/// time limit.
+/// The minimum fraction of careless episodes that end by the rules for a game without a time limit, averaged over the
+/// levels.
 const ENDED_PLAYS: f64 = 0.5;
-/// The entry in tallies for failed attempts to do without a time limit.
+/// The entry in tallies for failed attempts to omit the time limit.
 const NO_CLOCK: &str = "no time limit";
 
 impl<'a> Trial<'a> {
@@ -53,7 +53,7 @@ impl<'a> Trial<'a> {
         Ok(())
     }
 
-    /// Takes a version of the game through the later stages with the levels found, which are judged again.
+    /// Takes a version of the game through the later stages with the found levels, which are judged again.
     fn pass_with(
         &self,
         candidate: Candidate,
@@ -80,8 +80,8 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// Returns the time limit of a game whose longest known win takes `longest` ticks. The game is lost one tick later, at
-/// a round number.
+/// Returns the time limit of a game whose longest known win takes `longest` ticks. The limit is a round number, and
+/// the game is lost one tick later.
 pub(super) fn time_limit(longest: usize) -> u32 {
     let least = longest as f64 * TIME_PER_WIN;
     let round = TIME_LIMITS.into_iter().find(|&limit| f64::from(limit) > least);
@@ -89,8 +89,8 @@ pub(super) fn time_limit(longest: usize) -> u32 {
 }
 
 impl Levels<'_> {
-    /// Judges a level again that was found for the game with a different time limit, except by the ladder. The search
-    /// for a win is carried over if the win still wins. The seeds are the same, so a replay ends as before.
+    /// Judges a level that was found for the game with a different time limit, by all judges except the ladder. The
+    /// search for a win is carried over if the win still wins. The seeds are the same, so a replay ends as before.
     fn rejudge(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let witness = replayed(game, &level, found.report.witness.as_ref()?);

@@ -1,4 +1,4 @@
-//! The stage that finds a level for each place of a game, and the stages after each found level.
+//! The stage that finds a level for each position in a game, and the stages after each found level.
 
 use super::game::Trial;
 use super::level::{Place, leaves_something};
@@ -8,11 +8,11 @@ use crate::tally::Tally;
 use engine::{Analysis, Game, Level};
 use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Report, SkillOverall};
 
-/// The number of levels of a course that are found first: the first two and the last.
+/// The number of levels of a course that are found first: the first two levels and the last level.
 const OUTLINE: usize = 3;
 
-/// The number of further candidates for a course's first level if it gives everything away. If all of these do so as
-/// well, hardly any other candidate will not.
+/// The number of further candidates for a course's first level if the first level leaves no mechanic for later
+/// levels. If all of these candidates have the same fault, any other candidate is likely to have it too.
 const INTRODUCTIONS: u32 = 3;
 
 /// The levels found so far for a game, in the order in which they were found.
@@ -68,14 +68,14 @@ impl<'a> Begun<'a> {
         ..Stage::once(Self::ask_for_a_chance_of_skill)
     };
 
-    /// Finds a level for each place, and returns the levels from easiest to hardest.
+    /// Finds a level for each position, and returns the levels from easiest to hardest.
     fn find_all(
         levels: &'a Levels<'a>,
         game: &'a Game,
         tally: &mut Tally,
     ) -> Result<Vec<FoundLevel>, Refusal> {
         let mut begun = Begun { levels, game, found: Vec::new() };
-        // Fail fast: the easiest level may be too easy, and the hardest one too hard.
+        // Fail fast: the easiest level may be too easy, and the hardest level too hard.
         let ends = [0, levels.count - 1].into_iter().take(levels.count as usize);
         for number in ends.chain(1..levels.count.max(1) - 1) {
             let place = Place { levels, game, number, others: &begun.found };
@@ -85,14 +85,15 @@ impl<'a> Begun<'a> {
         }
         begun.found.sort_by_key(|(number, _)| *number);
         let mut found: Vec<FoundLevel> = begun.found.into_iter().map(|(_, level)| level).collect();
-        // The requested difficulty is a guess; the result of the ladder is a measurement. A course has its own order.
+        // The requested difficulty is a guess, while the result of the ladder is a measurement. A course has its own
+        // order.
         if !levels.source.is_ordered() {
             found.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
         }
         Ok(found)
     }
 
-    /// Returns `true` for a course with levels outside of its outline.
+    /// Returns `true` for a course with levels outside its outline.
     fn is_longer_than_outline(&self) -> bool {
         self.levels.source.is_course() && self.levels.count as usize > OUTLINE
     }
@@ -146,7 +147,8 @@ impl<'a> Begun<'a> {
     }
 }
 
-/// Replaces a first level that gives everything away: returns one of the next candidates that does not.
+/// Replaces a first level that leaves no new mechanic for later levels: returns one of the next candidates that does
+/// leave one.
 pub(super) fn another_introduction(
     levels: &Levels<'_>,
     game: &Game,

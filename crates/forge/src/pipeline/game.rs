@@ -1,4 +1,4 @@
-//! A game on its way through the stages.
+//! A game as it passes through the stages.
 
 use super::sources::Rules;
 use super::stage::{Refusal, Stage, walk};
@@ -9,10 +9,10 @@ use base::SeedPath;
 use validators::novelty::GameForm;
 use validators::{CheckedCriteria, Cost, CriterionSet, Effort, Judgement, Panel};
 
-/// A game and what the stages have found for it.
+/// A game and the findings of the stages.
 pub(crate) struct Trial<'a> {
     pub(super) candidate: Candidate,
-    /// The request for the game's levels, with the judges that are asked first.
+    /// The request for the game's levels, with the judges that run first.
     pub(super) levels: Levels<'a>,
     pub(super) demands: Demands<'a>,
     pub(super) found: Vec<FoundLevel>,
@@ -24,9 +24,9 @@ pub(crate) struct Trial<'a> {
 /// The demands on generated rules in addition to the criteria, and the facts about them.
 #[derive(Clone, Copy)]
 pub(crate) struct Demands<'a> {
-    /// The games that other games have to differ from.
+    /// The games that other games must differ from.
     pub(super) known: &'a [GameForm],
-    /// Returns the objection of a set to a game, whatever its levels are.
+    /// Returns the objection of a set to a game, regardless of the game's levels.
     pub(super) objection: &'a dyn Fn(&Candidate) -> Option<&'static str>,
     pub(super) least_interactions: usize,
     pub(super) least_mechanics: usize,
@@ -34,7 +34,7 @@ pub(crate) struct Demands<'a> {
     pub(super) has_clock: bool,
     /// Returns the same game with a different time limit, or without one.
     pub(super) with_limit: &'a dyn Fn(Option<u32>) -> Option<Candidate>,
-    /// All judges.
+    /// The judges of all criteria.
     pub(super) panel: &'a Panel,
     pub(super) further_judges: u64,
     pub(super) canary: &'a str,
@@ -79,16 +79,16 @@ impl Levels<'_> {
 /// The final decision on games, made with fresh seeds.
 pub(crate) struct GameGate<'a> {
     order: &'a GameOrder,
-    /// The method that cards tell.
+    /// The method that cards state.
     method: Method,
-    /// The games that others have to differ from.
+    /// The games that new games must differ from.
     known: &'a [GameForm],
     canary: &'a str,
-    /// The criteria of the order, with a margin where the answer depends on randomness.
+    /// The criteria of the order, with a margin for answers that depend on randomness.
     criteria: CheckedCriteria,
-    /// All judges.
+    /// The judges of all criteria.
     panel: Panel,
-    /// The cheap judges; the more expensive ones run last.
+    /// The cheap judges. The more expensive judges run last.
     cheap: Panel,
 }
 
@@ -190,7 +190,7 @@ pub(crate) mod tests {
         GameOrder { criteria: criteria.check().unwrap(), ..order }
     }
 
-    /// Games that build.
+    /// Returns games whose rules compile.
     fn drawn(kinds: &[Kind], seed: &str) -> impl Iterator<Item = KernelGenome> {
         let seed = Seed::from_text(seed);
         let all = (0..).map(move |number| KernelGenome::draw(kinds, seed.child("game", number)).unwrap());
@@ -308,7 +308,7 @@ pub(crate) mod tests {
 
     /// Returns a stochastic game with two levels, and the seed of its judges.
     fn made() -> (MadeGame, SeedPath) {
-        // Without chance, whoever knows the win counts as a skilled player.
+        // In deterministic games, a player that knows the win counts as skilled.
         let has_chance = |made: &MadeGame| {
             let analysis = Analysis::of(&made.game);
             made.levels.iter().all(|found| !analysis.is_deterministic_in(&found.level))

@@ -1,4 +1,4 @@
-//! The stage that requires that the wins of a game need merged types in two roles.
+//! The stage that requires wins of a game to need merged types in two roles.
 
 use super::game::Trial;
 use super::stage::{Passage, Stage};
@@ -10,10 +10,12 @@ use std::collections::BTreeSet;
 /// The reason for rejecting a game in which a type has opposed uses, but too few wins need two of them.
 const JOINT: &str = "joint use";
 
-/// The minimum number of levels whose wins need a merged type in two roles; one for a game of one or two levels.
+/// The minimum number of levels whose wins need a merged type in two roles. The minimum is one for a game of one
+/// or two levels.
 const LEVELS: usize = 2;
 
-/// The number of roles of a type that a win needs, if the type has as many: some roles replace each other.
+/// The number of roles of a type that a win must need, if the type has that many roles. Some roles replace each
+/// other.
 const ROLES: usize = 2;
 
 /// The forward-model calls of a search for a win without an interaction.

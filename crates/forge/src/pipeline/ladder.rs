@@ -1,4 +1,4 @@
-//! The stage that lets a ladder of players play the levels of a game.
+//! The stage in which a ladder of players plays the levels of a game.
 
 use super::game::Trial;
 use super::level::Place;
@@ -36,12 +36,12 @@ impl Trial<'_> {
 }
 
 impl Levels<'_> {
-    /// Judges the levels of a course by the ladder of players. A level that fails is replaced by the next candidate for
-    /// its place that passes.
+    /// Judges the levels of a course by the ladder of players. The next passing candidate for the same position
+    /// replaces a level that fails.
     ///
     /// # Errors
-    /// Returns an error if there is no such candidate for a place, or if so many levels fail that the game must be at
-    /// fault.
+    /// Returns an error if there is no such candidate for a position, or if so many levels fail that the game must be
+    /// at fault.
     pub(super) fn judge_by_ladder(
         &self,
         game: &Game,

@@ -1,4 +1,4 @@
-//! The stages of a candidate level for one place of a game.
+//! The stages of a candidate level for one position in a game.
 
 use super::sources::seed_of_win;
 use super::stage::{Passage, Refusal, Stage};
@@ -12,24 +12,24 @@ use validators::{
     Verdict,
 };
 
-/// The minimum number of ticks of a later level's win, as a fraction of an earlier level's: the order of a course
-/// allows no large step back.
+/// The minimum number of ticks of a later level's win, as a fraction of the ticks of an earlier level's win. The
+/// order of a course allows no large step back.
 pub(super) const LATER_SHARE: f64 = 0.6;
 
-/// The place of a level in a game, and the levels in other places.
+/// The position of a level in a game, and the levels at other positions.
 pub(super) struct Place<'a> {
     pub(super) levels: &'a Levels<'a>,
     pub(super) game: &'a Game,
     pub(super) number: u32,
-    /// The levels in other places, each with its number.
+    /// The levels at other positions, each with its number.
     pub(super) others: &'a [(u32, FoundLevel)],
 }
 
-/// A candidate for one place of a game.
+/// A candidate for one position in a game.
 pub(super) struct LevelTrial<'a> {
     pub(super) place: &'a Place<'a>,
     pub(super) drawn: Drawn,
-    /// The actions of a win that the generator knows, if any.
+    /// The actions of a win that the generator knows; `None` if it knows no win.
     pub(super) known: Option<Vec<Action>>,
     proof: Option<Proof>,
     /// The level with its findings, once its judges have accepted it.
@@ -214,7 +214,7 @@ impl LevelTrial<'_> {
         if is_early { Err(Criterion::NotInstant.into()) } else { Ok(()) }
     }
 
-    /// The gate judges each level alone.
+    /// Rejects a level that fails the gate against dead time when judged alone.
     fn refuse_dead_time(&mut self, tally: &mut Tally) -> Passage {
         let Some(found) = self.found_of_course() else { return Ok(()) };
         let panel = self.place.levels.panel_of(CriterionSet::of(&[Criterion::NoDeadTime]));
@@ -250,8 +250,8 @@ impl LevelTrial<'_> {
         self.found.as_ref().filter(|_| self.is_of_course())
     }
 
-    /// Returns the gate against instant wins, if it applies to the level of this place. In a course with room for an
-    /// exception, the second level may be one.
+    /// Returns the gate against instant wins, if the gate applies to the level at this position. In a course with
+    /// room for an exception, the second level may be the exception.
     fn not_instant(&self) -> Option<NotInstant> {
         let Levels { criteria, count, .. } = *self.place.levels;
         let gates = &criteria.gates;
@@ -275,7 +275,7 @@ fn takes_as_long(found: &FoundLevel, earlier: &FoundLevel) -> bool {
 }
 
 /// Returns `true` if the win of a later level needs a mechanic that the win of the first level does not need, or if
-/// this is not required.
+/// no such mechanic is required.
 pub(super) fn leaves_something(
     levels: &Levels<'_>,
     game: &Game,

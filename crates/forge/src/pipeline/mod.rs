@@ -1,9 +1,9 @@
-//! The stages that a candidate passes, as data: the question of each stage, its cost, and what it can reject and
+//! The stages that a candidate passes through, as data: each stage's question, its cost, and what it can reject and
 //! replace.
 //!
-//! The lists below define the order in which `stage::walk` runs them. Each stage is in a file of this folder, with its
-//! tuning constants next to its code. To add a stage, write a `Stage` there and add it to a list; the table in
-//! `docs/explanation/generate-games.md` must agree.
+//! The lists below define the order in which `stage::walk` runs the stages. Each stage is in a file of this folder,
+//! with its tuning constants next to its code. To add a stage, write a `Stage` there and add it to a list. The table
+//! in `docs/explanation/generate-games.md` must agree.
 //!
 //! The stages do not depend on the source of a candidate: `sources.rs` has the traits for sources of rules and of
 //! boards.
@@ -53,7 +53,7 @@ impl Trial<'_> {
         Self::CARD,
     ];
 
-    /// The stages of a game whose rules are known, because it comes from the corpus or is a puzzle game.
+    /// The stages of a game whose rules are known, because the game comes from the corpus or is a puzzle game.
     const KNOWN_RULES: [Stage<Self>; 3] = [Self::LEVELS, Self::GATES, Self::CARD];
 }
 
@@ -63,7 +63,7 @@ impl Begun<'_> {
 }
 
 impl LevelTrial<'_> {
-    /// The stages of a level for one place of a game.
+    /// The stages of a level for one position in a game.
     const STAGES: [Stage<Self>; 11] = [
         Self::NEW_LEVEL,
         Self::NEW_BOARD,

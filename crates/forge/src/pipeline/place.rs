@@ -1,4 +1,5 @@
-//! The search for a level for one place of a game, which tries candidates until one passes and fits the other levels.
+//! The search for a level for one position in a game, which tries candidates until one passes and fits the other
+//! levels.
 
 use super::level::{LevelTrial, Place};
 use super::sources::{Board, Boards, PlaceBrief};
@@ -8,18 +9,18 @@ use crate::tally::Tally;
 
 /// The number of extra candidates that a failed search for a win counts as.
 const VAIN_SEARCH: u32 = 1;
-/// The number of extra candidates while the game has fewer than [`STAKE`] levels, so that little is lost: after two
-/// failed searches, one of four further searches succeeds.
+/// The number of extra candidates that a failed search counts as while the game has fewer than [`STAKE`] levels, so
+/// that little is lost. After two failed searches, one of four further searches succeeds.
 const EARLY_VAIN_SEARCH: u32 = 5;
 const STAKE: usize = 2;
 
 impl Place<'_> {
-    /// Returns the rejection of a game for which no level is found here.
+    /// Returns the rejection of a game for which no level is found at this position.
     pub(super) fn refusal(&self) -> Refusal {
         Refusal::Because(format!("no level {}", self.number).into())
     }
 
-    /// Returns the first candidate that passes, starting from number `from`.
+    /// Returns the first passing candidate, starting from number `from`.
     pub(super) fn find(&self, from: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let brief = PlaceBrief {
             number: self.number,
@@ -47,7 +48,7 @@ impl Place<'_> {
             if found.is_some() {
                 return found;
             }
-            // A failed search for a win is expensive: it counts as several candidates.
+            // A failed search for a win is expensive, so it counts as several candidates.
             if tally.calls - calls > criteria.budget / 2 {
                 left = left.saturating_sub(if self.others.len() < STAKE {
                     EARLY_VAIN_SEARCH
@@ -64,7 +65,7 @@ impl Place<'_> {
         f64::from(self.number) / f64::from((self.levels.count - 1).max(1))
     }
 
-    /// Takes candidate number `candidate` through the stages of a level; returns `None`, with the reason in the tally,
+    /// Takes candidate number `candidate` through the stages of a level. Returns `None`, with the reason in the tally,
     /// if it does not pass.
     fn judge_candidate(&self, boards: &dyn Boards, candidate: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let places = self.levels.seed.child("level", u64::from(self.number));

@@ -1,5 +1,5 @@
-//! Stages that consult other judges, with other seeds, about a game that its first judges accepted, and the stage that
-//! makes its card.
+//! Stages that run other judges, with other seeds, on a game that its first judges accepted, and the stage that makes
+//! the game's card.
 
 use super::game::Trial;
 use super::stage::{Passage, Stage};
@@ -9,11 +9,11 @@ use base::Seed;
 use engine::{Game, Level};
 use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Rate, Report, mcts_rate};
 
-/// The criteria whose answers do not depend on randomness once there is a witness; second judges skip them.
+/// The criteria whose answers do not depend on randomness once there is a witness. Second judges skip these criteria.
 const CERTAIN: CriterionSet =
     CriterionSet::of(&[Criterion::WellFormed, Criterion::Readable, Criterion::Winnable, Criterion::Length]);
 
-/// The reason for rejecting a game that owes the verdict of its first judges to luck.
+/// The reason for rejecting a game that its first judges accepted by luck.
 const SECOND_JUDGES: &str = "second judges";
 /// The reason for rejecting a game that passes the gates with some seeds and fails with others.
 const FURTHER_JUDGES: &str = "further judges";
@@ -80,7 +80,7 @@ impl Trial<'_> {
 }
 
 impl Levels<'_> {
-    /// Returns `true` if judges with a different seed accept the same levels, as far as the answers depend on
+    /// Returns `true` if judges with a different seed accept the same levels, as far as the judges' answers depend on
     /// randomness.
     pub(super) fn passes_with(
         &self,

@@ -13,16 +13,16 @@ use validators::{
 
 /// The factor by which the number of random episodes is increased for a second test.
 const LUCK_PLAYS: u32 = 5;
-/// The factor by which the allowed fraction of won random episodes is increased for that test, because the panel's test
+/// The factor by which the allowed fraction of won random episodes is increased for the second test. The panel's test
 /// has few episodes and is therefore strict.
 const LUCK_WINS: f64 = 1.6;
 
-/// The ladders that measure the difficulty of a level: the multiple of the criteria's number of episodes, and the
-/// minimum distance of the ease from any other label. The first ladder rejects most levels. The second one is longer,
-/// which corrects for the selection of lucky levels.
+/// The ladders that measure the difficulty of a level. Each has a multiple of the criteria's number of episodes, and a
+/// minimum distance of the ease from any other label. The first ladder rejects most levels. The second ladder has more
+/// episodes, which corrects for the selection of lucky levels.
 const LADDERS: [(u64, f64); 2] = [(1, 0.03), (3, 0.045)];
-/// The minimum fraction of all episodes of a ladder that have to be won, because a rarely won level may have no win in
-/// another ladder.
+/// The minimum fraction of all episodes of a ladder that must be won. A rarely won level may have no win in a second
+/// ladder.
 const BEATEN: f64 = 0.02;
 
 /// The reason for rejecting a level whose difficulty differs from the requested one.
@@ -41,10 +41,10 @@ pub(crate) struct LevelGate<'a> {
 pub(super) struct RequestTrial<'a> {
     gate: &'a LevelGate<'a>,
     level: &'a Level,
-    /// The seed of the level: the same level always gets the same answer.
+    /// The seed for judging the level. The same level always gets the same answer.
     seed: Seed,
     report: Report,
-    /// The ladder that measures the difficulty, if one was requested.
+    /// The ladder that measures the difficulty; `None` if no difficulty was requested.
     ladder: Option<Ladder>,
 }
 
@@ -147,7 +147,7 @@ impl RequestTrial<'_> {
             let climb =
                 LadderConfig { plays: climb.plays * times, calls: climb.calls * times, ..climb.clone() };
             let ladder = climb.ladder(self.case(&self.seed.child("ladder", times).into()));
-            // Another measurement with other seeds should also give the label.
+            // A second measurement with other seeds should also give the label.
             let is_met = bears(&ladder, asked, margin) && wins(&ladder) >= BEATEN;
             let calls = ladder.rungs.iter().map(|fared| fared.rate.calls).sum();
             tally.judge(DIFFICULTY, is_met, calls);

@@ -47,12 +47,13 @@ impl Rules for KernelGenome {
     }
 }
 
-/// A source of boards for the places of a game.
+/// A source of boards for the positions in a game.
 pub trait BoardSource: Sync {
     /// Returns the name used in cards.
     fn name(&self) -> &'static str;
 
-    /// Returns `true` if the levels make a course, each of which asks more than those before it. They also have to fit beside each other.
+    /// Returns `true` if the levels make a course, in which each level demands more than the levels before it. The
+    /// levels must also fit beside each other.
     fn is_course(&self) -> bool {
         false
     }
@@ -70,15 +71,15 @@ pub trait BoardSource: Sync {
         &[]
     }
 
-    /// Returns the tier that the level of a place must have.
+    /// Returns the tier that the level at a position must have.
     fn tier(&self, _number: u32) -> Option<Tier> {
         None
     }
 
-    /// Returns `true` if levels keep the order of their places; otherwise they are ordered by measured ease.
+    /// Returns `true` if levels keep the order of their positions. Otherwise they are ordered by measured ease.
     fn is_ordered(&self) -> bool;
 
-    /// Prepares the boards of a place.
+    /// Prepares the boards for a position.
     ///
     /// # Errors
     /// Returns an error if the source does not support the game.
@@ -89,19 +90,19 @@ pub trait BoardSource: Sync {
     ) -> Result<Box<dyn Boards + 'a>, GenerateError>;
 }
 
-/// The place of a board in a game.
+/// The position of a board in a game.
 pub struct PlaceBrief<'a> {
     /// The number of the level.
     pub number: u32,
     /// The difficulty that the level should have, from 0 to 1.
     pub difficulty: f64,
-    /// The levels in other places, each with its number.
+    /// The levels at other positions, each with its number.
     pub others: &'a [(u32, FoundLevel)],
     /// The criteria of the level and of the game.
     pub criteria: &'a CheckedCriteria,
 }
 
-/// The boards of one place.
+/// The boards for one position.
 pub trait Boards {
     /// Generates the board for a candidate's seed.
     ///
@@ -110,9 +111,9 @@ pub trait Boards {
     fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError>;
 }
 
-/// A level, with what its source knows about it.
+/// A level, with the facts that its source knows about it.
 pub struct Board {
-    /// The level.
+    /// The level on the board.
     pub level: Level,
     /// Actions that win the level, if known.
     pub known: Option<Vec<Action>>,
@@ -128,7 +129,7 @@ pub(super) fn seed_of_win(candidate: &SeedPath) -> SeedPath {
     systematic_seed(&Criterion::Winnable.seed(&judges_seed(candidate)))
 }
 
-/// Generates levels from the rules alone; each place has its own difficulty.
+/// Generates levels from the rules alone. Each position has its own difficulty.
 impl BoardSource for LevelConfig {
     fn name(&self) -> &'static str {
         "constructive"
@@ -155,7 +156,7 @@ impl Boards for ConstructiveLevels<'_> {
     }
 }
 
-/// Generates pushing puzzles, lock puzzles or yards; each place has a tier.
+/// Generates pushing puzzles, lock puzzles or yards. Each position has a tier.
 impl BoardSource for PuzzleLevels {
     fn name(&self) -> &'static str {
         "puzzle"
@@ -178,7 +179,7 @@ impl BoardSource for PuzzleLevels {
     }
 }
 
-/// The puzzles for one place.
+/// The puzzles for one position.
 struct PuzzleBoards<'a> {
     game: &'a Game,
     generator: PuzzleGenerator<'a>,

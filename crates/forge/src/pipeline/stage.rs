@@ -6,9 +6,9 @@ use validators::{Criterion, CriterionSet};
 
 /// A stage for candidates of type `T`.
 pub(super) struct Stage<T> {
-    /// The name in the documentation, and in tallies if the stage has its own judges.
+    /// The name in the documentation. Tallies also use the name if the stage has its own judges.
     pub(super) name: &'static str,
-    /// The question or the work, as a phrase.
+    /// The question or the task of the stage, as a phrase.
     pub(super) purpose: &'static str,
     /// The usual cost, in words.
     pub(super) cost: &'static str,
@@ -25,14 +25,14 @@ pub(super) struct Stage<T> {
 pub(super) enum Run<T> {
     /// Judges the candidate, and changes it if the stage replaces something.
     Once(fn(&mut T, &mut Tally) -> Passage),
-    /// Makes versions of the candidate, and judges each by the later stages until one passes.
+    /// Makes versions of the candidate, and takes each version through the later stages until one passes.
     Versions(fn(&mut T, &[Stage<T>], &mut Tally) -> Passage),
 }
 
 /// The rejection of a candidate by a stage.
 #[derive(Debug)]
 pub(crate) enum Refusal {
-    /// The reason, which still has to be counted.
+    /// The reason, which must still be counted.
     Because(Cow<'static, str>),
     /// The stage has already counted the reason.
     Counted,

@@ -11,15 +11,15 @@ const RESAMPLES: usize = 4000;
 /// The unit of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Unit {
-    /// A fraction of games, from 0 to 1: 100 points are all games.
+    /// A fraction of games, from 0 to 1. All games are 100 points.
     Share,
-    /// A mean of values with a natural scale of length 1: 100 points are 1.
+    /// A mean of values on a natural scale of length 1. The whole scale is 100 points.
     Scale,
-    /// A mean of counts: 100 points are the other group's mean.
+    /// A mean of counts. The mean of the other group is 100 points.
     Count,
 }
 
-/// A line of the comparison: its name, its unit, and its value for a game, or the reason why the game has none.
+/// A line of the comparison: its name, its unit, and its value for a game. A game without a value has a reason instead.
 struct Question {
     name: &'static str,
     unit: Unit,
@@ -51,7 +51,7 @@ fn yes(answer: bool) -> f64 {
     f64::from(u8::from(answer))
 }
 
-/// One group of games in a line of the comparison.
+/// The figures of one group of games in a line of the comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
     /// The mean, or the fraction; `None` if no game has a value.
@@ -84,17 +84,17 @@ pub struct Line {
     /// The subject of the line.
     pub name: &'static str,
     unit: Unit,
-    /// The first group.
+    /// The figures of the first group.
     pub ours: Group,
-    /// The second group.
+    /// The figures of the second group.
     pub theirs: Group,
-    /// The value of `ours` minus that of `theirs`; `None` unless both have a value.
+    /// The value of `ours` minus the value of `theirs`; `None` unless both groups have a value.
     pub difference: Option<f64>,
     /// The 95% bootstrap interval of the difference, over the games of each group.
     pub interval: Option<[f64; 2]>,
     /// The difference in points: hundredths of all games, of the scale from 0 to 1, or of the other group's mean count.
     pub points: Option<f64>,
-    /// `true` if the interval includes or exceeds 0, so that `ours` is at least level.
+    /// `true` if the interval includes 0 or lies above 0, so that `ours` is not significantly worse.
     pub level: Option<bool>,
 }
 

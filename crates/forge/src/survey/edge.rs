@@ -9,22 +9,22 @@ use validators::{Criteria, Criterion, PlayerResult, Report};
 /// The number of resamples for an interval of scores.
 const RESAMPLES: usize = 1000;
 
-/// The name of the player that has found a plan, on levels where a plan that has won once always wins.
+/// The name of the player that has found a plan. It is used on levels where a plan that has won once always wins.
 pub const SEARCH: &str = "search";
 
 /// The edge of the strongest player over the best player that does not look ahead.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edge {
-    /// The strongest player: the one with the most wins among the players that look ahead (with the highest score if
-    /// wins are equal); in a deterministic game [`SEARCH`], if that has more wins.
+    /// The strongest player. This is the player with the most wins among the players that look ahead, or with the
+    /// highest score if wins are equal. In a deterministic game, it is [`SEARCH`] if that player has more wins.
     pub strongest: String,
     /// The number of wins of the strongest player, over all levels.
     pub wins: u64,
     /// The number of episodes of each player, over all levels.
     pub plays: u64,
-    /// The best player that does not look ahead: the one with the most wins, or with the highest score if wins are
-    /// equal.
+    /// The best player that does not look ahead, which is the player with the most wins, or with the highest score if
+    /// wins are equal.
     pub floor: String,
     /// The number of wins of the floor player, over all levels.
     pub floor_wins: u64,
@@ -32,8 +32,9 @@ pub struct Edge {
     pub points: f64,
     /// Newcombe's 95% interval of the difference.
     pub interval: [f64; 2],
-    /// The mean gain in score of the ladder's strongest player over the floor player, episode by episode with the same
-    /// randomness, as a fraction of the range of all scores on the level; `None` if scores do not differ on any level.
+    /// The mean gain in score of the ladder's strongest player over the floor player, as a fraction of the range of all
+    /// scores on the level. The two players' episodes are paired by their randomness. `None` if scores do not differ on
+    /// any level.
     pub score: Option<f64>,
     /// The 95% bootstrap interval of the gain in score, over episodes.
     pub score_interval: Option<[f64; 2]>,
@@ -61,7 +62,7 @@ impl Player {
         self.scores.iter().sum::<f64>() / self.scores.len().max(1) as f64
     }
 
-    /// Returns the key by which players are compared: wins first, then score.
+    /// Returns the key by which players are compared, which is wins first and then score.
     fn fares(&self) -> (f64, f64) {
         (self.rate(), self.score())
     }
@@ -102,9 +103,9 @@ fn players(reports: &[Report]) -> Vec<Player> {
 }
 
 impl Edge {
-    /// Computes the edge from the ladders that played on the levels, without held-out players; `None` if there are no
-    /// ladders, or unless the players include some that look ahead and some that do not. The players must have the same
-    /// names in all reports.
+    /// Computes the edge from the ladders that played on the levels, without held-out players. Returns `None` if there
+    /// are no ladders, or unless some players look ahead and some do not. The players must have the same names in all
+    /// reports.
     pub(super) fn of(
         analysis: &Analysis,
         levels: &[Level],
@@ -114,7 +115,7 @@ impl Edge {
         Edge::among(analysis, levels, reports, criteria, false)
     }
 
-    /// Computes the edge as [`Edge::of`] does, with the strongest of the players that were held out from all searches.
+    /// Computes the edge like [`Edge::of`], with the strongest of the players that were held out from all searches.
     pub(crate) fn held_out(
         analysis: &Analysis,
         levels: &[Level],
@@ -175,8 +176,9 @@ fn plays_of(report: &Report) -> u64 {
     report.ladder().and_then(|ladder| ladder.rungs.first()).map_or(0, |fared| fared.rate.plays)
 }
 
-/// Returns the rank correlation between a player's position in the ladder and its result over all levels (wins first,
-/// then score): 1 if every stronger player does better, 0 if all do equally well; `None` if no ladder played.
+/// Returns the rank correlation between a player's position in the ladder and its result over all levels, by wins first
+/// and then by score. The correlation is 1 if every stronger player does better, and 0 if all players do equally well.
+/// Returns `None` if no ladder played.
 pub(super) fn ladder_order(reports: &[Report]) -> Option<f64> {
     let mut players = players(reports);
     players.retain(|player| !player.held_out);

@@ -14,12 +14,12 @@ pub struct GameSurvey {
     seed: Seed,
 }
 
-/// The criteria that a survey checks: the others are irrelevant to the comparison, or follow from these.
+/// The criteria that a survey checks. All other criteria are irrelevant to the comparison, or follow from these.
 const ASKED: CriterionSet = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
 
 impl GameSurvey {
-    /// Creates a survey. It takes the players of the ladder, the budgets and the thresholds from `criteria`, but
-    /// neither the requested criteria nor the held-out players.
+    /// Creates a survey. The players of the ladder, the budgets and the thresholds come from `criteria`, but neither
+    /// the requested criteria nor the held-out players do.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.
@@ -42,7 +42,7 @@ impl GameSurvey {
         }
     }
 
-    /// Returns the digest of everything that determines a game's row: its rules and levels, the criteria, the seed and
+    /// Returns the digest of everything that determines a game's row: the rules and levels, the criteria, the seed and
     /// the rules of the engine. Rows with the same digest are the same.
     pub fn digest(&self, game: &Game, levels: &[Level]) -> Digest {
         let levels: Vec<Digest> = levels.iter().map(Level::digest).collect();
@@ -53,8 +53,8 @@ impl GameSurvey {
         )
     }
 
-    /// Returns the row of a game, which does not depend on the other games or on the number of threads. Cost: the
-    /// budgets of the criteria for a witness and for a ladder per level; all levels are judged in parallel.
+    /// Returns the row of a game. The row does not depend on the other games or on the number of threads. Cost: the
+    /// budgets of the criteria for a witness and for a ladder per level. All levels are judged in parallel.
     pub fn row(&self, name: &str, game: &Game, levels: &[Level]) -> GameRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let report = self.panel.judge(Judging::game(game, levels, seed));

@@ -1,4 +1,4 @@
-//! A survey of how games pass the gates, on which the thresholds are based.
+//! A survey of the games that pass each gate, on which the thresholds are based.
 
 use base::Seed;
 use engine::{Episode, Game, Level};
@@ -20,9 +20,9 @@ pub struct GateSurvey {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GateAnswer {
-    /// `true` if the game passes; `None` if there was nothing to judge.
+    /// `true` if the game passes the gate; `None` if there was nothing to judge.
     pub passes: Option<bool>,
-    /// The measured figure.
+    /// The figure that the gate measured.
     pub figure: Option<f64>,
     /// The details of the evidence.
     pub seen: Vec<String>,
@@ -60,8 +60,8 @@ impl GateSurvey {
         Criteria { budget: 300_000, foresight: 0.4, ..Criteria::default() }
     }
 
-    /// Returns the row of a game, which does not depend on the other games or on the number of threads. A level with a
-    /// known win is judged by that win, any other level by a win that a search finds.
+    /// Returns the row of a game. The row does not depend on the other games or on the number of threads. A level with
+    /// a known win is judged by that win, and any other level by a win that a search finds.
     pub fn row(&self, name: &str, game: &Game, levels: &[(Level, Option<Episode>)]) -> GateRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let judge = |(level, win): &(Level, Option<Episode>)| {
@@ -106,8 +106,8 @@ impl GateRow {
         format!("{}: won {} of {}, {}", self.name, self.won, self.levels, answers.join(", "))
     }
 
-    /// Returns the table of groups of games: for each gate, the number of games that pass it among those that it could
-    /// judge, and the median of its figure.
+    /// Returns the table of groups of games. For each gate, a group has the number of games that pass the gate among
+    /// the games that it could judge, and the median of the gate's figure.
     pub fn table(groups: &[(&str, &[GateRow])]) -> Table {
         let columns =
             groups.iter().flat_map(|(group, _)| [format!("{group} pass"), format!("{group} median")]);
@@ -162,7 +162,7 @@ mod tests {
         let game = Game::from_source(GAME).unwrap();
         let level = game.level("wwwwww\nwA  pw\nwwwwww\n").unwrap();
         let (mut win, mut state) = Episode::begin(&game, &level, Seed::from_text("win"));
-        // The win has a detour: a search would find three steps.
+        // The win has a detour. A search would find a win of three steps.
         for action in [Action::Right, Action::Left, Action::Right, Action::Right, Action::Right] {
             win.play(&game, &mut state, action);
         }

@@ -1,4 +1,4 @@
-//! Levels judged afresh for a report, by all judges.
+//! Levels that all judges judge again for a report.
 
 use base::Seed;
 use engine::{Analysis, Level};
@@ -9,24 +9,24 @@ use validators::{
     Measures, Panel, Report,
 };
 
-/// The maximum fraction of wins without effort at which a level does not count as won for nothing.
+/// The maximum fraction of wins without effort at which a level does not yet count as won for nothing.
 pub(crate) const FOR_NOTHING: f64 = 0.1;
 
-/// A level and everything that is known about it.
+/// A level and all findings about it.
 #[derive(Clone, Debug)]
 pub struct SurveyedLevel {
-    /// The level.
+    /// The judged level.
     pub level: Level,
     /// The findings of the judges.
     pub report: Report,
-    /// The ladder of players on the level, and the difficulty derived from it; with seeds that did not guide any
-    /// search.
+    /// The ladder of players on the level, and the difficulty derived from the ladder. The ladder's seeds did not guide
+    /// any search.
     pub ladder: Option<Ladder>,
     /// The measures of the level's witness; `None` without a witness.
     pub measures: Option<Measures>,
-    /// The measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1; all levels have the same names.
+    /// The measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1. All levels have the same names.
     pub layout: Vec<(String, f64)>,
-    /// The requested difficulty.
+    /// The requested difficulty; `None` if none was requested.
     pub asked: Option<Difficulty>,
 }
 
@@ -52,8 +52,8 @@ impl SurveyedLevel {
     }
 }
 
-/// A survey that judges levels for a report with its own seeds, without trusting anything that a search knew. All
-/// criteria are checked for every level, even after one of them fails.
+/// A survey that judges levels for a report with its own seeds, without trusting any result of a search. All criteria
+/// are checked for every level, even after one of them fails.
 pub struct LevelSurvey<'a> {
     analysis: &'a Analysis,
     layout: Option<LevelMeasures>,
@@ -63,10 +63,9 @@ pub struct LevelSurvey<'a> {
 }
 
 impl<'a> LevelSurvey<'a> {
-    /// Creates a survey of one game's levels. Random keys may win a tenth of their episodes, as the report counts them,
-    /// even if the criteria are stricter to account for the choice among many candidates. The ladder is that of the
-    /// criteria without the held-out players, so difficulty has the same meaning as in `arcade generate levels
-    /// --difficulty`.
+    /// Creates a survey of one game's levels. Random keys may win a tenth of their episodes in the report's count, even
+    /// if the criteria are stricter to account for the choice among many candidates. The ladder is that of the criteria
+    /// without the held-out players, so difficulty has the same meaning as in `arcade generate levels --difficulty`.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.
@@ -77,7 +76,7 @@ impl<'a> LevelSurvey<'a> {
     ) -> Result<LevelSurvey<'a>, CriteriaError> {
         let criteria =
             Criteria { random_wins: criteria.random_wins.max(FOR_NOTHING), ..criteria.clone() }.check()?;
-        // The survey plays the ladder itself; playing it twice would be expensive.
+        // The survey plays the ladder itself, and playing the ladder twice would be expensive.
         let panel = criteria.without(CriterionSet::costing(Cost::Ladder));
         Ok(LevelSurvey {
             analysis,
@@ -88,7 +87,7 @@ impl<'a> LevelSurvey<'a> {
         })
     }
 
-    /// Returns the same survey without a ladder, which does not measure difficulty and skill.
+    /// Returns the same survey without a ladder. Such a survey does not measure difficulty and skill.
     #[must_use]
     pub fn without_ladder(self) -> LevelSurvey<'a> {
         LevelSurvey { climb: None, ..self }

@@ -1,8 +1,8 @@
-//! Surveys: levels and games from anywhere (written by people, or generated) are judged by the same criteria with the
-//! same budget, so that sets of them can be described and compared.
+//! Surveys, which judge levels and games from anywhere by the same criteria with the same budget. The levels and games
+//! are hand-written or generated, and sets of them can be described and compared.
 //!
-//! The reports of [`levels`](crate::levels::report) and [`games`](crate::games::report) summarise a set; [`Comparison`]
-//! compares two groups of games, as `docs/lab/side-by-side.md` explains; [`GateSurvey`] puts them through the gates of
+//! The reports of [`levels`](crate::levels::report) and [`games`](crate::games::report) summarise a set. [`Comparison`]
+//! compares two groups of games, as `docs/lab/side-by-side.md` explains. [`GateSurvey`] puts games through the gates of
 //! `docs/reference/gates.md`.
 
 mod compare;

@@ -32,17 +32,17 @@ pub struct GameRow {
     pub won: u64,
     /// The number of interactions in the rules, not counting guards ([`Guards`]).
     pub rules: u64,
-    /// The number of these rules that some recorded episode executes.
+    /// The number of rules in `rules` that some recorded episode executes.
     pub executed: u64,
-    /// The number of types that are declared for sprites of their own.
+    /// The number of types declared with sprites of their own.
     pub types: u64,
-    /// The number of these types that occurred on the board or as a resource in some recorded episode.
+    /// The number of types in `types` that occurred on the board or as a resource in some recorded episode.
     pub there: u64,
     /// The edge of the strongest player over the best player that does not look ahead.
     pub edge: Option<Edge>,
     /// The rank correlation between a player's position in the ladder and its result.
     pub order: Option<f64>,
-    /// The number of different interactions, not counting guards, that the wins execute, over all wins
+    /// The number of different interactions, not counting guards, that all wins together execute
     /// ([`PlayMeasures::mechanics`]).
     pub mechanics: Option<u64>,
     /// The despair on the way to a win ([`PlayMeasures::drama`]).
@@ -58,7 +58,7 @@ impl GameRow {
     }
 
     /// Returns the row of a game that was judged for `winnable` and `skill`. Cost: three replays of the recorded
-    /// episodes, and that of [`PlayMeasures::of`].
+    /// episodes, and the cost of [`PlayMeasures::of`].
     pub(crate) fn of(surveyed: &SurveyedGame, criteria: &Criteria, digest: Digest, seed: Seed) -> GameRow {
         let SurveyedGame { name, game, levels, report: GameReport { levels: reports, .. }, .. } = surveyed;
         let analysis = Analysis::of(game);
@@ -142,7 +142,7 @@ impl fmt::Display for GameRow {
     }
 }
 
-/// Returns a level's winning episodes: the shortest known one, then those of the players.
+/// Returns a level's winning episodes: the shortest known win, then the wins of the players.
 fn wins(report: &Report) -> Vec<Episode> {
     let mut won = report.episodes();
     won.retain(|episode| episode.outcome == Outcome::Won);

@@ -6,11 +6,11 @@ use validators::{GameReport, Judgement};
 /// A game and all findings of its judges.
 #[derive(Clone, Debug)]
 pub struct SurveyedGame {
-    /// The title in the game's own theme, or its name among the games that it is judged with.
+    /// The title in the game's own theme, or the game's name among the games that are judged together.
     pub name: String,
-    /// The way to win, for players: one line, which may be empty.
+    /// The way to win for players, as one line that may be empty.
     pub goal: String,
-    /// The game.
+    /// The game that was judged.
     pub game: Game,
     /// The judged levels, in order.
     pub levels: Vec<Level>,
@@ -19,7 +19,7 @@ pub struct SurveyedGame {
 }
 
 impl SurveyedGame {
-    /// Returns the first unmet criterion: first of the levels in order, then of all levels together.
+    /// Returns the first unmet criterion, checking the levels in order and then all levels together.
     pub(crate) fn obstacle(&self) -> Option<&Judgement> {
         let of_levels = self.report.levels.iter().find_map(|report| report.first_obstacle());
         of_levels.or_else(|| self.report.judgements.iter().find(|judged| !judged.finding.verdict.is_pass()))

@@ -6,7 +6,8 @@ use base::{Digest, Seed};
 use engine::{Game, Level};
 use validators::Criteria;
 
-/// Returns a game in which the player fetches the gem; `idle` sprites and rules that nothing needs may be added.
+/// Returns a game in which the player fetches the gem. `extra` can add `idle` sprites and rules that nothing
+/// needs.
 fn game(extra: [&str; 2]) -> Game {
     let [sprites, rules] = extra;
     let source = format!(
@@ -36,12 +37,12 @@ fn survey() -> GameSurvey {
 fn a_row_tells_what_play_shows() {
     let row = row_of(&survey(), "fetch", &game(["", ""]));
     assert_eq!((row.levels, row.won), (2, 2));
-    // Rules about stepping back from walls or about the edge do not count.
+    // Rules about stepping back from walls or about the edge of the board do not count.
     assert_eq!((row.rules, row.executed), (2, 2), "{row:?}");
     assert_eq!((row.types, row.there), (3, 3), "{row:?}");
     assert_eq!(row.mechanics, Some(1));
     let edge = row.edge.unwrap();
-    // The game is deterministic: a player that knows the way wins all episodes.
+    // The game is deterministic, so a player that knows the way wins all episodes.
     assert_eq!((edge.wins, edge.plays), (8, 8), "{edge:?}");
     assert!(edge.pays && edge.points >= 0.25 && edge.interval[0] > 0.0, "{edge:?}");
     assert!(row.order.unwrap() > 0.5, "{:?}", row.order);

@@ -28,7 +28,7 @@ pub(super) struct Chain<'a> {
     census: Census,
     /// All rules that passed, including those that were rejected as near duplicates.
     seen: Vec<GameForm>,
-    /// For each entry of `seen`, whether the rules became a game.
+    /// For each entry of `seen`, `true` if the rules became a game.
     is_game: Vec<bool>,
     near: Clusters,
     far: Clusters,
@@ -47,7 +47,7 @@ struct Attempts {
     passed: Vec<Passed>,
 }
 
-/// Rules that passed.
+/// Rules that passed the simulated judging.
 struct Passed {
     sketch: Sketch,
     /// The distances to all rules that were seen in earlier months.
@@ -63,7 +63,7 @@ impl Passed {
 }
 
 impl<'a> Chain<'a> {
-    /// Creates a chain before its first month; `sets` is the total number of rule sets.
+    /// Creates a chain before its first month. `sets` is the total number of rule sets.
     pub(super) fn new(
         order: &'a WellOrder,
         known: &'a [GameForm],
@@ -90,7 +90,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Simulates the months.
+    /// Simulates the months of the chain.
     pub(super) fn run(mut self, noted: &dyn Fn(&WellMonth)) -> Vec<WellMonth> {
         let months = self.order.months;
         let month = |number| {
@@ -148,14 +148,14 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Draws rules for a candidate until some that are new pass.
+    /// Draws rules for a candidate until new rules pass.
     fn attempts(&self, number: u32, month: &Seed) -> Attempts {
         let seed = month.child("game", number.into());
         let mut attempts = Attempts::default();
         for attempt in 0..self.order.tries {
             let seed = seed.child("attempt", attempt.into());
             attempts.drawn += 1;
-            // Rules that fail change nothing else, so they need not be drawn.
+            // Rules that fail have no other effect, so they need not be drawn.
             if seed.child("play", 0).sampler().unit() >= self.order.passing {
                 attempts.failed += 1;
                 continue;
@@ -223,8 +223,8 @@ struct Selection {
 }
 
 impl Selection {
-    /// Returns `true` if a candidate becomes a game: there is room, and no game of the month is near or has its title
-    /// or cast.
+    /// Returns `true` if a candidate becomes a game. This requires room, and no game of the month that is near or has
+    /// the same title or cast.
     fn takes(&mut self, sketch: &Sketch, nearest: f64, room: u32) -> bool {
         let has_words = |other: &Sketch| other.title == sketch.title || other.cast.is_shared(&sketch.cast);
         if self.games.len() >= room as usize {
@@ -277,7 +277,7 @@ mod tests {
         Chain::new(order, known, Seed::from_text("well"), draw, 100.0).run(&|_| ())
     }
 
-    /// Every later draw is rejected, which shows that there is nothing unseen.
+    /// Every later draw is rejected, which shows that no rules are left unseen.
     #[test]
     fn a_chain_of_one_rule_set_has_nothing_unseen() {
         let found = months(&ORDER, &[], &|_, _, _, _| Some(sketch(1)));

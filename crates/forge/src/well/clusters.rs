@@ -2,7 +2,8 @@
 
 use super::species::good_turing;
 
-/// Leader clusters: each game joins the first leader that is within a given distance, or else leads a new cluster.
+/// Leader clusters: each game joins the first leader within a given distance. A game without such a leader leads a
+/// new cluster.
 #[derive(Debug)]
 pub(super) struct Clusters {
     within: f64,

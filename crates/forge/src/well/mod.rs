@@ -1,8 +1,8 @@
-//! The well: the supply of games that a chain of months can still invent, measured on rules alone.
+//! The well: the supply of games that a chain of months can still invent, measured by rules alone.
 //!
-//! [`simulate`] draws the invented games of a chain of months as minting draws them, without boards: every month knows
-//! the games of the months before and prefers the mechanics that they used least. `chain.rs` draws, `clusters.rs` and
-//! `species.rs` count what was seen before, `words.rs` counts repeated words, and `table.rs` shows the months.
+//! [`simulate`] draws the invented games of a chain of months like minting, but without boards. Every month knows the
+//! games of all earlier months and prefers the mechanics that they used least. `chain.rs` draws rules, `clusters.rs`
+//! and `species.rs` count what was seen before, `words.rs` counts repeated words, and `table.rs` shows the months.
 
 mod chain;
 mod clusters;
@@ -35,8 +35,7 @@ pub struct WellOrder {
     pub candidates: f64,
     /// The maximum number of rule sets drawn for one candidate.
     pub tries: u32,
-    /// The fraction of new rule sets for which boards are found that pass all judges. The seed decides which rule sets
-    /// these are.
+    /// The fraction of new rule sets whose boards pass all judges. The seed decides which rule sets these are.
     pub passing: f64,
 }
 
@@ -64,7 +63,7 @@ pub struct Well {
 pub struct WellMonth {
     /// The number of the month, from 1.
     pub month: u32,
-    /// The estimated number of rule sets that are not near a game from before this month.
+    /// The estimated number of rule sets that are not near any game from before this month.
     pub available: f64,
     /// The number of rule sets that were drawn for candidates.
     pub drawn: u64,
@@ -86,8 +85,8 @@ pub struct WellMonth {
     pub yielded: f64,
     /// The distances between the new games and their nearest predecessors, including known games.
     pub nearest: Option<Nearest>,
-    /// The unseen mass of rules (Good–Turing): the probability that the distance between the next rules and any rules
-    /// drawn so far is at least 0.3.
+    /// The unseen mass of rules (Good–Turing). It is the probability that the next rules have a distance of at least
+    /// 0.3 from all rules drawn so far.
     pub unseen_near: Option<f64>,
     /// The unseen mass of rules for a distance of 0.4.
     pub unseen_far: Option<f64>,
@@ -101,18 +100,18 @@ pub struct WellMonth {
     pub top_ending: Option<Top>,
     /// The merged pair of ports that occurs in the most games.
     pub top_coupling: Option<Top>,
-    /// The words of the new games that had been used within the preceding year.
+    /// The words of the new games that were already used within the preceding year.
     pub again: Again,
 }
 
 /// The distances between new games and their nearest predecessors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Nearest {
-    /// The minimum distance.
+    /// The minimum of the distances.
     pub least: f64,
-    /// The 5% quantile.
+    /// The 5% quantile of the distances.
     pub low: f64,
-    /// The median.
+    /// The median of the distances.
     pub median: f64,
 }
 
@@ -125,16 +124,16 @@ pub struct Top {
     pub share: f64,
 }
 
-/// The repeated words in the games of a month, which an earlier game of the same month or of the eleven months before
-/// had used.
+/// The repeated words in the games of a month. An earlier game of the same month or of the preceding eleven months had
+/// used these words.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Again {
     /// The number of games with a repeated title.
     pub titles: u32,
-    /// The number of games whose things have exactly the names of those of another game.
+    /// The number of games whose things have exactly the same names as the things of an earlier game.
     pub casts: u32,
-    /// The number of games whose summary begins with the first sentence of another summary: the story that introduces
-    /// the rules.
+    /// The number of games whose summary begins with the first sentence of another summary, which is the story that
+    /// introduces the rules.
     pub openings: u32,
     /// The number of repeated sentences in all summaries.
     pub sentences: u32,
@@ -152,8 +151,8 @@ pub(crate) struct Sketch {
     pub(crate) patterns: Vec<String>,
 }
 
-/// Estimates the number of rule sets that are not near a known game, from a sample that is drawn as for a month after
-/// the games of a census. Cost: a second or two of one core, and some microseconds per known game.
+/// Estimates the number of rule sets that are not near a known game. The sample is drawn as for a month after the games
+/// of a census. Cost: a second or two of one core, and some microseconds per known game.
 pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
     let sets =
         InventionSupply::estimate(&InventionConfig::default(), SUPPLY_SAMPLES, seed.child("supply", 0))

@@ -17,12 +17,13 @@ impl Species {
         }
     }
 
-    /// Returns the probability that the next part of a game is one that no game has had.
+    /// Returns the probability that the next part of a game is new to all games.
     pub(super) fn unseen(&self) -> Option<f64> {
         good_turing(self.counts.values().copied())
     }
 
-    /// Returns the part that occurs in the most games, as a fraction of `games`; among equals, the first by name.
+    /// Returns the part that occurs in the most games, as a fraction of `games`. Among equally frequent parts,
+    /// returns the first by name.
     pub(super) fn top(&self, games: u32) -> Option<Top> {
         let most = self.counts.values().max()?;
         let (name, count) = self.counts.iter().find(|(_, count)| *count == most)?;
@@ -32,7 +33,7 @@ impl Species {
 
 /// Returns the fraction of counts that are 1, which estimates the probability that the next observation is new (I. J.
 /// Good, "The population frequencies of species and the estimation of population parameters", Biometrika 40, 1953).
-/// `None` if nothing was observed.
+/// Returns `None` if nothing was observed.
 pub(super) fn good_turing(counts: impl Iterator<Item = u64>) -> Option<f64> {
     let (once, all) =
         counts.fold((0u64, 0u64), |(once, all), count| (once + u64::from(count == 1), all + count));

@@ -23,7 +23,7 @@ pub struct ReleaseCard {
     /// The number of games from generators.
     pub new_games: u64,
     /// The requested and the achieved figures. Difficulties are counted in levels, as measured at selection, and may
-    /// deviate by one level; quotas are counted in games.
+    /// deviate by one level. Quotas are counted in games.
     pub planned: Vec<Bin>,
     /// The number of levels of each difficulty according to the cards' ladders, if it was measured.
     pub difficulty: BTreeMap<String, u64>,
@@ -54,7 +54,7 @@ pub struct ReleaseCard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rung {
-    /// The win rate.
+    /// The player's win rate.
     pub rate: RungRate,
     /// The smallest difference in win rate between two releases of this size that is detectable at the 5% level with
     /// 80% power.
@@ -121,7 +121,7 @@ pub struct Bin {
     pub least: i64,
     /// The maximum number requested.
     pub most: i64,
-    /// The number achieved.
+    /// The achieved number.
     pub there: i64,
 }
 
@@ -131,7 +131,7 @@ pub(crate) fn outside(there: i64, (least, most): (i64, i64)) -> i64 {
 }
 
 impl Bin {
-    /// Returns the distance from the range.
+    /// Returns the distance of the achieved number from the requested range.
     pub(crate) fn missed(&self) -> i64 {
         outside(self.there, (self.least, self.most))
     }

@@ -23,7 +23,7 @@ pub struct RungRate {
     pub player: String,
     /// `true` if the player looks ahead.
     pub looks_ahead: bool,
-    /// `true` if only acceptance uses the player, and no search.
+    /// `true` if the player is used only for acceptance, never in a search.
     pub held_out: bool,
     /// The number of games with a level that the player played.
     pub games: u64,
@@ -46,7 +46,8 @@ impl RungRate {
     /// Returns the smallest difference in win rate between two releases of `games` such games that a two-sided test
     /// at the 5% level detects with 80% power; `None` if there are no games, or if their variance is unknown.
     ///
-    /// Assumes that both releases have the same number of levels per game and the same variance as this one.
+    /// The estimate assumes that both releases have the same variance and the same number of levels per game as the
+    /// release measured here.
     pub fn detectable(&self, games: u64) -> Option<f64> {
         let error = self.error.filter(|_| games > 0)?;
         let one = error * error * self.games as f64 / games as f64;
@@ -116,14 +117,14 @@ impl Clustered {
         }
     }
 
-    /// Returns this mean minus the other, with the interval of the difference, treating the two as independent
-    /// samples of games.
+    /// Returns the mean of `self` minus the mean of `other`, with the interval of the difference. The two are treated
+    /// as independent samples of games.
     pub(crate) fn minus(&self, other: &Clustered) -> (f64, [f64; 2]) {
         difference((self.mean, self.interval), (other.mean, other.interval))
     }
 }
 
-/// Returns the difference of two rates with their intervals, and its interval.
+/// Returns the difference between two rates and the interval of the difference. Each rate is given with its interval.
 fn difference((ours, own): (f64, [f64; 2]), (theirs, other): (f64, [f64; 2])) -> (f64, [f64; 2]) {
     let below = apart(ours - own[0], other[1] - theirs);
     let above = apart(own[1] - ours, theirs - other[0]);
@@ -229,7 +230,8 @@ pub(crate) mod tests {
         PlayerResult { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: None }
     }
 
-    /// Returns a game on whose levels `random` and the held-out `olets:9` win the given numbers of ten episodes.
+    /// Returns the card of a game. On each level, `random` and the held-out `olets:9` win the given numbers out of
+    /// ten episodes.
     pub(crate) fn card(id: &str, wins: &[[u64; 2]]) -> Card {
         let level = |[random, olets]: &[u64; 2]| LevelCard {
             file: "lvl0.txt".to_owned(),
@@ -272,7 +274,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// Returns forty games of three levels, of which every fourth game is always won.
+    /// Returns the cards of forty games with three levels each. Every fourth game is always won.
     fn quarter() -> Vec<Card> {
         let wins = |game: u64| [if game.is_multiple_of(4) { 10 } else { 0 }, 10];
         (0..40).map(|game| card(&format!("g{game}"), &[wins(game); 3])).collect()
@@ -285,7 +287,7 @@ pub(crate) mod tests {
         assert_eq!((random.player.as_str(), random.held_out, random.looks_ahead), ("random", false, false));
         assert_eq!((random.games, random.levels, random.plays, random.wins), (40, 120, 1200, 300));
         assert_eq!(random.mean, 0.25);
-        // The width is that of 40 trials at 0.25, not of 120: ±13 points.
+        // The interval is as wide as with 40 trials at 0.25, not with 120: ±13 points.
         let error = random.error.unwrap();
         assert!((error - (0.25 * 0.75 / 39.0_f64).sqrt()).abs() < 1e-12, "{error}");
         let [low, high] = random.interval;
@@ -326,8 +328,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// The width should match the normal approximation of ±1.96 √2 standard errors. With fewer than a hundred games,
-    /// the width is larger.
+    /// The interval's width should match the normal approximation of ±1.96 √2 standard errors. With fewer than a
+    /// hundred games, the interval is wider.
     #[test]
     fn differences_are_as_wide_as_theory_says() {
         let half: Vec<Card> =
@@ -340,7 +342,7 @@ pub(crate) mod tests {
             assert!((found - expect).abs() < 0.03, "{random:?}, not {expect}");
         }
         assert!((random.detectable.unwrap() - 2.8015 * error).abs() < 1e-4, "{random:?}");
-        // One always wins, the other never: 40 games per side suffice for certainty.
+        // The player always wins on one side and never on the other, so 40 games per side suffice for certainty.
         let olets = &found[1];
         assert_eq!((olets.difference, olets.detectable), (-1.0, None));
         assert!(olets.interval[0] == -1.0 && olets.interval[1] < -0.8 && !olets.includes_zero());

@@ -42,14 +42,14 @@ pub(super) struct GameCheck {
 
 impl Checking<'_> {
     /// Checks folders whose names end with the same digest, in order. If two folders hold the same game, the second
-    /// one is reported as a problem, and its witnesses are not replayed.
+    /// folder is reported as a problem, and its witnesses are not replayed.
     pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
         let mut seen = BTreeMap::new();
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
     }
 
-    /// Returns the problems with texts and facts of a card that must follow from the rules. Only the wording of this
-    /// version can be compared.
+    /// Returns the problems with a card's texts and facts that must follow from the rules. Texts can be compared
+    /// only with the wording of this version.
     fn of_the_rules(&self, card: &Card, game: &Game) -> Vec<String> {
         let version = (self.manifest.generation, self.manifest.semantics);
         if version != (generators::GENERATION, engine::SEMANTICS) {
@@ -92,7 +92,8 @@ impl Checking<'_> {
         let GameCheck { levels, replayed, held, problems, .. } = &mut check;
         let canary = &self.manifest.canary;
         let path = |file: &str| format!("games/{folder}/{file}");
-        // The digests match, so every listed file can be read as text of its size; its content may still be wrong.
+        // The digests match, so every listed file can be read as text of its size, although its content may still
+        // be wrong.
         let read = |file: &str| -> Result<Option<String>, SnapshotError> {
             match files.contains(file) {
                 true => Ok(String::from_utf8(self.contents.read(&path(file))?).ok()),

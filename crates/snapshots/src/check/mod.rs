@@ -53,7 +53,7 @@ pub enum Witnesses {
 pub struct Verification {
     /// The name of the release.
     pub name: String,
-    /// The root digest, as stated.
+    /// The root digest that the release states.
     pub root: Digest,
     /// The number of files, without the manifest.
     pub files: usize,
@@ -65,7 +65,7 @@ pub struct Verification {
     pub witnesses: Witnesses,
     /// `true` if the release is sealed and its secret has not been revealed.
     pub is_secret: bool,
-    /// The work of the replays, in the units of [`Bounds`]; at most the bound.
+    /// The work of the replays, in the units of [`Bounds`]. The value never exceeds the bound.
     pub work: u64,
     /// The bound, if all replays together exceed it. In that case no witness was judged, which is reported as a
     /// problem.
@@ -73,11 +73,11 @@ pub struct Verification {
     pub exceeded: Option<u64>,
     /// The number of papers beside the release, which its root does not cover.
     pub papers: usize,
-    /// The names of files that other programs left beside the release; their content is not read.
+    /// The names of files that other programs left beside the release. Their content is not read.
     pub ignored: Vec<String>,
     /// The problems, each naming the file; empty if the release is sound.
     pub problems: Vec<String>,
-    /// The manifest, as stated.
+    /// The manifest that the release states.
     #[serde(skip)]
     pub manifest: Manifest,
 }

@@ -8,7 +8,7 @@ use forge::card::LevelCard;
 use statistics::{Z95, wilson};
 use validators::{Difficulty, Ladder, PlayerResult, Rate};
 
-/// The maximum absolute score and mean score; the effects of an episode cannot add up to more.
+/// The maximum absolute value of scores and mean scores. The effects of an episode cannot add up to more.
 const MAX_SCORE: f64 = 1e15;
 /// The maximum number of episodes of one player on one level.
 const MAX_PLAYS: u64 = 1_000_000;

@@ -1,10 +1,10 @@
 //! The lists of the files that a sealed release withholds, and the commitments to them.
 //!
-//! A sealed release publishes neither the paths, nor the sizes, nor the plain digests of its withheld files: anyone
-//! could check a guessed text against its digest. Instead, its manifest has two digests, each of a list that is also
-//! withheld. A list begins with a salt that is derived from the secret, so nobody can guess the list. It has the
-//! path, size and digest of every file of its part, so its digest commits to all of them. The digests of the lists
-//! are leaves of the tree.
+//! A sealed release publishes neither the paths, nor the sizes, nor the plain digests of its withheld files, because
+//! anyone could check a guessed text against its digest. Instead, its manifest has two digests, each of a list that
+//! is also withheld. A list begins with a salt that is derived from the secret, so nobody can guess the list. The
+//! list has the path, size and digest of every file of its part, so the digest of the list commits to all of them.
+//! The digests of the lists are leaves of the tree.
 
 use crate::error::SnapshotError;
 use crate::format::layout::HELD;
@@ -92,7 +92,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     Ok(())
 }
 
-/// Returns the problem with the list of a part, given the secret, as a sentence.
+/// Returns a sentence about the problem with a part's list, given the secret; `None` if the list is correct.
 pub(crate) fn salt_flaw(part: HeldPart, bytes: &[u8], secret: &Secret) -> Option<String> {
     let list = serde_json::from_slice::<HeldList>(bytes).ok()?;
     (list.salt != secret.salt(part))

@@ -95,8 +95,8 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
-/// Reads the existing lists of withheld files, and returns the problems with them. The list of the published coin
-/// wins may exist without the list of the rest, but not the other way round.
+/// Reads the existing lists of withheld files, and returns the problems with them. The list of published coin wins
+/// may exist without the list of the other files, but not vice versa.
 fn list_problems(
     root: &Path,
     manifest: &mut Manifest,
@@ -264,7 +264,7 @@ mod tests {
         let release = release();
         let path = release.root.join(MANIFEST_FILE);
         let bytes = fs::read(&path).expect("readable");
-        // One bit of every byte is flipped; in a sweep (`cargo xtask sweep`), all bits are.
+        // One bit of every byte is flipped. In a sweep (`cargo xtask sweep`), all bits are flipped.
         let sweeping = std::env::var_os("ARCADE_SWEEP").is_some();
         for position in 0..bytes.len() {
             for bit in (0..8).filter(|bit| sweeping || position % 8 == *bit) {
@@ -382,7 +382,7 @@ mod tests {
         assert!(matches!(check_integrity(&release.root), Err(SnapshotError::Link(_))));
     }
 
-    /// A manifest that is repaired after a file was altered needs a new root; with the old root, the root is reported
+    /// A manifest that is repaired after a file was altered needs a new root. With the old root, the root is reported
     /// as wrong.
     #[test]
     fn a_forged_manifest_has_another_root() {

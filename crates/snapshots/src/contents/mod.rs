@@ -18,9 +18,9 @@ use crate::format::folder::{self, Limits};
 
 /// The source of a release's files.
 pub(crate) enum Contents {
-    /// A folder.
+    /// A release in a folder.
     Folder(PathBuf),
-    /// An archive, in memory.
+    /// A release in an archive, in memory.
     Archive(Box<Archive>),
 }
 

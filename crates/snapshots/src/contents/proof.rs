@@ -29,7 +29,7 @@ pub enum ProofError {
     /// The release has no such item.
     #[error("`{}` is neither a file nor a game of `{release}`{}", id.escape_debug(), near.as_ref().map_or_else(String::new, |near| format!(": did you mean `{near}`?")))]
     NoSuchItem {
-        /// The requested item.
+        /// The item for which a proof was requested.
         id: String,
         /// The name of the release.
         release: String,
@@ -40,9 +40,9 @@ pub enum ProofError {
     #[error("`{}` is covered by the root only through the list of withheld files, so it has no proof of its \
              own: prove `{list}`, which has its digest", id.escape_debug())]
     Listed {
-        /// The requested item.
+        /// The item for which a proof was requested.
         id: String,
-        /// The list.
+        /// The path of the list of withheld files.
         list: &'static str,
     },
     /// The proof exceeds the maximum size.
@@ -59,7 +59,7 @@ pub enum ProofError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// A proof that an item, one file or all files of a game, is in a release.
+/// A proof that an item is in a release. An item is one file, or all files of a game.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ItemProof {
@@ -71,7 +71,8 @@ pub struct ItemProof {
     pub root: Digest,
     /// The item: a path of the release such as `games/x/lvl0.txt`, or the name of a folder in `games/`.
     pub item: String,
-    /// The files, sorted by the bytes of their paths: a single one for a path, all listed ones for a game.
+    /// The files, sorted by the bytes of their paths. The item of a path has a single file, and the item of a game
+    /// has all of the game's listed files.
     pub files: Vec<FileProof>,
 }
 
@@ -131,10 +132,12 @@ impl ItemProof {
     /// Reads an untrusted proof, and checks everything that can be checked without the root and the files.
     ///
     /// # Errors
-    /// Returns an error if the proof is too large, is not canonical JSON of this shape, has a different format
-    /// version, or is empty; if its label is not a release name; if its files are unsorted, have unsafe or reserved
-    /// paths, or do not belong to its item; or if a file has a path to the root that no tree has, or a position that
-    /// is impossible in the same tree.
+    /// Returns an error in each of these cases:
+    ///
+    /// - The proof is too large, is not canonical JSON of this shape, has a different format version, or is empty.
+    /// - The label is not a release name.
+    /// - The files are unsorted, have unsafe or reserved paths, or do not belong to the item.
+    /// - A file has a path to the root that no tree has, or a position that is impossible in the same tree.
     pub fn parse(bytes: &[u8]) -> Result<ItemProof, ProofError> {
         if bytes.len() as u64 > MAX_PROOF {
             return Err(ProofError::TooLarge);

@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// units per second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
-    /// The units for any release.
+    /// The number of units allowed for any release.
     pub work: u64,
-    /// The additional units for each level that the release declares.
+    /// The number of additional units for each level that the release declares.
     pub work_per_level: u64,
 }
 
@@ -53,7 +53,7 @@ impl Meter {
     }
 }
 
-/// The number of units that every tick counts as a minimum. The slowest ticks with almost no counted work take 50
+/// The minimum number of units that a tick counts as. The slowest ticks with almost no counted work take 50
 /// microseconds.
 const TICK: u64 = 4096;
 
@@ -63,7 +63,7 @@ pub(crate) enum Replayed {
     Won,
     /// The episode is invalid.
     Wrong(String),
-    /// The limit was exceeded, in this replay or in a different one.
+    /// The limit was exceeded, in this or any other replay.
     OutOfWork,
 }
 

@@ -33,7 +33,7 @@ pub(crate) const IGNORED_NAMES: [&str; 12] = [
 pub struct Untracked {
     /// The papers, by path.
     pub papers: Vec<Entry>,
-    /// The names of files that other programs left at the top; their content is not read.
+    /// The names of files that other programs left at the top of the release. Their content is not read.
     pub ignored: Vec<String>,
 }
 

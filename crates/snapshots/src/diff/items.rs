@@ -27,15 +27,16 @@ pub enum Status {
 /// The change of one game or item.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// The status.
+    /// The status of the game or item.
     pub status: Status,
-    /// The path in the later release, or in the earlier one if the status is [`Gone`](Status::Gone): `<game>` or
-    /// `<game>/lvl<n>`.
+    /// The path in the later release: `<game>` or `<game>/lvl<n>`. If the status is [`Gone`](Status::Gone), it is
+    /// the path in the earlier release.
     pub id: String,
     /// The path in the earlier release, if the game or item is kept or changed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub was: Option<String>,
-    /// `true` if the rules are generated. Corpus games return with new levels; generated ones should not.
+    /// `true` if the rules are generated. Corpus games return with new levels, but generated games should not
+    /// return.
     pub generated: bool,
 }
 
@@ -65,8 +66,8 @@ struct Entry {
 }
 
 impl Changes {
-    /// Pairs the entries of two releases: first those with equal texts, then those with equal forms, each with the
-    /// first unpaired one.
+    /// Pairs the entries of two releases: first entries with equal texts, then entries with equal forms. Each entry
+    /// is paired with the first unpaired candidate.
     fn of(before: &[Entry], after: &[Entry]) -> Changes {
         let mut was: Vec<Option<(Status, usize)>> = vec![None; after.len()];
         let mut taken = vec![false; before.len()];

@@ -24,9 +24,9 @@ use validators::{GameForm, GameKind};
 /// A summary of a release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Side {
-    /// The name.
+    /// The release's name.
     pub name: String,
-    /// The root digest.
+    /// The root digest of the release.
     pub root: Digest,
     /// The root digest of the previous release; `None` for the first release of its chain.
     pub parent: Option<Digest>,
@@ -98,7 +98,7 @@ impl Diff {
     /// Compares two releases, and lists the `closest` nearest pairs of games.
     ///
     /// Cost: an analysis of each game, its distance to all others, and about a thousand resamples of the games for
-    /// each figure, which is seconds for hundreds of games.
+    /// each figure. With hundreds of games, a comparison takes seconds.
     pub fn of(before: &Released, after: &Released, closest: usize) -> Diff {
         let [old, new] =
             [before, after].map(|side| side.games.par_iter().map(Compared::of).collect::<Vec<_>>());

@@ -1,4 +1,4 @@
-//! Distances between the rules of one release's games and those of a different release.
+//! Distances between the rules of games in two releases.
 
 use super::Compared;
 use rayon::prelude::*;
@@ -24,12 +24,12 @@ pub struct Neighbours {
     pub across: Option<Quantiles>,
     /// The same distances for the generated games of both releases only, because corpus games return by design.
     pub across_generated: Option<Quantiles>,
-    /// For scale, the distance from each later game to the nearest other later game.
+    /// The distance from each later game to its nearest neighbour among the later games, for comparison.
     pub within: Option<Quantiles>,
-    /// The number of later games that are nearer than [`NEAR`] to an earlier game: the same rules with other numbers
-    /// or a different theme.
+    /// The number of later games that are nearer than [`NEAR`] to an earlier game. Such games have the same rules
+    /// with different numbers or a different theme.
     pub near: usize,
-    /// The number of such pairs in which both games are generated.
+    /// The number of pairs nearer than [`NEAR`] in which both games are generated.
     pub near_generated: usize,
     /// The nearest pairs, nearest first.
     pub closest: Vec<Pair>,

@@ -16,7 +16,7 @@ pub const DEALS: usize = 999;
 /// A value of a distribution, with its counts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// The value.
+    /// The value of the distribution.
     pub value: String,
     /// The count in the earlier release.
     pub before: usize,
@@ -201,7 +201,7 @@ impl NumberShift {
             let (mut below, mut most) = ([0_u32; 2], 0.0_f64);
             for (at, (number, game)) in numbers.iter().enumerate() {
                 below[usize::from(sides[*game])] += 1;
-                // Of several equal numbers, only the last is compared, because its count includes all equal ones.
+                // If several numbers are equal, only the last is compared, because its count includes all of them.
                 if numbers.get(at + 1).is_none_or(|(next, _)| next != number) {
                     let [one, other] = [0, 1].map(|side| f64::from(below[side]) / f64::from(all[side]));
                     most = most.max((one - other).abs());

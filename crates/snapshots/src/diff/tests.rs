@@ -7,7 +7,8 @@ use crate::released::ReleasedLevel;
 use engine::Game;
 use forge::card::Card;
 
-/// Returns a game of fetching gems. `names` are those of the gem, the foe and the ground character.
+/// Returns a game in which gems are fetched. `names` are the name of the gem, the name of the foe and the character
+/// of the ground.
 fn source(names: [&str; 3], foe: &str) -> String {
     let [gem, imp, ground] = names;
     format!(

@@ -5,7 +5,7 @@ use super::shifts::{DIFFICULTY, Shift};
 use crate::format::manifest::Manifest;
 use serde::Serialize;
 
-/// The p-value from which a difference may be random.
+/// The minimum p-value at which a difference may be random.
 const CHANCE: f64 = 0.05;
 
 /// The order of two releases by the chain that they state.
@@ -21,7 +21,7 @@ pub enum Order {
 }
 
 impl Order {
-    /// Determines the order of two releases, of which `before` was given as the earlier.
+    /// Determines the order of two releases. `before` is the release given as the earlier one.
     pub(super) fn of(before: &Manifest, after: &Manifest) -> Order {
         match (follows(after, before), follows(before, after)) {
             (true, _) => Order::Follows,

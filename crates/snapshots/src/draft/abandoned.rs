@@ -15,7 +15,7 @@ pub struct Abandoned {
     partial: PathBuf,
     /// The number of finished jobs of an interrupted mint, which `--resume` can reuse.
     pub finished_jobs: usize,
-    /// Dropping it releases the lock.
+    /// The lock, which is released on drop.
     _lock: Lock,
 }
 
@@ -60,7 +60,7 @@ impl Abandoned {
     }
 }
 
-/// Returns `true` if the folder, not itself a link, holds a draft's lock, and otherwise only work. Runs that were
+/// Returns `true` if the folder is not a link, and holds a draft's lock and otherwise only work. Runs that were
 /// killed while starting or ending leave only a lock.
 fn holds_work(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() || !fs::symlink_metadata(partial.join(LOCK))?.is_file() {

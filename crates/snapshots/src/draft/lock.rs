@@ -29,7 +29,7 @@ pub(super) fn acquire(partial: &Path) -> Result<Lock, SnapshotError> {
 pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     let busy = || SnapshotError::Busy(partial.to_path_buf());
     let lock_path = partial.join(LOCK);
-    // A process that finishes in the meantime removes the folder; then the attempt starts over.
+    // A process that finishes in the meantime removes the folder. The attempt then starts over.
     for _ in 0..16 {
         match fs::create_dir(partial) {
             Err(source) if source.kind() != ErrorKind::AlreadyExists => {
@@ -64,8 +64,8 @@ fn mark(lock: &mut File) -> io::Result<()> {
     lock.sync_all()
 }
 
-/// Returns `true` if the folder belongs to a draft: it holds only what a draft makes, and a lock with [`MARK`] unless
-/// it holds nothing that could be lost. A user's own `results.partial` must not be deleted because of
+/// Returns `true` if the folder belongs to a draft. Such a folder holds only what a draft makes, and has a lock with
+/// [`MARK`] unless nothing in the folder could be lost. A user's own `results.partial` must not be deleted because of
 /// `--out results`.
 pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
@@ -91,8 +91,9 @@ pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     })
 }
 
-/// Reads the first bytes of a lock file, one more than the length of [`MARK`]. On Windows, a file locked by a
-/// different process cannot be read; the mark is returned then, because the attempt to lock the file comes next.
+/// Reads the start of a lock file, up to one byte more than the length of [`MARK`]. On Windows, a file locked by a
+/// different process cannot be read. [`MARK`] is returned in that case, because the attempt to lock the file comes
+/// next.
 fn content(lock: &Path) -> io::Result<Vec<u8>> {
     match disk::read_start(lock, MARK.len() as u64 + 1) {
         Err(_) if cfg!(windows) => Ok(MARK.as_bytes().to_vec()),
@@ -120,7 +121,7 @@ mod tests {
         }
     }
 
-    /// A lock file alone proves nothing; only its content does.
+    /// A lock file alone proves nothing. Only its content does.
     #[test]
     fn foreign_locks_are_untouched() {
         for (lock, other) in [("", "tree/a"), ("4711\n", "tree/a"), ("", "lots/a.json"), ("precious", "")] {

@@ -29,7 +29,7 @@ use disk::Lock;
 use lock::{JOBS, LOCK, TREE};
 use sync::{sync_folder, sync_folders};
 
-/// The name of the file, in the tree, of a draft that is published as a single file.
+/// The file name inside the tree, for a draft that is published as a single file.
 const SINGLE: &str = "file";
 
 pub use abandoned::Abandoned;
@@ -43,7 +43,7 @@ pub struct Draft {
     partial: PathBuf,
     /// `true` if all content is readable by its owner alone, also after publication.
     is_secret: bool,
-    /// Dropping it releases the lock, after `drop` has removed the folder.
+    /// The lock, which is released after `drop` has removed the folder.
     _lock: Lock,
 }
 
@@ -124,8 +124,8 @@ impl Draft {
         write().map_err(SnapshotError::io("write", &path))
     }
 
-    /// Publishes the draft as `out` in one step, and waits until the rename is on disk. Files were synced when they
-    /// were written; this call syncs the folders.
+    /// Publishes the draft as `out` in one step, and waits until the rename is on disk. The files were already synced
+    /// when they were written, so only the folders are synced now.
     ///
     /// # Errors
     /// Returns an error if `out` is no longer absent or empty, or if a file system operation fails. The draft is then
@@ -472,7 +472,7 @@ pub(crate) mod tests {
         );
     }
 
-    /// The process that [`a_killed_run`] kills. When it runs alone, it finds no orders in its folder and returns.
+    /// The process that [`a_killed_run`] kills. When run alone, this test finds no orders in its folder and returns.
     #[test]
     fn victim() {
         if fs::read("orders").ok().as_deref() != Some(b"write until killed") {

@@ -25,7 +25,7 @@ pub enum ColumnKind {
     Flag,
     /// A list of texts, possibly empty.
     Texts,
-    /// A list of records, possibly empty. The fields and their types are given; no field is a list.
+    /// A list of records, possibly empty. The value gives the fields and their types. No field is a list.
     Records(&'static [(&'static str, ColumnKind)]),
 }
 
@@ -62,7 +62,7 @@ impl ColumnKind {
 /// A column of an export.
 #[derive(Clone, Copy)]
 pub struct Column {
-    /// The name.
+    /// The name of the column.
     pub name: &'static str,
     /// The type of its values.
     pub kind: ColumnKind,

@@ -12,7 +12,7 @@ pub const SPLIT: &str = "test";
 pub enum Format {
     /// One JSON object per line.
     JsonLines,
-    /// Apache Parquet.
+    /// The Apache Parquet format.
     #[cfg(feature = "parquet")]
     Parquet,
     /// One folder per game, with its rules and levels.
@@ -34,7 +34,7 @@ impl fmt::Display for Format {
 /// The options of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Export {
-    /// The format.
+    /// The format of the export.
     pub format: Format,
     /// `true` to include an episode that wins each level.
     pub solutions: bool,

@@ -49,7 +49,8 @@ pub struct Listing {
     pub problems: Vec<Problem>,
     /// The skipped top-level names, sorted.
     pub passed_over: Vec<String>,
-    /// `true` if the whole folder was listed; `false` after [`Flaw::TooMany`], in which case there are no entries.
+    /// `true` if the whole folder was listed, and `false` after [`Flaw::TooMany`]. In the latter case, there are no
+    /// entries.
     pub complete: bool,
 }
 

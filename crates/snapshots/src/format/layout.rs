@@ -34,7 +34,8 @@ pub(crate) fn second_path(game: &str, level: usize) -> String {
     format!("{HELD}seconds/{game}/lvl{level}.json")
 }
 
-/// Returns `true` if a withheld file is a published coin win, which can be revealed before the rest.
+/// Returns `true` if a withheld file belongs to the published coin wins, which can be revealed before the
+/// other files.
 pub(crate) fn is_solution(path: &str) -> bool {
     path.strip_prefix(HELD).is_some_and(|file| file.split('/').count() == 2)
 }

@@ -11,8 +11,9 @@
 //!
 //! Leaves are ordered by the bytes of their paths. This layout is fixed for format 1.
 //!
-//! A proof shows that a leaf, including its path, is in the tree. As in RFC 6962, it does not bind the *number* of
-//! leaves: `size` only says which shape to follow, and a different size can describe the same path to the root.
+//! A proof shows that a leaf, including its path, is in the tree. As in RFC 6962, a proof does not bind the *number*
+//! of leaves. `size` only determines the shape to follow, and a different size can describe the same path to the
+//! root.
 
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
@@ -71,8 +72,8 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// Returns `true` if `leaf` is in the tree whose root is `root`. Malformed proofs give `false`. Cost: at most 64
-    /// hashes.
+    /// Returns `true` if `leaf` is in the tree whose root is `root`, and `false` if the proof is malformed. Cost: at
+    /// most 64 hashes.
     pub fn verify(&self, leaf: &Leaf, root: &Digest) -> bool {
         if self.index >= self.size {
             return false;
@@ -152,7 +153,7 @@ fn collect_siblings(hashes: &[Digest], index: usize, siblings: &mut Vec<Digest>)
     }
 }
 
-/// Returns the largest power of two smaller than `count`, which is at least 2.
+/// Returns the largest power of two smaller than `count`. `count` must be at least 2.
 fn split(count: usize) -> usize {
     count.next_power_of_two() / 2
 }
@@ -260,7 +261,8 @@ mod tests {
         }
     }
 
-    /// The rightmost leaf is the rightmost for any size, so a stated size must still use up the siblings.
+    /// The rightmost leaf is the rightmost one in a tree of any size, so a stated size must still use up the
+    /// siblings.
     #[test]
     fn a_size_that_ends_too_early_fails() {
         let leaves = leaves(8);

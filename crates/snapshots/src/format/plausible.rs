@@ -6,8 +6,8 @@ use crate::format::version::{CURRENT, MintedBy, VERSIONS, Version};
 /// previous releases in the recipe.
 pub(crate) const CARD_AND_CANARY_SINCE: u32 = 7;
 
-/// Returns the reason why no version of `arcade` can have minted with these numbers; `None` if any version, even a
-/// later one, can have.
+/// Returns the reason why no version of `arcade` can have minted a release with these numbers; `None` if some
+/// version, possibly a later one, can have minted it.
 pub(crate) fn impossible(minted_by: &MintedBy) -> Option<String> {
     let &MintedBy { ref version, generation, semantics } = minted_by;
     let never = format!("GENERATION {generation} never had SEMANTICS {semantics}");

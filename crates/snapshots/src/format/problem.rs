@@ -1,4 +1,5 @@
-//! The problems that reading an untrusted release folder can find. They are data, so that all are reported at once.
+//! The problems that reading an untrusted release folder can find. Problems are data, so that all of them are
+//! reported at once.
 
 use crate::format::path::PathProblem;
 use base::Digest;
@@ -10,10 +11,10 @@ use base::Digest;
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[error("{}: {flaw}", path.escape_debug())]
 pub struct Problem {
-    /// The path, relative to the release folder and `/`-separated; `.` for the folder itself. A name that is not
+    /// The path, relative to the release folder and `/`-separated, or `.` for the folder itself. A name that is not
     /// Unicode is shown approximately.
     pub path: String,
-    /// The flaw.
+    /// The flaw at the path.
     pub flaw: Flaw,
 }
 
@@ -46,13 +47,13 @@ pub enum Flaw {
         /// The digest that the manifest states.
         stated: Digest,
     },
-    /// A symbolic link; it was not followed.
+    /// A symbolic link, which was not followed.
     #[error("a symbolic link instead of a file or folder")]
     Link,
-    /// A pipe, socket or device; it was not opened.
+    /// A pipe, socket or device, which was not opened.
     #[error("neither a file nor a folder")]
     Special,
-    /// A name that no release may contain; a folder with such a name was not entered.
+    /// A name that no release may contain. A folder with such a name was not entered.
     #[error("unsafe name ({0})")]
     Name(PathProblem),
     /// A file larger than the limit for one file.
@@ -63,8 +64,8 @@ pub enum Flaw {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// There are more files or more folders than the limit. The rest was not examined, and no other problem with the
-    /// folder's content is reported.
+    /// There are more files or more folders than the limit. The remaining entries were not examined, and no other
+    /// problem with the folder's content is reported.
     #[error("more than {limit} files or folders")]
     TooMany {
         /// The limit on the number of files, and on the number of folders.
@@ -79,7 +80,7 @@ pub enum Flaw {
         limit: u64,
     },
     /// The manifest's text differs from the text that this format writes for its content (spaces, order, line ends, a
-    /// missing or duplicate field). The meaning is intact, but the bytes differ from the minted ones.
+    /// missing or duplicate field). The meaning is intact, but the bytes differ from the minted bytes.
     #[error("not in canonical form (its text is not as minted)")]
     NotCanonical,
     /// A file is not a list of withheld files, although its digest is the committed one.
@@ -101,7 +102,7 @@ pub enum Flaw {
     },
 }
 
-/// Returns a prefix that identifies a digest. [`Problem`] holds the whole digest.
+/// Returns a prefix that identifies a digest. A [`Problem`] contains the whole digest.
 fn short(digest: &Digest) -> String {
     let text = digest.to_string();
     format!("{}…", &text[..8])

@@ -1,7 +1,7 @@
 //! The versions of the suite, and the generation that each version mints.
 //!
 //! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row of [`VERSIONS`], a
-//! new version of the workspace and a new section of the changelog; tests compare all of them. A fix that changes no
+//! new version of the workspace and a new section of the changelog. Tests compare all of them. A fix that changes no
 //! minted byte raises `p` of the workspace and adds no row.
 
 use std::fmt;
@@ -40,7 +40,7 @@ pub const VERSIONS: &[Version] = &[
     CURRENT,
 ];
 
-/// The current version.
+/// The current version of the suite.
 pub const CURRENT: Version = Version {
     number: "0.16.0",
     generation: generators::GENERATION,
@@ -53,7 +53,8 @@ const fn superseded(number: &'static str, generation: u32, semantics: u32, commi
 }
 
 impl Version {
-    /// Returns the known version that mints this generation under these semantics, if there is one.
+    /// Returns the known version that mints this generation under these semantics; `None` if there is no such
+    /// version.
     pub fn that_mints(generation: u32, semantics: u32) -> Option<&'static Version> {
         VERSIONS.iter().find(|version| (version.generation, version.semantics) == (generation, semantics))
     }
@@ -68,14 +69,14 @@ impl Version {
     }
 }
 
-/// Writes number, generation and semantics: `0.11.0 (GENERATION 11, SEMANTICS 3)`.
+/// Writes the number, the generation and the semantics: `0.11.0 (GENERATION 11, SEMANTICS 3)`.
 impl fmt::Display for Version {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} (GENERATION {}, SEMANTICS {})", self.number, self.generation, self.semantics)
     }
 }
 
-/// The first generation whose binary is in `crates/cli`; before it was in `cli`.
+/// The first generation whose binary is in `crates/cli`. The binaries of earlier generations are in `cli`.
 const IN_CRATES: u32 = 14;
 
 /// Returns the commands that install `revision`, to be run in a clone of the repository.
@@ -96,7 +97,8 @@ pub struct MintedBy {
 }
 
 impl MintedBy {
-    /// Returns the commands that install the version; `None` if neither the manifest nor this binary knows it.
+    /// Returns the commands that install the version; `None` if neither the manifest nor this binary states the
+    /// version.
     pub fn install_command(&self) -> Option<String> {
         match (Version::that_mints(self.generation, self.semantics), &self.version) {
             (Some(known), _) => Some(known.install_command()),

@@ -92,8 +92,8 @@ impl Holdings {
         Ok(found)
     }
 
-    /// Returns the `known` field for a release that follows the release with this manifest. `self` must hold the
-    /// games and levels of the latter.
+    /// Returns the `known` field for a release that follows the release of `manifest`. `self` must hold the games
+    /// and levels of the release of `manifest`.
     ///
     /// # Errors
     /// Returns an error if the manifest's own `known` field is in the format of a different version.
@@ -119,7 +119,7 @@ impl Holdings {
 /// Cost: one pass over the files, and some milliseconds per game.
 ///
 /// # Errors
-/// Returns an error if the parent is not the one that the recipe states, or if the parent is unsound.
+/// Returns an error if the parent differs from the one that the recipe states, or if the parent is unsound.
 pub fn follow(recipe: &mut Recipe, parent: &Path) -> Result<(), AncestryError> {
     let (integrity, contents) = Contents::open(parent)?;
     let manifest = &integrity.manifest;

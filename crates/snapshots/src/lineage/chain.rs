@@ -71,9 +71,9 @@ pub struct Chain {
 /// A chain is sound if
 /// - every stated root is found, up to a release that states none;
 /// - no two of the given releases have the same name;
-/// - no two releases follow the same release of the chain, which would be two histories, and no release follows one
-///   that was not given, which could be a second history;
-/// - each release of the chain lists the content of its predecessors, and repeats none of it.
+/// - no two releases follow the same release of the chain, because that would be two histories, and no release
+///   follows a release that was not given, because that could be a second history;
+/// - each release of the chain lists the content of its predecessors, and repeats no part of that content.
 ///
 /// Cost: one pass over the files of all releases and a second pass over the files of the chain, plus some
 /// milliseconds for each game of the chain. Folders are read on all threads of the current rayon pool, archives one
@@ -123,10 +123,10 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     }
 }
 
-/// Checks that each release of a chain, given newest first, lists the content of its predecessors, and repeats none
-/// of it.
+/// Checks that each release of a chain lists the content of its predecessors, and repeats no part of that content.
+/// The releases are given newest first.
 ///
-/// `known` is compared as a whole if this version of arcade would state it in the same way. For a release of a
+/// `known` is compared as a whole if this version of arcade would state it in the same form. For a release of a
 /// different generation, only the names of its predecessors are compared.
 pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
@@ -139,7 +139,7 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
         let holdings = match Holdings::read(&contents, &manifest) {
             Ok(holdings) => holdings,
             Err(AncestryError::Snapshot(error)) => return Err(error),
-            // Cards of other generations may have a different layout; then nothing can be checked.
+            // Cards of other generations may have a different layout, which cannot be checked.
             Err(_) if !is_ours => {
                 before = None;
                 continue;
@@ -184,8 +184,8 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
     Ok(problems)
 }
 
-/// Returns the releases at or directly in `folder`, sorted by name. All other content is ignored, and no link is
-/// followed.
+/// Returns the releases at `folder` or directly below it, sorted by name. All other content is ignored, and no link
+/// is followed.
 pub(crate) fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
     let is_release = |place: &Path| fs::symlink_metadata(place.join(MANIFEST_FILE)).is_ok();
     let found = fs::metadata(folder).map_err(|source| match source.kind() {

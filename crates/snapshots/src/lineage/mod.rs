@@ -16,21 +16,22 @@ use base::Digest;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// A release that a later one states as its parent.
+/// A release that a later release states as its parent.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ancestor {
-    /// The root, as the later release states it.
+    /// The root that the later release states.
     pub root: Digest,
     /// The release; `None` if it was not found.
     pub link: Option<Link>,
-    /// The reasons why the found release is not the one with this root; empty if it is, or if no release was found.
+    /// The reasons why the found release does not have the stated root; empty if it has that root, or if no release
+    /// was found.
     pub problems: Vec<String>,
 }
 
 /// The ancestors of a release.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lineage {
-    /// The ancestors, from the parent back. Only the last one can be absent or damaged.
+    /// The ancestors, from the parent back. Only the last ancestor can be absent or damaged.
     pub ancestors: Vec<Ancestor>,
     /// `true` if the ancestors reach back to a release that states no parent.
     pub complete: bool,
@@ -41,10 +42,9 @@ pub struct Lineage {
     pub problems: Vec<String>,
 }
 
-/// Follows the roots from `start` back among the releases in `folders`, each of which is a release (folder or
-/// archive) or a folder of releases. Checks the integrity of the ancestors, and of nothing else in the folders.
-/// `heard` is called with each ancestor when it has been checked, and ends the search by returning `false`. `start`
-/// must have been verified.
+/// Follows the roots from `start` back among the releases in `folders`. Each folder is a release (folder or archive)
+/// or a folder of releases. Only the integrity of the ancestors is checked. `heard` is called with each ancestor
+/// after its check, and ends the search by returning `false`. `start` must have been verified.
 ///
 /// Cost: reading the manifests in the folders, two passes over the files of each ancestor, and one pass over each
 /// archive if a root is in no folder.
@@ -86,7 +86,7 @@ pub fn trace(
     Ok(Lineage { ancestors, complete, unread: candidates.unread, problems })
 }
 
-/// The available releases.
+/// The releases among which ancestors are searched for.
 struct Candidates {
     /// The folders, with the roots that they state.
     folders: Vec<(Digest, PathBuf)>,
@@ -129,8 +129,8 @@ impl Candidates {
         self.unread.push(format!("{error}{reason}"));
     }
 
-    /// Returns the release with a root. A sound release is preferred; otherwise, returns the first one that states
-    /// this root, with its problems.
+    /// Returns the release with a root, preferably a sound one. If no such release is sound, the first release that
+    /// states this root is returned with its problems.
     fn find(&mut self, root: Digest) -> Ancestor {
         let mut damaged = None;
         let places: Vec<PathBuf> = self

@@ -22,7 +22,7 @@ pub enum MintError {
     /// A corpus game does not compile.
     #[error("the corpus game `{name}` does not compile: {problems}")]
     BrokenCorpus {
-        /// The game.
+        /// The name of the game.
         name: String,
         /// The diagnostics of the compiler.
         problems: engine::Diagnostics,
@@ -74,7 +74,7 @@ pub enum MintError {
         /// The recommended next step.
         advice: String,
     },
-    /// The drawn secret does not look random, which happens to one in a billion.
+    /// The drawn secret does not look random, which happens with a probability of one in a billion.
     #[error("the drawn secret is unusable: {0}; draw again")]
     Unlucky(String),
     /// A section of the recipe adds a part to a game that cannot be made.
@@ -82,7 +82,7 @@ pub enum MintError {
     Section {
         /// The name of the section.
         section: &'static str,
-        /// The reason.
+        /// The reason why the part cannot be made.
         message: String,
     },
     /// The files or the manifest cannot be made.

@@ -8,9 +8,9 @@ use forge::games::MadeGame;
 use validators::{Case, CheckedCriteria, Demand, shorter_win};
 
 impl FrozenGame {
-    /// Converts a generated game. `criteria` are those of its judges. If they include a ladder, its players play
-    /// again with fresh seeds, because accepted levels were lucky in the episodes that led to acceptance. If
-    /// `measured` is set, the tier of every level without one is measured.
+    /// Converts a generated game. `criteria` are the criteria of its judges. If they include a ladder, the ladder's
+    /// players play again with fresh seeds, because accepted levels were lucky in the episodes that led to
+    /// acceptance. If `measured` is set, the tier of every level without a tier is measured.
     pub(super) fn of(mut made: MadeGame, criteria: &CheckedCriteria, measured: bool) -> FrozenGame {
         let ladders = made.card.levels.iter().filter_map(|level| level.ladder.as_ref());
         let difficulties = ladders.map(|ladder| ladder.difficulty).collect();
@@ -27,8 +27,8 @@ impl FrozenGame {
     }
 }
 
-/// Measures the tier of every level without one. In stochastic games, a shorter win found on the way replaces the
-/// witness.
+/// Measures the tier of every level without a tier. In stochastic games, a shorter win found during the measurement
+/// replaces the witness.
 fn measure(made: &mut MadeGame) {
     let analysis = Analysis::of(&made.game);
     let won = made.levels.iter().zip(&mut made.witnesses);
@@ -48,7 +48,7 @@ fn measure(made: &mut MadeGame) {
     }
 }
 
-/// Replaces the ladders on a game's card by fresh ones.
+/// Replaces the ladders on a game's card by new ladders with fresh seeds.
 fn climb_again(made: &mut MadeGame, seed: &SeedPath, criteria: &CheckedCriteria) {
     let players = criteria.players();
     let analysis = Analysis::of(&made.game);

@@ -53,7 +53,7 @@ pub struct JobFolder {
     folder: PathBuf,
     /// The digest of the plan. Results of different plans are ignored.
     plan: Digest,
-    /// `true` once the folder states the plan.
+    /// `true` once the folder has a file that states the plan.
     is_marked: Mutex<bool>,
     /// `true` if results are readable by their owner alone.
     is_secret: bool,
@@ -107,7 +107,8 @@ impl JobFolder {
         Ok(())
     }
 
-    /// Returns, for each name, whether a folder holds the result. The folder may be absent, and is not changed.
+    /// Returns, for each name, whether a folder holds the result of that name. The folder may be absent, and is
+    /// not changed.
     ///
     /// # Errors
     /// Returns an error if the folder has results of a different plan, or if a file system operation fails.

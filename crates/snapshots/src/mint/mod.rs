@@ -1,4 +1,4 @@
-//! Minting: candidates are generated, judged and selected.
+//! Minting: the generation, judging and selection of candidates.
 //!
 //! A recipe is turned into a [`Plan`], which is a list of independent jobs, each with its own seed. [`Plan::make`]
 //! runs a job, and its result is put into a [`JobStore`]. After all jobs, games are selected from the results
@@ -47,7 +47,7 @@ pub struct Minted {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Remark {
-    /// There are rules for at most this number of new games, hardly more than the recipe requests.
+    /// Rules exist for at most the given number of new games, which is hardly more than the recipe requests.
     FewRules(usize),
     /// The shard has no jobs.
     EmptyShard,
@@ -268,7 +268,7 @@ mod tests {
             .replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack")
             .replace("exit avatar > killSprite", "avatar exit > stepBack");
         let corpus = corpus(&[("fetch", FETCH), ("hopeless", &hopeless)]);
-        // Either game may be drawn first; both orders occur.
+        // Either game may be drawn first, and both orders occur.
         let mut first = Vec::new();
         for seed in ["a", "b", "c", "d", "e", "f"] {
             let recipe = recipe(seed);
@@ -280,7 +280,7 @@ mod tests {
         assert!(first.contains(&Job::Corpus(0)) && first.contains(&Job::Corpus(1)), "{first:?}");
     }
 
-    /// Otherwise a sealed release could not show that its witnesses were played under its secret.
+    /// Without these steps, a sealed release could not show that its witnesses were played under its secret.
     #[test]
     fn games_leave_a_way_from_the_seed_to_the_witness() {
         let check = |root: Seed, game: &FrozenGame| {
@@ -321,7 +321,7 @@ mod tests {
         assert!(games[0].paths.iter().any(is_shorter), "{:?}", games[0].card.levels);
     }
 
-    /// The estimate of a dry run is within a quarter of the measurement in `docs/how-to/mint.md`.
+    /// The estimate of a dry run differs by at most a quarter from the measurement in `docs/how-to/mint.md`.
     #[test]
     fn estimates_are_near_to_what_was_measured() {
         let page = include_str!("../../../../docs/how-to/mint.md");
@@ -346,8 +346,8 @@ mod tests {
         }
     }
 
-    /// Five mints of a recipe without `[criteria]` took 19 to 99 seconds of one core. The median is within this
-    /// range, and the tail is beyond it.
+    /// Five mints of a recipe without `[criteria]` took 19 to 99 seconds of one core. The forecast median is within
+    /// this range, and the forecast tail is beyond it.
     #[test]
     fn a_forecast_covers_what_other_seeds_cost() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 6\n";
@@ -356,13 +356,14 @@ mod tests {
         let plan = Plan::new(&recipe, None, &corpus).unwrap();
         let Forecast { median, tail } = plan.forecast(plan.jobs());
         assert!((26.0..=52.0).contains(&median) && (80.0..=200.0).contains(&tail), "{median} {tail}");
-        // The remaining jobs of a mint are a part of it, and the relative uncertainty of a smaller sum is greater.
+        // The remaining jobs are a part of a mint, and the relative uncertainty of a smaller sum is greater.
         let left = plan.forecast(&plan.jobs()[..2]);
         assert!(left.median < median / 3.0 && left.tail / left.median > tail / median, "{left:?}");
         assert_eq!(plan.forecast(&[]), Forecast { median: 0.0, tail: 0.0 });
     }
 
-    /// A committed recipe can no longer be changed, so a recipe that cannot be filled is rejected before.
+    /// A committed recipe can no longer be changed, so a recipe that cannot be filled is rejected before the
+    /// commitment.
     #[test]
     fn recipes_that_cannot_be_filled_are_refused() {
         let check = |generated: &str, expect: Option<&str>| {
@@ -430,7 +431,7 @@ mod tests {
         assert!(error.contains("--commit") && !error.contains("--resume"), "{error}");
     }
 
-    /// More jobs would not produce anything either.
+    /// If no rules are left, more jobs would not produce anything either.
     #[test]
     fn no_rules_left_is_told_with_another_advice_than_more_candidates() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 1\n";

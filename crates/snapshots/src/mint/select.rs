@@ -38,7 +38,7 @@ pub(super) enum Part {
 }
 
 impl Part {
-    /// Returns all parts.
+    /// Returns all parts of a recipe.
     fn all() -> impl Iterator<Item = Part> {
         [Part::Corpus, Part::Generated, Part::Invented].into_iter().chain(PuzzleKind::ALL.map(Part::Puzzles))
     }
@@ -82,8 +82,8 @@ pub(super) struct Contender {
     pub(super) at: usize,
     part: Part,
     pub(super) is_new: bool,
-    /// The titles and casts of the game and of its sibling. Selection treats both in the same way, so that it reveals
-    /// nothing about a coin.
+    /// The titles and casts of the game and of its sibling. Selection treats game and sibling in the same way, so
+    /// that the selection reveals nothing about a coin.
     titles: Vec<String>,
     casts: Vec<Cast>,
     /// The difficulties of the game's levels.
@@ -101,8 +101,8 @@ pub(super) struct Contender {
 }
 
 impl Contender {
-    /// Makes the contender for a game, which is given by the index of its job and its position in the job's result;
-    /// `None` if its rules or levels do not load.
+    /// Makes the contender for a game; `None` if the game's rules or levels do not load. The game is given by the
+    /// index of its job and its position in the job's result.
     pub(super) fn of(part: Part, (job, at): (usize, usize), frozen: &FrozenGame) -> Option<Contender> {
         let game = Game::from_source(&frozen.text).ok()?;
         let analysis = Analysis::of(&game);
@@ -179,8 +179,8 @@ const STARTS: u64 = 24;
 /// The amounts by which a selection misses the quotas and the histogram, and the number of duplicate titles.
 type Miss = (i64, i64, i64);
 
-/// Recommends the next step: a small change of the recipe that keeps finished jobs, or a different change that does
-/// not. A commitment covers the recipe, so a sealed recipe cannot be changed at all.
+/// Recommends the next step: a small change to the recipe that keeps finished jobs, or a different change that does
+/// not keep them. A commitment covers the recipe, so a sealed recipe cannot be changed at all.
 fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     if recipe.commitment.is_some() {
         return format!(
@@ -190,7 +190,7 @@ fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     format!("{small} and continue with --resume, which keeps finished jobs; {other}, and start over")
 }
 
-/// Selects the number of contenders of each part that the recipe requests, and returns their indices in order. The
+/// Selects contenders of each part in the number that the recipe requests, and returns their indices in order. The
 /// tallies of the jobs explain errors.
 ///
 /// # Errors
@@ -232,7 +232,7 @@ pub(super) fn select(
         choice.improve();
         (choice.counts.miss(), start, choice.taken)
     };
-    // Take the best start, and of equally good ones the first, whichever finishes first.
+    // Take the best start. Among equally good starts, take the first one, regardless of which finishes first.
     let best = (0..STARTS).into_par_iter().map(improved).min_by_key(|(miss, start, _)| (*miss, *start));
     let mut taken = best.map(|(_, _, taken)| taken).unwrap_or_default();
     taken.sort_unstable();
@@ -249,15 +249,15 @@ pub(super) fn select(
 
 /// The contenders that may be selected together.
 struct Fit {
-    /// The indices of these contenders.
+    /// The indices of the contenders that may be selected together.
     fit: Vec<usize>,
-    /// The counts of the reasons why others are excluded, by part.
+    /// The counts of the reasons why other contenders are excluded, by part.
     dropped: BTreeMap<Part, BTreeMap<String, u64>>,
 }
 
 impl Fit {
-    /// Excludes contenders that are in a previous release, have a duplicate level, or are near an earlier new
-    /// contender or share two mechanics, its title or its cast.
+    /// Excludes contenders that are in a previous release or have a duplicate level. Also excludes contenders that
+    /// are near an earlier new contender or share two mechanics, the title or the cast with it.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<Part, BTreeMap<String, u64>> = BTreeMap::new();
@@ -290,8 +290,8 @@ impl Fit {
     }
 }
 
-/// Returns the requirements of a selection with the achieved figures. Difficulties may deviate by one level; quotas
-/// are exact.
+/// Returns the requirements of a selection with the achieved figures. Difficulties may deviate by one level, but
+/// quotas are exact.
 pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -> Vec<Bin> {
     let counts = Counts::of(recipe, taken.iter().map(|&at| &contenders[at]));
     let mut bins = Vec::new();

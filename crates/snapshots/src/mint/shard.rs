@@ -1,4 +1,5 @@
-//! Shards: slices of a release's jobs, which run on different machines or at different times and are merged again.
+//! Shards: slices of a release's jobs, which run on different machines or at different times and are merged
+//! afterwards.
 //!
 //! A shard is a folder that is either complete or absent, like a release:
 //!
@@ -38,12 +39,12 @@ pub const SHARD_FILE: &str = "SHARD.json";
 /// The version of the shard format.
 const SHARD_FORMAT: u32 = 1;
 
-/// A slice of the jobs: `2/4` is the second of four. Jobs are dealt in turn, so that all slices take about the same
-/// time.
+/// A slice of the jobs: `2/4` is the second of four slices. Jobs are dealt in turn, so that all slices take about the
+/// same time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
-    /// The number of the shard, from 1.
+    /// The number of the shard, counted from 1.
     number: u32,
     of: u32,
 }
@@ -172,22 +173,22 @@ pub enum MergeError {
     /// `SHARD.json` is invalid.
     #[error("{}: {what}", .path.in_message())]
     Unsound {
-        /// The folder.
+        /// The folder of the shard.
         path: PathBuf,
-        /// The fault.
+        /// The fault of `SHARD.json`.
         what: String,
     },
     /// Two shards do not belong together.
     #[error("{} and {} do not belong together: {what}", .one.in_message(), .two.in_message())]
     Apart {
-        /// The first folder.
+        /// The folder of the first shard.
         one: PathBuf,
-        /// The second folder.
+        /// The folder of the second shard.
         two: PathBuf,
         /// The property in which the shards differ.
         what: &'static str,
     },
-    /// Shards are missing.
+    /// Some shards of the release are missing.
     #[error("shards are missing: {0}")]
     Missing(String),
     /// The jobs were not made from the recipe that the shards state.
@@ -269,8 +270,9 @@ impl Shards {
         Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, jobs })
     }
 
-    /// Runs the checks that are cheap compared with minting: each shard has exactly the jobs that the plan deals to
-    /// it, every game in them matches its card, and its witnesses replay to wins of its own levels.
+    /// Runs the checks that are cheap compared with minting. Each shard must have exactly the jobs that the plan
+    /// deals to it. Every game in the jobs must match its card, and its witnesses must replay to wins of its own
+    /// levels.
     ///
     /// Only minting again shows that the seed gives these games, and that the judges found these figures. Cost: a
     /// replay of every witness, on all threads of the current rayon pool.
@@ -416,7 +418,7 @@ mod tests {
         }
     }
 
-    /// Checks a one-job shard that was changed by a forger, who also states the digests of the changed files.
+    /// Checks a one-job shard after a forger has changed it and updated the digests of the changed files.
     #[track_caller]
     fn check(alter: impl Fn(&mut FrozenGame), list: impl Fn(&mut ShardFile), expect: Option<&str>) {
         check_of(&tests::recipe("a"), None, alter, list, expect);

@@ -21,11 +21,11 @@ use std::path::{Path, PathBuf};
 /// The resources that a program provides for minting.
 #[derive(Clone, Copy, Debug)]
 pub struct Tools<'a> {
-    /// The hand-written games.
+    /// The hand-written games of the corpus.
     pub corpus: &'a Corpus,
     /// The digest of the `Cargo.lock` that the program was built with.
     pub lockfile: Digest,
-    /// The reference players.
+    /// The reference players that recipes can request.
     pub players: &'a dyn MarkPlayers,
 }
 
@@ -41,7 +41,7 @@ pub struct Order {
     pub out: PathBuf,
     /// The shard; `None` for the whole release.
     pub shard: Option<Shard>,
-    /// `true` to keep the finished jobs of an interrupted mint, and any complete result.
+    /// `true` to keep the finished jobs of an interrupted mint, and to accept an existing complete result.
     pub resume: bool,
 }
 
@@ -61,11 +61,11 @@ pub struct Prepared<'a> {
 /// The result of a mint.
 #[derive(Clone, Debug)]
 pub enum Outcome {
-    /// The folder already held the result.
+    /// The folder already held the complete result.
     Complete,
-    /// A shard with this number of jobs.
+    /// A shard with the given number of jobs was written.
     Shard(usize),
-    /// A release.
+    /// A release was written.
     Release(Box<Minted>),
 }
 
@@ -89,7 +89,7 @@ impl Order {
         Ok(Prepared { plan, jobs, is_complete, order: self, tools })
     }
 
-    /// Prepares and mints the order: [`Order::prepare`], then [`Prepared::mint`].
+    /// Prepares and mints the order, by calling [`Order::prepare`] and [`Prepared::mint`].
     ///
     /// # Errors
     /// See [`Order::prepare`] and [`Prepared::mint`].
@@ -97,7 +97,7 @@ impl Order {
         self.prepare(tools, progress)?.mint(progress)
     }
 
-    /// Returns `true` if the folder holds the result of this plan, or of this shard of it.
+    /// Returns `true` if the folder holds the result of this plan, or of the ordered shard of the plan.
     fn is_complete(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         if let Some(shard) = self.shard {
             return shard.is_whole(plan, &self.out);
@@ -117,8 +117,8 @@ impl Order {
 }
 
 impl Prepared<'_> {
-    /// Runs the remaining jobs, and publishes the release or the shard. The folder is either complete or absent;
-    /// until it is complete, the finished jobs lie beside it ([`Draft`]).
+    /// Runs the remaining jobs, and publishes the release or the shard. The folder is either complete or absent.
+    /// Until the folder is complete, the finished jobs lie beside it ([`Draft`]).
     ///
     /// Cost: minutes for tens of games, on all threads of the current rayon pool.
     ///
@@ -214,7 +214,7 @@ fn plan<'a>(
     Ok(plan)
 }
 
-/// Lays out a release whose jobs are finished, and publishes it. A sealed release becomes two folders.
+/// Lays out a release whose jobs are finished, and publishes the release. A sealed release becomes two folders.
 fn publish(
     plan: &Plan<'_>,
     secret: Option<&Secret>,

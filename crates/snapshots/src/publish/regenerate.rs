@@ -65,13 +65,13 @@ fn next_move(minted_by: &MintedBy) -> String {
 /// A release that was minted again, and its differences from the original.
 #[derive(Clone, Debug)]
 pub struct Regenerated {
-    /// The new release.
+    /// The release that was minted again.
     pub minted: Minted,
     /// The result of the comparison.
     pub compared: Compared,
 }
 
-/// A comparison of a release with a new one from the same recipe.
+/// A comparison of a release with a new release from the same recipe.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// The differences, each naming the file; empty if every byte is the same.
@@ -93,8 +93,8 @@ pub struct Regeneration {
 }
 
 impl Regeneration {
-    /// Reads the recipe of the release in the folder `root`, and its secret if it was revealed. Opens every file to
-    /// be compared, so that an unreadable file is reported before the jobs run.
+    /// Reads the recipe of the release in the folder `root`, and its secret if the release was revealed. Opens every
+    /// file to be compared, so that an unreadable file is reported before the jobs run.
     ///
     /// # Errors
     /// Returns an error if the folder is not a release, the release is damaged, or this binary cannot mint it.
@@ -183,8 +183,8 @@ impl Regeneration {
         Ok(Regenerated { minted, compared })
     }
 
-    /// Compares the release with the one in the folder `out`, if the latter is complete and this version minted it
-    /// from the same recipe. Returns its manifest and the comparison. Mints nothing.
+    /// Compares the release with the release in the folder `out`, if `out` is complete and this version minted it from
+    /// the same recipe. Returns the manifest in `out` and the comparison. This function mints nothing.
     ///
     /// # Errors
     /// Returns an error if `out` holds a manifest that cannot be read, or if a file system operation fails.

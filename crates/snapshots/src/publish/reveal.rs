@@ -41,8 +41,8 @@ pub enum RevealError {
 }
 
 /// Merges the two parts of a sealed release, `public` and `held`, and the papers into a draft, and returns the
-/// manifest of the public part. The files must be exactly those under the root of that manifest, the secret must be
-/// the committed one, and the witnesses must have been played under it.
+/// manifest of the public part. The files must be exactly the files under the root of that manifest. The secret must
+/// be the committed one, and the witnesses must have been played under it.
 ///
 /// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///

@@ -8,7 +8,7 @@ use serde_json::Value;
 /// The key of the beacon's table in a recipe.
 pub(crate) const BEACON: &str = "beacon";
 
-/// A round of a public source of randomness, which the recipe states before anybody knows its value.
+/// A round of a public source of randomness. The recipe states the round before anybody knows its value.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BeaconPart {
@@ -28,12 +28,14 @@ impl BeaconPart {
         Some(seed.child(&format!("beacon {} {value}", self.source), self.round))
     }
 
-    /// Reads the beacon from a manifest's recipe; `None` if there is none, or if its layout is unknown.
+    /// Reads the beacon from a manifest's recipe; `None` if the recipe states no beacon, or if the beacon's
+    /// layout is unknown.
     pub(crate) fn of(recipe: &Value) -> Option<BeaconPart> {
         recipe.get(BEACON).and_then(|part| serde_json::from_value(part.clone()).ok())
     }
 
-    /// Checks the beacon of a hand-written recipe: the release must be sealed, and the value must be unknown.
+    /// Checks the beacon of a hand-written recipe. The release must be sealed, and the value must still be
+    /// unknown.
     pub(crate) fn check(&self, is_sealed: bool) -> Result<(), RecipeError> {
         if !is_sealed {
             return wrong(BEACON, "is for sealed releases: the seed of this one is public anyway");
@@ -89,7 +91,7 @@ mod tests {
         check(&format!("{sealed}{BEACON_TABLE}value = '{}'", Digest::of(b"")), "leave it out");
     }
 
-    /// The commitment covers the round but not its value; the seed depends on both.
+    /// The commitment covers the round but not its value, and the seed depends on both round and value.
     #[test]
     fn the_seed_depends_on_the_value_and_the_commitment_does_not() {
         let recipe = Recipe::to_commit(&format!("{GOOD}{BEACON_TABLE}")).unwrap();

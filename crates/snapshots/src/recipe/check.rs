@@ -24,8 +24,8 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// Parses and checks a recipe that is to be minted. If it has neither a seed nor a commitment and a secret is
-    /// given, the error states the commitment that it needs.
+    /// Parses and checks a recipe that is to be minted. If the recipe has neither a seed nor a commitment and a
+    /// secret is given, the error states the commitment that the recipe needs.
     ///
     /// # Errors
     /// Returns the first problem, with its position or key.

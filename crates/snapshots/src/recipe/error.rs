@@ -12,7 +12,7 @@ pub enum RecipeError {
     /// The recipe is not TOML, or not of this shape. The message gives the line, column and key.
     #[error("{0}")]
     Syntax(Box<toml::de::Error>),
-    /// A key belongs to a different table, or to no table.
+    /// A key belongs to a different table, or to no table at all.
     #[error("{}\n{help}", .source.to_string().trim_end())]
     Misplaced {
         /// The error, with its position.
@@ -25,7 +25,7 @@ pub enum RecipeError {
     Value {
         /// The key, in dotted form.
         key: &'static str,
-        /// The requirement.
+        /// The requirement that the value does not meet.
         message: String,
     },
     /// A criterion is out of range.
@@ -45,7 +45,7 @@ pub enum RecipeError {
          `--commit` wrote with it"
     )]
     OtherSecret,
-    /// The secret is right, but the recipe has changed.
+    /// The secret is correct, but the recipe has changed.
     #[error(
         "the recipe is not the one that was committed to: more than its `commitment` was changed after `--commit`; \
          {0}, or commit again with `arcade release RECIPE --commit`"
@@ -59,7 +59,7 @@ pub enum RecipeError {
     NoBeacon {
         /// The source of the beacon.
         source_name: String,
-        /// The round.
+        /// The round of the beacon.
         round: u64,
     },
     /// A secret was given for an open release.

@@ -1,4 +1,4 @@
-//! The record of earlier content in a recipe, which a release may not repeat.
+//! The record of earlier content in a recipe. A release may not repeat that content.
 
 use crate::recipe::error::RecipeError;
 use base::Digest;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::GameForm;
 
-/// The content of previous releases, which must not be repeated.
+/// The content of previous releases, which this release must not repeat.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Known {

@@ -102,8 +102,8 @@ pub struct Recipe {
 }
 
 impl Recipe {
-    /// Returns the digest that a commitment covers. It excludes `seed`, `commitment`, `known`, which follows from
-    /// `parent`, and the value of the beacon, which nobody knows yet.
+    /// Returns the digest that a commitment covers. The digest excludes `seed`, `commitment`, `known` and the value
+    /// of the beacon. `known` follows from `parent`, and nobody knows the beacon's value yet.
     pub fn committed(&self) -> Digest {
         let recipe = serde_json::to_value(self).expect("a recipe is plain data");
         secret::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
@@ -113,7 +113,7 @@ impl Recipe {
     ///
     /// # Errors
     /// Returns an error if the release is sealed and the secret is missing, differs from the committed one, or was
-    /// drawn for a different recipe; or if the release is open and a secret was given.
+    /// drawn for a different recipe. Also returns an error if the release is open and a secret was given.
     pub fn root_seed(&self, secret: Option<&Secret>) -> Result<Seed, RecipeError> {
         let Some(secret) = secret else {
             return self.seed.as_deref().map(Seed::from_text).ok_or(RecipeError::Sealed);
@@ -144,8 +144,8 @@ impl Recipe {
         }
     }
 
-    /// Returns, as sentences, the guarantees that a release of this recipe lacks. Empty if the recipe follows an
-    /// earlier release, and requests gates and `skill`.
+    /// Returns, as sentences, the guarantees that a release of this recipe lacks. The result is empty if the recipe
+    /// follows an earlier release and requests gates and `skill`.
     pub fn caveats(&self) -> Vec<&'static str> {
         let mut caveats = Vec::new();
         if self.parent.is_none() && self.new_games() > 0 {
@@ -185,7 +185,7 @@ impl Recipe {
     /// Converts a range of fractions to the minimum and maximum number of games.
     pub(crate) fn quota(&self, (least, most): (f64, f64)) -> (i64, i64) {
         let games = f64::from(self.games());
-        // A small tolerance, so that 0.2 of 10 games is 2.
+        // A small tolerance makes 0.2 of 10 games equal to 2.
         ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
     }
 
@@ -260,7 +260,7 @@ pub(crate) mod tests {
         let minting = Recipe { commitment: Some(secret.commitment()), ..recipe.clone() };
         minting.check().unwrap();
         assert_eq!(minting.root_seed(Some(&secret)).unwrap(), secret.root_seed());
-        // The commitment covers neither the field that it replaces nor data from the parent.
+        // The commitment covers neither the `commitment` field itself nor data from the parent.
         assert_eq!(Recipe::to_commit(GOOD).unwrap().committed(), recipe.committed());
         let known = Known { games: vec!["x".to_owned()], ..Known::default() };
         assert_eq!(Recipe { known, ..minting.clone() }.committed(), recipe.committed());
@@ -370,7 +370,7 @@ pub(crate) mod tests {
         check(&format!("{GOOD}[criteria]\nask = ['winnable']"), "lacks `not-idle`");
         check(&format!("{GOOD}[criteria]\nask = ['winable']"), "did you mean `winnable`?");
         check(&format!("{GOOD}[board]\ncolumns = [9, 4]"), "`board.columns`");
-        // A line appended to a file belongs to its last table.
+        // A line appended to a file belongs to the file's last table.
         check(
             &format!("{}commitment = '{}'\n", GOOD.replace("seed = 'x'\n", ""), Digest::of(b"")),
             "`commitment` stands in the table [generated] here, and belongs to the recipe as a whole: move it above the first [table]",

@@ -42,11 +42,12 @@ const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
 const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
 
 /// The minimum number of different bytes, and of different byte-to-byte steps, in 32 random bytes. All but one in a
-/// billion drawn secrets have more; a sequence with a period of at most 16 bytes has fewer.
+/// billion drawn secrets exceed this minimum, while a sequence with a period of at most 16 bytes falls below it.
 const DISTINCT: usize = 17;
 
 impl Secret {
-    /// Makes a secret for a recipe from 64 random bytes, of which one half is for the seed and one for the nonce.
+    /// Makes a secret for a recipe from 64 random bytes. One half of the bytes is for the seed, and the other half is
+    /// for the nonce.
     pub fn draw(name: &str, recipe: Digest, chance: [u8; 64]) -> Secret {
         let (seed, nonce) = chance.split_at(32);
         // The bytes are hashed, so that even poor randomness gives the full length.
@@ -73,7 +74,7 @@ impl Secret {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Derives the salt for the list of a withheld part. It reveals nothing about the secret or about the other
+    /// Derives the salt for the list of a withheld part. The salt reveals nothing about the secret or about the other
     /// part's salt.
     pub(crate) fn salt(&self, part: HeldPart) -> Digest {
         let mut hasher = blake3::Hasher::new_derive_key(SALT_CONTEXT);
@@ -84,14 +85,14 @@ impl Secret {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Returns the seed from which everything in the release is derived. It is a child of the seed's text that
-    /// depends on the nonce, so that guessing either of them alone is useless.
+    /// Returns the seed from which everything in the release is derived. The seed is a child of the secret's seed
+    /// text and depends on the nonce, so that guessing only the text or only the nonce is useless.
     pub fn root_seed(&self) -> Seed {
         Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
     }
 
-    /// Returns the seed of a release with this recipe, with the recipe's beacon mixed in if it states one; `None` if
-    /// the beacon has no value.
+    /// Returns the seed of a release with this recipe, with the value of the recipe's beacon mixed in if there is a
+    /// beacon; `None` if the beacon has no value.
     pub(crate) fn seed_for(&self, recipe: &Value) -> Option<Seed> {
         match recipe.get(BEACON) {
             None => Some(self.root_seed()),
@@ -99,7 +100,7 @@ impl Secret {
         }
     }
 
-    /// Checks that the seed and the nonce look random, not made up.
+    /// Checks that the seed and the nonce look random instead of made up.
     ///
     /// # Errors
     /// Returns the first fault as a sentence.
@@ -124,8 +125,8 @@ impl Secret {
         Ok(())
     }
 
-    /// Returns the fault of the secret of a release with this manifest, as a sentence; `None` if it is the committed
-    /// secret.
+    /// Returns a sentence about the fault of the secret of a release with this manifest; `None` if the secret is the
+    /// committed one.
     ///
     /// # Errors
     /// Returns an error if the manifest's recipe has no canonical JSON.
@@ -146,7 +147,7 @@ impl Secret {
     }
 
     /// Returns `true` if the witness's seed is derived from this secret and the recipe's beacon along the path that
-    /// the witness states. A secret of an earlier generation always passes.
+    /// the witness states. A secret of an earlier generation always passes the check.
     pub(crate) fn leads_to(&self, witness: &Witness, recipe: &Value) -> bool {
         let seed = self.seed_for(recipe).map(|seed| SeedPath::new(seed, witness.path.clone()).seed());
         self.recipe.is_none() || seed == Some(witness.episode.seed)
@@ -267,11 +268,11 @@ mod tests {
         ] {
             assert_ne!(changed.commitment(), secret.commitment(), "{changed:?}");
         }
-        // The name is a label.
+        // The name is only a label.
         assert_eq!(Secret { name: "x".to_owned(), ..secret.clone() }.commitment(), secret.commitment());
     }
 
-    /// Guessing the seed is useless without the nonce.
+    /// Guessing the text of the seed is useless without the nonce.
     #[test]
     fn games_come_from_the_nonce_too() {
         let secret = drawn();

@@ -32,7 +32,7 @@ pub struct FrozenGame {
     /// played.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub difficulties: Vec<Difficulty>,
-    /// The levels.
+    /// The texts of the levels.
     pub levels: Vec<String>,
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,
@@ -44,13 +44,14 @@ pub struct FrozenGame {
     /// The sibling that a coin withholds, if the recipe requests one and one exists.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<Sibling>,
-    /// The win of each level that a coin withholds, if one exists; empty if the recipe requests none.
+    /// The win of each level that a coin withholds; `None` for a level without such a win. The list is empty if
+    /// the recipe requests no second wins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub seconds: Vec<Option<SecondWin>>,
 }
 
 impl FrozenGame {
-    /// Returns the titles and rules under which the game is known: its own, and those of its sibling.
+    /// Returns the titles and rules under which the game is known: the game's own, and those of its sibling.
     pub(crate) fn guises(&self) -> impl Iterator<Item = (&str, &str)> {
         let sibling = self.sibling.iter().map(|sibling| (&*sibling.title, &*sibling.text));
         std::iter::once((&*self.card.title, &*self.text)).chain(sibling)

@@ -46,7 +46,7 @@ pub(crate) struct Writing<'a> {
     pub(crate) kind: ReleaseKind,
 }
 
-/// A file about a whole release.
+/// A section's file about a whole release, and its text for the README.
 pub(crate) struct Summary {
     pub(crate) file: NewFile,
     /// The end of the release's README; may be empty.
@@ -70,11 +70,11 @@ pub(crate) struct CheckedGame<'a> {
     pub(crate) game: &'a Game,
     /// The levels, each with its published witness if one exists.
     pub(crate) levels: &'a [(Level, Option<Episode>)],
-    /// `true` if an earlier game of the release is the same.
+    /// `true` if the game equals an earlier game of the release.
     pub(crate) is_again: bool,
 }
 
-/// The result of checking what a section added to a game.
+/// The result of checking a section's additions to a game.
 #[derive(Default)]
 pub(crate) struct Found {
     /// The paths of the withheld files that the release has, or should have.
@@ -117,8 +117,8 @@ pub(crate) trait Section: Sync {
         0.0
     }
 
-    /// Returns the fault of the section's additions to a game in the result of a job, as a sentence. `root` is the
-    /// seed of the plan.
+    /// Returns a sentence about the fault of the section's additions to a game in the result of a job. `root` is
+    /// the seed of the plan.
     fn job_problem(
         &self,
         _recipe: &Recipe,
@@ -129,7 +129,8 @@ pub(crate) trait Section: Sync {
         None
     }
 
-    /// Returns the files of a game besides its rules, levels, card and witnesses. May remove secrets from the card.
+    /// Returns the files of a game besides its rules, levels, card and witnesses. The function may remove secrets
+    /// from the card.
     ///
     /// # Errors
     /// Returns an error if a file has no canonical JSON.
@@ -141,7 +142,8 @@ pub(crate) trait Section: Sync {
         Ok(Vec::new())
     }
 
-    /// Returns the file about the release as a whole, given its games without their texts and episodes.
+    /// Returns the section's file about the release as a whole. The games are given without their texts and
+    /// episodes.
     ///
     /// # Errors
     /// Returns an error if the file has no canonical JSON.

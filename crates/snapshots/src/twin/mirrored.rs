@@ -86,7 +86,7 @@ fn mirrored_direction(direction: Direction) -> Direction {
     }
 }
 
-/// Returns the constant for the opposite side, in the same spelling; `None` if there is none.
+/// Returns the constant for the opposite side, in the same spelling; `None` if there is no such constant.
 fn mirrored_constant(text: &str) -> Option<&'static str> {
     match text {
         "LEFT" => Some("RIGHT"),
@@ -284,7 +284,7 @@ impl Worlds<'_> {
     }
 }
 
-/// Searches for an episode that wins the level of a stochastic game. Tries the original's actions with different
+/// Searches for an episode that wins the level of a stochastic game. The original's actions are tried with different
 /// seeds first, and then a search with a small budget.
 fn another(analysis: &Analysis, level: &Level, known: &Episode, seed: Seed) -> Option<Episode> {
     let game = analysis.game();
@@ -400,7 +400,8 @@ mod tests {
         );
     }
 
-    /// Only one raft can exist. The first boat of the row spawns it, and in the mirror image the other boat is first.
+    /// Only one raft can exist. The first boat in the row spawns the raft, and the mirror image has the other boat
+    /// first.
     #[test]
     fn games_that_depend_on_the_order_in_a_row_are_refused() {
         let sprites = "    boat > SpawnPoint stype=raft cooldown=3\n    raft > Immovable singleton=True\n    rower > MovingAvatar\n";

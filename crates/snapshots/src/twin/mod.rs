@@ -1,5 +1,5 @@
-//! Twins of games, which have the same mechanics under a different theme. They help test whether a model remembers or
-//! understands ([the properties of each kind](../../../../docs/how-to/twins.md)).
+//! Twins of games, which have the same mechanics under a different theme. Twins help test whether a model remembers
+//! or understands ([the properties of each kind](../../../../docs/how-to/twins.md)).
 
 mod mirrored;
 mod released;
@@ -54,7 +54,7 @@ pub struct TwinGame {
     /// A winning episode for each level; `None` if the original has none, or if its actions do not win here and no
     /// other win was found.
     pub witnesses: Vec<Option<Episode>>,
-    /// The title.
+    /// The title of the twin.
     pub title: String,
     /// A description of the player and more, as far as the surface reveals it.
     pub description: String,
@@ -74,7 +74,7 @@ pub enum TwinError {
     Level {
         /// The number of the level, from 0.
         number: usize,
-        /// The diagnostics.
+        /// The diagnostics of the level.
         problems: Diagnostics,
     },
     /// The rules cannot be mirrored faithfully.
@@ -83,7 +83,7 @@ pub enum TwinError {
     /// No coin withheld a sibling, or the sibling was not revealed.
     #[error("it has no sibling, or none that was revealed")]
     NoSibling,
-    /// The game has no other theme.
+    /// The game has no second theme.
     #[error(transparent)]
     NoTheme(#[from] GenerateError),
 }
@@ -198,7 +198,8 @@ struct Made {
 }
 
 impl Made {
-    /// Makes a twin from rules in which the image of an action has the effect of the original action.
+    /// Makes a twin from rules. The image of an action must have the same effect in these rules as the original
+    /// action has in the original.
     fn of(
         original: &Original<'_>,
         rules: &Description,
@@ -226,7 +227,7 @@ impl Made {
         format!("Game {}", self.game.digest().short())
     }
 
-    /// Adds the text, headed by the title, and by the canary of the original if it has one.
+    /// Adds the text, headed by the title and by the canary of the original if the original has a canary.
     fn headed(self, original: &Original<'_>) -> TwinGame {
         let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
         let canaries = comments.filter(|line| line.starts_with(CANARY));
@@ -237,7 +238,7 @@ impl Made {
     }
 }
 
-/// Replays the images of some actions; returns `None` if the episode does not win.
+/// Replays the images of the given actions. Returns `None` if the episode does not win.
 fn replayed(
     game: &Game,
     level: &Level,

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use validators::GameForm;
 
-/// A corpus game with those of its first levels that are won quickly, and their witnesses.
+/// A corpus game with witnesses. Of its first levels, only those that are won quickly are included.
 struct Sample {
     name: String,
     source: String,
@@ -101,7 +101,7 @@ fn mirrored(sample: &Sample) {
         let own = own.as_ref().unwrap_or_else(|| panic!("{name}: no witness"));
         assert_eq!((own.actions.len(), own.score), (known.actions.len(), known.score), "{name}");
     }
-    // The image of the image is the original.
+    // The mirror image of the mirror image is the original.
     let again = twin::of_game(Twin::Mirrored, &twin.text, &twin.levels, &[]);
     let again = again.unwrap_or_else(|problem| panic!("{name}: {problem}"));
     let clauses = |source: &str| Game::from_source(source).unwrap().clauses();

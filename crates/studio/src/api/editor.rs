@@ -13,7 +13,7 @@ use engine::{Diagnostics, LevelMapping, MAX_LEVEL_TEXT, MAX_SOURCE, describe};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The maximum number of edits in a renaming. Each takes some hundred bytes of the response.
+/// The maximum number of edits in a renaming. Each edit takes some hundred bytes of the response.
 const MAX_EDITS: usize = 100_000;
 
 /// Rejects texts that are too large for a game or a level.
@@ -77,7 +77,7 @@ pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
     }
 }
 
-/// Returns the characters of levels, with the types that each one places and its tile.
+/// Returns the characters of levels, each with its tile and the types that it places.
 fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
     let Compiled { source, game, looks, analysis } = compiled;
     let order = game.drawing_order();
@@ -91,8 +91,8 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
         let is_floor = types.iter().all(|&stype| analysis.role(stype) == Role::Floor);
         json!({ "symbol": game.character(symbol), "types": names, "label": label, "tile": tile, "floor": is_floor })
     };
-    // First come the characters that the game maps, in its order, and then those that are mapped by default to a type that the
-    // game mentions.
+    // The characters that the game maps come first, in its order. The characters that are mapped by default to a type
+    // of the game follow.
     let written = game.description().mapping.iter().filter_map(|line| u8::try_from(line.symbol).ok());
     let mut symbols: Vec<u8> = written.collect();
     let by_default = (b'!'..=b'~').filter(|symbol| !symbols.contains(symbol));
@@ -150,7 +150,7 @@ pub(crate) struct Rename {
     source: String,
     at: usize,
     name: String,
-    /// The levels, in which a character may have to change too.
+    /// The levels, in which a character may also have to change.
     #[serde(default)]
     levels: Vec<String>,
 }

@@ -120,8 +120,8 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     Ok(())
 }
 
-/// Follows the parents of the opened release as far as they are found, and sends each of them. Returns the sentences about them,
-/// and the problems.
+/// Follows the parents of the opened release as far as they are found, and sends each of them. Returns sentences about
+/// the parents, and the problems.
 fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, Vec<String>), Ended> {
     let mut child = start.name.clone();
     let tell = &mut |ancestor: &Ancestor| {
@@ -184,8 +184,8 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     Ok((said, problems))
 }
 
-/// Returns the places to search for the releases before the opened one: those that the user specified, the release to compare
-/// with, and the parent folders of both releases.
+/// Returns the places to search for the releases before the opened release. These are the places that the user
+/// specified, the release to compare with, and the parent folders of both releases.
 fn places(workspace: &Workspace) -> Vec<PathBuf> {
     let against = workspace.against.as_ref().map(|(place, _)| place.clone());
     let beside: Vec<PathBuf> =
@@ -252,7 +252,7 @@ pub(crate) fn compare(studio: &Studio) -> Result<Value, Refusal> {
         let each = diff.games.each.iter().filter(|change| statuses.contains(&change.status));
         each.map(|change| change.id.as_str()).collect()
     };
-    // Pairs come in the order of their distance, so the first pair of each later game has its nearest earlier game.
+    // Pairs are ordered by distance, so the first pair of each later game has its nearest earlier game.
     let mut seen = std::collections::BTreeSet::new();
     let nearest = diff.neighbours.closest.iter().filter(|pair| seen.insert(pair.after.as_str()));
     let nearest: Vec<Value> = nearest

@@ -46,7 +46,7 @@ pub(crate) fn results(studio: &Studio) -> Result<Value, Refusal> {
     Ok(json!({ "players": players }))
 }
 
-/// Returns a summary of an episode, or `None` if the episode has not begun.
+/// Returns a summary of an episode; `None` if the episode has not begun.
 fn summary(evaluation: &Evaluation, task: &Task<'_>, index: usize) -> Result<Option<Value>, Refusal> {
     let log = evaluation.events(task).map_err(Refusal::failed)?;
     let last = log.iter().rev().find_map(|event| match event {
@@ -78,7 +78,7 @@ struct Talk {
     answer: String,
     /// The reasoning that came with the answers.
     reasoning: String,
-    /// The action parsed from the answers.
+    /// The action parsed from the answers; `None` if there is no such action.
     parsed: Option<String>,
     /// The origin of the choice.
     validity: &'static str,
@@ -154,7 +154,7 @@ fn replayed(evaluation: &Evaluation, task: &Task<'_>) -> Result<Replayed, Refusa
     })
 }
 
-/// Returns the messages at each decision that has any.
+/// Returns the messages at each decision that has messages.
 fn talks(log: &[Event]) -> Vec<Talk> {
     let (mut talks, mut current, mut step) = (Vec::new(), Talk::default(), 0);
     let mut shown: Vec<(u32, String)> = Vec::new();
@@ -171,7 +171,8 @@ fn talks(log: &[Event]) -> Vec<Talk> {
                 shown.push((*id, format!("{picture}{text}")));
             }
             Event::Request { messages, .. } => {
-                // When a conversation continues, a log repeats the texts of earlier levels. They are left out here.
+                // When a conversation continues, a log repeats the texts of earlier levels. These repetitions are
+                // left out here.
                 let is_shown = |id: &u32| [messages.first(), messages.last()].contains(&Some(id));
                 for (_, text) in shown.drain(..).filter(|(id, _)| is_shown(id)) {
                     add(&mut current.prompt, &text);

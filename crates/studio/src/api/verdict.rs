@@ -69,8 +69,8 @@ pub(crate) struct Necessity {
     levels: Vec<String>,
 }
 
-/// The number of forward-model calls for each level, and again for the game over all its levels. It is also the number of calls
-/// to win a new level.
+/// The number of forward-model calls for each level, and again for the game over all its levels. It is also the number
+/// of calls to win a new level.
 const CALLS: u64 = 300_000;
 
 pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines) -> Result<(), Ended> {
@@ -143,7 +143,7 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     let count = count.min(MOST_LEVELS);
     let tries = if wanted.is_some() { TRIES * count } else { count };
     let mut sent = 0;
-    // Levels are made one after the other, so that each arrives as soon as it is made.
+    // Levels are made one after the other, so that each level arrives as soon as it is made.
     for number in 0..tries {
         if sent == count {
             break;
@@ -197,8 +197,8 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     Ok(())
 }
 
-/// Returns the winning episode of a new level: from its judges, or from a search if nobody has judged the level. Also returns
-/// `true` if it is proven that no win takes fewer ticks.
+/// Returns the winning episode of a new level. It comes from the level's judges, or from a search if the level was not
+/// judged. Also returns `true` if it is proved that no win takes fewer ticks.
 fn known_win(compiled: &Compiled, made: &MadeLevel, seed: Seed, lines: &Lines) -> Option<(Episode, bool)> {
     if let Some(report) = &made.report {
         let win = report.witness.clone()?;

@@ -133,7 +133,7 @@ pub(crate) fn save(studio: &Studio, id: &str, name: &str, asked: Save) -> Result
     Ok(json!({ "digest": Digest::of(asked.text.as_bytes()) }))
 }
 
-/// Rejects the request if a file differs from the one that the page has seen.
+/// Rejects the request if a file differs from the version that the page has seen.
 fn unchanged(path: &Path, name: &str, base: Option<Digest>, help: &str) -> Result<(), Refusal> {
     let now = files::content(path)?;
     let digest = now.as_ref().map(|text| Digest::of(text.as_bytes()));
@@ -158,7 +158,7 @@ pub(crate) fn remove(studio: &Studio, id: &str, name: &str, asked: Remove) -> Re
     let game = studio.workspace.game(id)?;
     let path = game.path_of(name)?;
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
-    // Only the last level can be removed, so that the numbers of the others have no gap.
+    // Only the last level can be removed, so that the numbers of the other levels have no gap.
     let last = match &game.place {
         Place::Folder { folder, source, .. } => {
             files::level_files(folder, source)?.last().map(|(last, _)| *last)

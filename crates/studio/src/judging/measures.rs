@@ -15,8 +15,8 @@ pub(super) type Measures = BTreeMap<String, f64>;
 /// The number of forward-model calls for each level, which the search for a win and the ladder divide.
 const CALLS: u64 = 200_000;
 
-/// Returns the measures of a game: those of its episodes, the ticks of its wins, and the advantage of stronger players. Cost:
-/// some seconds. The same game has the same measures in every session.
+/// Returns the measures of a game: those of its episodes, the ticks of its wins, and the advantage of stronger players.
+/// Cost: some seconds. The same game has the same measures in every session.
 pub(super) fn of(Candidate { game, levels, .. }: &Candidate) -> Measures {
     let ask = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
     let criteria = Criteria { ask, held_out: Vec::new(), budget: CALLS, ..Criteria::full() };

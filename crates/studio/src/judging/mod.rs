@@ -43,7 +43,7 @@ pub struct Candidate {
     pub id: String,
     /// The title that the judge sees.
     pub title: String,
-    /// The game.
+    /// The compiled game of the candidate.
     pub game: Game,
     /// The first levels of the game.
     pub levels: Vec<Level>,
@@ -61,7 +61,7 @@ pub struct Judging {
     sources: Vec<String>,
     entries: Vec<Arc<Entry>>,
     seed: String,
-    /// The index of the left and of the right entry of each pair.
+    /// The indices of the left and the right entry of each pair.
     pairs: Vec<[usize; 2]>,
     keeper: Mutex<Keeper>,
     plays: Plays,
@@ -81,19 +81,19 @@ pub enum JudgingError {
     Io {
         /// The action that failed.
         action: &'static str,
-        /// The file.
+        /// The name of the file.
         file: String,
-        /// The cause.
+        /// The cause of the failure.
         source: std::io::Error,
     },
     /// The record contains a line that is not a judgement.
     #[error("{file}, line {line}: not a judgement: {why}; choose another file, or remove the line")]
     Line {
-        /// The file.
+        /// The file with the faulty line.
         file: String,
-        /// The line number, from 1.
+        /// The line number, counted from 1.
         line: usize,
-        /// The problem.
+        /// The problem with the line.
         why: String,
     },
 }
@@ -113,8 +113,8 @@ const LEVELS: usize = 5;
 const MOST_WORDS: usize = 4000;
 
 impl Judging {
-    /// Draws `pairs` pairs with a seed, each from two sources, and opens the record. Pairs that the record contains are not shown
-    /// again. Also returns warnings about the record if it was damaged.
+    /// Draws `pairs` pairs with a seed, and opens the record. Each pair is drawn from two sources. Pairs that the
+    /// record contains are not shown again. Also returns warnings about a damaged record.
     ///
     /// # Errors
     ///
@@ -192,13 +192,13 @@ impl Judging {
     /// Returns the games of a pair, and the number of levels to show of each.
     fn both(&self, pair: [usize; 2]) -> ([&Candidate; 2], usize) {
         let both = pair.map(|at| &self.entries[at].candidate);
-        // Both games show the same number of levels, because a different number could reveal the sources.
+        // Both games show the same number of levels, because different numbers could reveal the sources.
         let levels = both.iter().map(|candidate| candidate.levels.len()).min().unwrap_or_default();
         (both, levels)
     }
 
-    /// Returns a recorded episode on a level, frame by frame, which is always the same. Returns a refusal early once `gone`
-    /// returns `true`.
+    /// Returns a recorded episode on a level, frame by frame. The episode is always the same. If `gone` returns `true`,
+    /// returns a refusal early.
     pub(crate) fn watch(
         &self,
         cache: &Cache,
@@ -214,7 +214,7 @@ impl Judging {
         let Some(level) = candidate.levels.get(wanted.level).filter(|_| wanted.level < levels) else {
             return Err(Refusal::bad("there is no such level").help("load the page again"));
         };
-        // The text must be the one that the page plays.
+        // The text must be the text that the page plays.
         let compiled = cache.need(&source_of(candidate))?;
         let level = compiled.level(&level.to_string())?;
         let number = u64::try_from(wanted.pair).unwrap_or_default();
@@ -304,7 +304,7 @@ fn shown(candidate: &Candidate, levels: usize) -> Value {
     })
 }
 
-/// A judgement as the page sends it.
+/// A judgement in the form that the page sends.
 #[derive(Deserialize)]
 pub(crate) struct Asked {
     pair: usize,

@@ -28,24 +28,25 @@ pub enum Better {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Which {
-    /// The game on the left.
+    /// The statement applies to the game on the left.
     Left,
-    /// The game on the right.
+    /// The statement applies to the game on the right.
     Right,
-    /// Both games.
+    /// The statement applies to both games.
     Both,
-    /// Neither game.
+    /// The statement applies to neither game.
     Neither,
 }
 
 impl Which {
-    /// Returns whether the statement applies to the left game, and whether it applies to the right game.
+    /// Returns `true` first if the statement applies to the left game, and second if it applies to the right
+    /// game.
     pub fn sides(self) -> [bool; 2] {
         [matches!(self, Which::Left | Which::Both), matches!(self, Which::Right | Which::Both)]
     }
 }
 
-/// The number of ticks played of each game.
+/// The numbers of ticks played in the two games.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Played {
@@ -89,11 +90,11 @@ pub struct Judgement {
     pub left: Side,
     /// The game on the right.
     pub right: Side,
-    /// The better game.
+    /// The answer about the better game.
     pub better: Better,
     /// The games that the judge would play again.
     pub again: Which,
-    /// The games that the judge believes to be made by a machine, if the judge was asked.
+    /// The games that the judge believes to be made by a machine; `None` if the judge was not asked.
     #[serde(default)]
     pub machine: Option<Which>,
     /// The judge's comment.
@@ -105,12 +106,12 @@ pub struct Judgement {
     /// The games that were watched.
     #[serde(default)]
     pub watched: Watched,
-    /// `true` if the judge had requested the report before, so that the answers are not blind.
+    /// `true` if the judge had already requested the report, so that the answers are not blind.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub after_report: bool,
 }
 
-/// The judgements in a record. For each pair, only the last one is included.
+/// The judgements in a record. For each pair, only the last judgement is included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Judgements(pub Vec<Judgement>);
 
@@ -195,7 +196,7 @@ impl Keeper {
             line.insert(0, '\n');
         }
         line.push('\n');
-        // If this line is cut off, the next one still starts on its own line.
+        // If this line is cut off, the next line still starts separately.
         self.open = true;
         self.file.write_all(line.as_bytes())?;
         self.file.sync_data()?;

@@ -1,4 +1,5 @@
-//! The results of judging: how often games of each source are preferred, and how well the measures agree with these preferences.
+//! The results of judging: how often games of each source are preferred, and how well the measures agree with these
+//! preferences.
 
 use super::record::{Better, Judgement, Judgements};
 use serde::Serialize;
@@ -12,7 +13,7 @@ pub struct Share {
     pub count: u64,
     /// The number of all cases.
     pub of: u64,
-    /// The fraction `count / of`, or `None` if there are no cases.
+    /// The fraction `count / of`; `None` if there are no cases.
     pub rate: Option<f64>,
     /// The lower end of Wilson's interval.
     pub low: f64,
@@ -39,7 +40,7 @@ pub struct SourceRow {
     pub losses: u64,
     /// The number of pairs in which neither game is better.
     pub ties: u64,
-    /// The fraction of wins among wins and losses, or `None` if there are neither.
+    /// The fraction of wins among wins and losses; `None` if there are neither wins nor losses.
     pub rate: Option<f64>,
     /// The lower end of Wilson's 95% interval.
     pub low: f64,
@@ -47,7 +48,8 @@ pub struct SourceRow {
     pub high: f64,
     /// The fraction of games that the judge would play again.
     pub again: Share,
-    /// The fraction of games that the judge believes to be made by a machine, among those for which that question was answered.
+    /// The fraction of games that the judge believes to be made by a machine, among the games for which this question
+    /// was answered.
     pub machine: Share,
 }
 
@@ -60,7 +62,8 @@ pub struct MeasureRow {
     pub agrees: u64,
     /// The number of pairs in which one game is better and the values differ.
     pub pairs: u64,
-    /// The fraction `agrees / pairs`, or `None` if there are no such pairs. Near 0, better games tend to have smaller values.
+    /// The fraction `agrees / pairs`; `None` if `pairs` is 0. If the fraction is near 0, better games tend to have
+    /// smaller values.
     pub rate: Option<f64>,
     /// The lower end of Wilson's 95% interval.
     pub low: f64,
@@ -187,7 +190,7 @@ mod tests {
         assert_eq!((theirs.again.count, theirs.again.of), (2, 5));
         assert_eq!((ours.machine.count, ours.machine.of), (1, 2));
         assert_eq!((theirs.machine.count, theirs.machine.of), (2, 2));
-        // The pace is equal in all games, so no pair says anything about it.
+        // The pace is equal in all games, so no pair says anything about the pace.
         let [drama] = &report.measures[..] else { panic!("{report:?}") };
         assert_eq!((drama.name.as_str(), drama.agrees, drama.pairs), ("drama", 2, 3));
     }

@@ -155,7 +155,7 @@ impl Running {
         answer.json()
     }
 
-    /// Sends a request whose response has several lines, and which must end normally or with an error line.
+    /// Sends a request whose response has several lines. The response must end normally or with an error line.
     pub(crate) fn lines(&self, path: &str, body: &Value) -> Vec<Value> {
         let answer = self.post(path, body);
         assert_eq!(answer.status, 200, "{path}: {}", String::from_utf8_lossy(&answer.body));
@@ -166,7 +166,8 @@ impl Running {
         assert!(last == json!("done") || last == json!("error"), "{last}");
         lines
     }
-    /// Sends a request whose response has several lines, reads up to the first line with one of these stages, and leaves.
+    /// Sends a request whose response has several lines, reads up to the first line with one of these stages, and
+    /// leaves.
     pub(crate) fn lines_until(&self, path: &str, body: &Value, stages: &[&str]) -> Vec<Value> {
         let mut stream = self.connect();
         let body = body.to_string();

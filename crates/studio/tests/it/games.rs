@@ -52,7 +52,8 @@ fn problems_come_with_places_and_repairs() {
         entries.filter(|entry| entry["floor"] == true).map(|entry| entry["symbol"].clone()).collect()
     };
     assert_eq!(floors(&sound["legend"]), ["."]);
-    // A character mapped by default to a type that the game does not mention is not a brush, and a hidden trap is not a floor.
+    // A character mapped by default to a type that the game does not mention is not a brush, and a hidden trap is not a
+    // floor.
     let snail = GAME.replace("avatar", "snail").replace(". > floor", ". > trap").replace("floor >", "trap >");
     let snail =
         snail.replace("floor", "trap").replace("snail wall", "snail trap > killSprite\n    snail wall");
@@ -116,7 +117,7 @@ fn games_are_played_undone_and_recorded() {
         let seen = running.ask("/api/play/seek", &json!({ "session": session, "tick": tick }));
         assert_eq!(seen["frame"], frames[tick], "{tick}");
     }
-    // The next action drops the ticks after it.
+    // The next action drops the ticks after the shown tick.
     act(&running, session, "left");
     let episode: Episode =
         serde_json::from_value(running.ask("/api/play/episode", &json!({ "session": session }))).unwrap();
@@ -190,7 +191,7 @@ fn saving_replaces_only_what_was_seen() {
     let saved = running.put(path, &json!({ "text": "wAw\n", "base": digest(LEVEL) }));
     assert_eq!((saved.status, &saved.json()["digest"]), (200, &digest("wAw\n")));
     assert_eq!(std::fs::read_to_string(&file).expect("read"), "wAw\n");
-    // When a different program writes the file, neither text is lost.
+    // If a different program writes the file, neither text is lost.
     std::fs::write(&file, "wwA\n").expect("written");
     let answer = running.put(path, &json!({ "text": "Aww\n", "base": digest("wAw\n") }));
     assert_eq!(answer.status, 409);

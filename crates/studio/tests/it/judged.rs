@@ -1,4 +1,4 @@
-//! Judging: what the judge sees, what is recorded, and what is resumed.
+//! Tests of judging: the view of the judge, the recorded data, and resumed sessions.
 
 use crate::client::{GAME, LEVEL, Running, WALLED, run, studio};
 use engine::Game;
@@ -86,7 +86,7 @@ fn plays_to_watch_are_made_alike_on_both_sides() {
     let first = {
         let running = run(studio(home.path(), Vec::new()).judging(of_two_levels(&file, "s")));
         let first = ["left", "right"].map(|side| [0, 1].map(|level| watch(&running, side, level)));
-        // Both games have the same first level here, and so the same episode.
+        // Both games have the same first level here, and therefore the same episode.
         assert_eq!(first[0], first[1]);
         let [won, other] = &first[0];
         let last = |play: &Value| play["frames"].as_array().expect("frames").last().expect("one").clone();

@@ -211,7 +211,7 @@ fn large_and_broken_requests_are_refused() {
     assert_eq!(running.get("/api/workspace").status, 200);
 }
 
-/// Neither idle connections nor clients that read nothing lock out the owner, with or without the token.
+/// Neither idle connections nor clients that do not read lock out the owner, with or without the token.
 #[test]
 fn silent_clients_lock_nobody_out() {
     let running = usual();

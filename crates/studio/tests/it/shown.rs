@@ -5,7 +5,7 @@ use infinite_arcade_studio::Place;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Texts that would have an effect if they were shown as anything but text.
+/// Texts that would have an effect if they were not shown as text.
 const MISBEHAVING: [&str; 6] = [
     "<script>alert(1)</script>",
     "\"><img src=x onerror=alert(1)>",
@@ -18,7 +18,7 @@ const MISBEHAVING: [&str; 6] = [
 fn misbehaving() -> Running {
     let mut games = Vec::new();
     for name in MISBEHAVING {
-        // Names of sprites contain part of the text; comments and levels contain all of it.
+        // Names of sprites contain part of the text, while comments and levels contain all of it.
         let word: String =
             name.chars().filter(|c| !c.is_whitespace() && !"#>:".contains(*c) && !c.is_control()).collect();
         let source = format!(

@@ -60,7 +60,7 @@ pub(super) fn ring(canvas: &mut Canvas, sampler: &mut Sampler) {
     }
 }
 
-/// Draws a court within a moat, which can be crossed at one or two places.
+/// Draws a court within a moat, which can be crossed at one or two points.
 pub(super) fn moat(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let across = between(sampler, 4, width.saturating_sub(4));

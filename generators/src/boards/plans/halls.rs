@@ -23,7 +23,7 @@ pub(super) fn aisles(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((end, 1), (3, height));
 }
 
-/// Draws two wide avenues that cross between four blocks of different sizes, one of them hollow.
+/// Draws two wide avenues that cross between four blocks of different sizes. One of the blocks is hollow.
 pub(super) fn cross(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let wide = if height < 7 { 2 } else { between(sampler, 2, 3) };

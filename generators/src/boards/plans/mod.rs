@@ -1,4 +1,4 @@
-//! The plans of boards: each plan is a site with a landmark, drawn with its own proportions.
+//! The plans of boards. Each plan is a site with a landmark, drawn in its own proportions.
 
 mod courts;
 mod halls;
@@ -80,7 +80,7 @@ impl PlanKind {
     }
 }
 
-/// Draws a number in a range; returns the lower end if the board is too small for the range.
+/// Draws a number in a range. Returns the lower end if the board is too small for the range.
 fn between(sampler: &mut Sampler, low: usize, high: usize) -> usize {
     sampler.between(low, high.max(low))
 }

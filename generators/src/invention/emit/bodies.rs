@@ -94,7 +94,8 @@ fn is_settled(before: &[InteractionLine], one: &str, other: &str) -> bool {
     })
 }
 
-/// Returns `true` if touching a type both harms the player and is what the player wants to do with it.
+/// Returns `true` if touching a type harms the player, although touching is also what the player wants to do
+/// with the type.
 pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[InteractionLine]) -> bool {
     let meets = |line: &InteractionLine, first: &str, second: &str| {
         line.first.text == first && line.second.iter().any(|word| word.text == second)
@@ -109,7 +110,8 @@ pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[Inter
     })
 }
 
-/// Turns a rule by which the player's touch removes an item into one by which the player collects the item.
+/// Turns a rule by which the player's touch removes an item into a rule by which the player collects the
+/// item.
 pub(super) fn collect_instead(line: &mut InteractionLine, items: &BTreeSet<&str>) {
     let is_taken = line.effect.text == "killSprite" && line.second.iter().all(|word| word.text == "hero");
     if is_taken && items.contains(line.first.text.as_str()) {

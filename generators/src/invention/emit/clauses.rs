@@ -19,7 +19,7 @@ pub(super) struct Clauses {
     pub(super) terminations: Vec<TerminationLine>,
 }
 
-/// Reads the clauses of a mechanic and gives its ports the names of their types.
+/// Reads the clauses of a mechanic, and replaces its ports by the names of their types.
 pub(super) fn clauses(invention: &Invention, types: &[Merged], at: usize) -> Result<Clauses, GenerateError> {
     let mechanic = invention.mechanics[at];
     let values = &invention.values[at];
@@ -51,7 +51,7 @@ pub(super) fn clauses(invention: &Invention, types: &[Merged], at: usize) -> Res
             let children: String = heroes.lines().map(|line| format!("    {line}\n")).collect();
             let line = format!("hero > {}\n{children}", class.as_deref().unwrap_or("MovingAvatar"));
             let mut hero = read(&line, "", "")?.sprites.pop();
-            // A state has the class of its group anyway.
+            // A state has the class of its group in any case.
             for line in hero.iter_mut() {
                 let text = |line: &SpriteLine| line.class.as_ref().map(|class| class.text.clone());
                 let class = text(line);
@@ -95,7 +95,7 @@ pub(in crate::invention) fn names_of(
     ports.chain(own).collect()
 }
 
-/// Extends the rules of other mechanics to states that remain what the port's type is.
+/// Extends the rules of other mechanics to states that still count as the port's type.
 pub(super) fn extend_to_states(invention: &Invention, types: &[Merged], clauses: &mut [Clauses]) {
     for (at, mechanic) in invention.mechanics.iter().enumerate() {
         let names = names_of(mechanic, types, at);

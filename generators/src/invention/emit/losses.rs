@@ -1,4 +1,4 @@
-//! Losing: the loss of things that an ending wants kept, and of the player.
+//! Losing: the loss of things that an ending wants kept, and the loss of the player.
 
 use super::clauses::Clauses;
 use super::{REMOVING, lost_name, name, own_name};
@@ -7,7 +7,7 @@ use crate::invention::mechanic::{Origin, OwnType, Port, Tag};
 use crate::invention::merge::{Merged, PortId};
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine, Word};
 
-/// Makes every loss of a goal end the game, unless the ending only wants the goal removed; returns the types that can
+/// Makes every loss of a goal end the game, unless the ending only wants the goal removed. Returns the types that can
 /// be lost in this way.
 pub(super) fn lose_with_goals(
     invention: &Invention,
@@ -54,7 +54,7 @@ fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<
     merged.ports.iter().flat_map(of_port).collect()
 }
 
-/// Makes an ending that counts a type count its lasting states as well.
+/// Makes an ending that counts a type also count the lasting states of the type.
 pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut TerminationLine) {
     let value = |line: &TerminationLine, key: &str| {
         line.params.iter().find(|param| param.key.text == key).map(|param| param.value.text.clone())
@@ -73,7 +73,7 @@ pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut T
     line.params.splice(0..0, counted);
 }
 
-/// Makes every rule that removes a thing leave a marker; returns `true` if there is such a rule.
+/// Makes every rule that removes a thing leave a marker. Returns `true` if there is such a rule.
 fn mark_losses(lines: &mut Vec<InteractionLine>, thing: &str, lost: &str) -> bool {
     let mut marked = Vec::new();
     let mut is_lost = false;

@@ -27,7 +27,7 @@ pub(in crate::invention) struct Written {
 }
 
 impl Written {
-    /// Removes from a rule that follows from bodies the partner that the compiler warns about; returns `false` if the
+    /// Removes the partner that the compiler warns about from a rule that follows from bodies. Returns `false` if the
     /// rule belongs to a mechanic.
     pub(in crate::invention) fn leave_out(
         &mut self,
@@ -73,7 +73,7 @@ pub(in crate::invention) fn lost_name(class: usize) -> String {
 /// The effects that remove the first sprite whenever two sprites meet.
 const REMOVING: [&str; 3] = ["killSprite", "transformTo", "killBoth"];
 
-/// Writes the rules.
+/// Writes the rules of an invention.
 ///
 /// # Errors
 /// Returns an error if two mechanics give a class to the same type.
@@ -148,7 +148,7 @@ fn is_hero(origin: &Origin) -> bool {
     matches!(origin, Origin::State { port, .. } if port == "hero")
 }
 
-/// Writes the SpriteSet: types that are drawn below others come first, and the hero comes last.
+/// Writes the SpriteSet. Types that are drawn below others come first, and the hero comes last.
 fn sprites(
     types: &[Merged],
     bodies: &Bodies,
@@ -179,7 +179,7 @@ fn sprites(
     Ok(lines)
 }
 
-/// Returns `true` if the line that a mechanic writes for a type counts: for a mover, only the line of the mechanic that
+/// Returns `true` if the line that a mechanic writes for a type counts. For a mover, only the line of the mechanic that
 /// moves it counts.
 fn is_of(types: &[Merged], mechanic: usize, own: &str) -> bool {
     let merged = types.iter().enumerate().find(|(class, _)| name(*class) == own);
@@ -220,7 +220,7 @@ fn of_class(lines: &[SpriteLine], class: &str) -> BTreeSet<String> {
     lines.iter().filter(has).map(|line| line.name.text.clone()).collect()
 }
 
-/// Returns the LevelMapping with internal names; the fiction assigns a character to each line.
+/// Returns the LevelMapping with internal names. The fiction assigns a character to each line.
 fn mapping(types: &[Merged], sprites: &[SpriteLine]) -> Vec<MappingLine> {
     let line = |names: &[&str]| MappingLine {
         names: names.iter().map(|name| Word::from(*name)).collect(),

@@ -1,5 +1,5 @@
-//! The words of an invented game: a place, nouns that fit everything a type does, a title, and sentences that explain
-//! the rules.
+//! The words of an invented game: a setting, nouns that fit everything a type does, a title, and sentences that
+//! explain the rules.
 
 mod nouns;
 mod predicates;
@@ -46,7 +46,7 @@ pub(super) struct Fiction {
 type Wanted = (String, Body, Predicates);
 
 impl Fiction {
-    /// Returns `true` if there is a place with a noun for every type. Cost: about 20 microseconds.
+    /// Returns `true` if there is a setting with a noun for every type. Cost: about 20 microseconds.
     pub(super) fn can_name(types: &[Merged], mechanics: &[&'static Mechanic]) -> bool {
         let wanted = wanted(types, mechanics);
         Words::get().places.keys().any(|place| assign(&wanted, place, None).is_some())
@@ -55,7 +55,7 @@ impl Fiction {
     /// Draws the words of a game.
     ///
     /// # Errors
-    /// Returns an error if no place has a noun for every type, or if a sentence names an unknown type.
+    /// Returns an error if no setting has a noun for every type, or if a sentence contains an unknown type.
     pub(super) fn draw(invention: &Invention, types: &[Merged]) -> Result<Fiction, GenerateError> {
         let seed = invention.fiction;
         let wanted = wanted(types, &invention.mechanics);
@@ -155,7 +155,7 @@ fn wanted(types: &[Merged], mechanics: &[&'static Mechanic]) -> Vec<Wanted> {
     wanted
 }
 
-/// Assigns a noun to each of the types at a place: the first noun that fits, or a drawn one.
+/// Assigns a noun of a setting to each of the types: the first noun that fits, or a drawn one.
 fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> Option<Nouns> {
     let mut nouns = Nouns::new();
     for (stype, body, needs) in wanted {
@@ -177,13 +177,14 @@ fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> 
     Some(nouns)
 }
 
-/// Returns the last word of a noun: things that share it look similar.
+/// Returns the last word of a noun. Things with the same last word look similar.
 fn last_word(noun: &str) -> String {
     let at = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or_default();
     noun[at..].to_ascii_lowercase()
 }
 
-/// Returns the castings of all types: a role for colours and images, or the thing of which a type is a state.
+/// Returns the castings of all types. A casting is a role for colours and images, or the thing of which a type is a
+/// state.
 fn castings(invention: &Invention, types: &[Merged]) -> BTreeMap<String, Casting> {
     let mut castings = BTreeMap::from([("hero".to_owned(), Casting::Role("hero".to_owned()))]);
     for (class, merged) in types.iter().enumerate() {
@@ -238,7 +239,7 @@ const ROLES: &[(&str, &str)] = &[
     ("heavy", "crate"),
 ];
 
-/// Returns the role that determines colours and images if a noun has no colour or image of its own.
+/// Returns the role that determines colours and images, for a noun without a colour or image of its own.
 fn role(predicates: Predicates, body: Body) -> &'static str {
     let told = ROLES.iter().find(|(word, _)| predicates.words().any(|other| other == *word));
     told.map_or_else(
@@ -322,7 +323,7 @@ fn dilemmas(types: &[Merged], nouns: &Nouns, sampler: &mut Sampler) -> Vec<Strin
     said
 }
 
-/// Draws a title from the two things that fill the most ports, the hero and the place.
+/// Draws a title from the two things that fill the most ports, the hero and the setting.
 fn title(types: &[Merged], nouns: &Nouns, place: &str, sampler: &mut Sampler) -> Result<String, String> {
     let joint = |(_, merged): &(usize, &Merged)| std::cmp::Reverse(merged.ports.len());
     let things: Vec<&String> = types

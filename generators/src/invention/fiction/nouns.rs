@@ -1,4 +1,4 @@
-//! The nouns of invented games, with their predicates and the places where they occur.
+//! The nouns of invented games, with their predicates and the settings in which they occur.
 
 use super::predicates::Predicates;
 use crate::invention::mechanic::Body;
@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 const NOUNS: &str = include_str!("../../../mechanics/nouns.txt");
 const PLACES: &str = include_str!("../../../mechanics/places.toml");
 
-/// The kind of thing that a noun names: the headings of the table.
+/// The kind of thing that a noun denotes. The kinds are the headings of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     Mover,
@@ -53,7 +53,7 @@ pub(crate) struct Noun {
 }
 
 impl Noun {
-    /// Returns the table.
+    /// Returns the table of nouns.
     pub(crate) fn all() -> &'static [Noun] {
         static ALL: OnceLock<Vec<Noun>> = OnceLock::new();
         ALL.get_or_init(|| {
@@ -84,13 +84,13 @@ impl Noun {
         self.form == Form::of(body) && self.predicates.includes(needs)
     }
 
-    /// Returns `true` if the thing is found at a place.
+    /// Returns `true` if the thing occurs in a setting.
     pub(crate) fn is_at(&self, place: &str) -> bool {
         self.places.iter().any(|other| *other == place || *other == "any")
     }
 }
 
-/// A kind of place where games are set.
+/// A kind of setting for games.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Place {
@@ -99,9 +99,9 @@ pub(crate) struct Place {
     pub(crate) floor_color: String,
     pub(crate) wall_color: String,
     pub(crate) heroes: Vec<String>,
-    /// The proper names of such places.
+    /// The proper names of settings of this kind.
     pub(crate) names: Vec<String>,
-    /// The sentences that explain why the hero is there, with `<hero>` and `<name>`.
+    /// The sentences that explain why the hero is there, with the placeholders `<hero>` and `<name>`.
     pub(crate) reasons: Vec<String>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-/// The words for what a thing is or does, apart from its use in a game.
+/// The words for the nature or the action of a thing, apart from its use in a game.
 const WORDS: &[&str] = &[
     "hunts", "marches", "roams", "steals", "timid", "friend", "animal", "person", "eats", "sleeps",
     "tramples", "swims", "flies", "edible", "opens", "valuable", "cuts", "digs", "fuel", "lights",

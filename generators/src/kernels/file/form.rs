@@ -10,10 +10,10 @@ use std::collections::BTreeMap;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Form {
     pub(crate) name: String,
-    /// The sentence that replaces the kernel's dilemma if the latter mentions types that the form lacks.
+    /// The sentence that replaces the kernel's dilemma, for a form that lacks types in the kernel's dilemma.
     dilemma: Option<String>,
     goal: String,
-    /// The types that the form lacks. Sentences, variants and rules that mention them are left out.
+    /// The types that the form lacks. Sentences, levels, variants and rules that mention these types are left out.
     #[serde(default)]
     without: Vec<String>,
     /// `true` if the form has only the facts that it lists.
@@ -23,18 +23,18 @@ pub(crate) struct Form {
     facts: Vec<String>,
     #[serde(default)]
     titles: Vec<String>,
-    /// Lines of the SpriteSet; a line with the name of one of the kernel's types replaces that type.
+    /// Lines of the SpriteSet. A line with the name of one of the kernel's types replaces that type.
     #[serde(default)]
     sprites: String,
     /// Interactions that replace the kernel's interactions between the same types.
     #[serde(default)]
     instead: String,
-    /// Interactions to insert before the kernel's.
+    /// Interactions to insert before the kernel's interactions.
     #[serde(default)]
     first: String,
     #[serde(default)]
     interactions: String,
-    /// The TerminationSet that replaces the kernel's.
+    /// The TerminationSet that replaces the kernel's TerminationSet.
     terminations: String,
     #[serde(default)]
     roles: BTreeMap<String, Casting>,

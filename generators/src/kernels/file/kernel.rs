@@ -1,7 +1,8 @@
 //! A kernel: a small set of coupled rules around one dilemma.
 //!
-//! A kernel is a file in `generators/kernels/`. It holds VGDL rules with names independent of any scene, and the role of
-//! every type. `docs/reference/kernels.md` is the manual.
+//! A kernel is a file in `generators/kernels/`. It contains VGDL rules with names that do not depend on a scene, and
+//! the role of every type. For each of five slots, it also contains the maps that pose the dilemma.
+//! `docs/reference/kernels.md` is the manual.
 
 use super::form::Form;
 use super::template::{Numbers, Template};
@@ -19,7 +20,7 @@ pub(crate) struct Kernel {
     /// The name of this form; `None` for the kernel itself.
     pub(crate) form: Option<String>,
     pub(crate) kind: Kind,
-    /// The name of a kernel so similar that a small set has only one of the two.
+    /// The name of a kernel so similar to this kernel that a small set has only one of the two.
     pub(crate) like: Option<String>,
     /// A sentence that describes the whole game, with nouns as `<type>`.
     pub(crate) dilemma: String,
@@ -36,7 +37,7 @@ pub(crate) struct Kernel {
     forms: Vec<Kernel>,
 }
 
-/// The lines of a game's sections, without the LevelMapping; indented as in the kernel's file.
+/// The lines of a game's sections without the LevelMapping, indented as in the kernel's file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sections {
     pub(crate) sprites: Template,
@@ -60,7 +61,7 @@ pub(crate) enum Casting {
 }
 
 impl Casting {
-    /// Returns the role, or the type of which this one is a state.
+    /// Returns the role, or the type of which this type is a state.
     pub(crate) fn role(&self) -> &str {
         match self {
             Casting::Role(role) | Casting::State { of: role, .. } => role,
@@ -73,7 +74,7 @@ impl Casting {
 pub(crate) struct Variant {
     pub(crate) name: String,
     pub(crate) fact: String,
-    /// Interactions to insert before the kernel's.
+    /// Interactions to insert before the kernel's interactions.
     pub(crate) first: Template,
     pub(crate) rules: Sections,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -100,7 +101,7 @@ pub(crate) struct File {
     pub(crate) titles: Vec<String>,
     pub(crate) placed: Vec<String>,
     pub(crate) rules: String,
-    /// In the file of a form, the rules of the kernel itself: sentences use the numbers that these rules introduce.
+    /// The rules of the kernel itself, in the file of a form. Maps use the numbers that these rules introduce.
     #[serde(skip)]
     pub(crate) whole_rules: String,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -149,7 +150,7 @@ impl Kernel {
     /// Reads a kernel file.
     ///
     /// # Errors
-    /// Returns the first error: in the format, in a number, or in the types that levels place.
+    /// Returns the first error, such as an error in the format, in a number or in a map, or a slot without a level.
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
         let file: File = toml::from_str(text)
             .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
@@ -230,7 +231,7 @@ impl Kernel {
         iter::once(self).chain(&self.forms)
     }
 
-    /// The rules with some of the variants as VGDL, under the kernel's names of types.
+    /// Returns the rules with some of the variants as VGDL, under the kernel's names of types.
     pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
         let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
         let mut text =

@@ -11,7 +11,7 @@ impl Numbers {
         self.0.iter().map(&mut draw).collect()
     }
 
-    /// Adds the numbers that a text introduces with names that are new.
+    /// Adds the numbers that a text introduces under new names.
     pub(crate) fn complete(&mut self, text: &str) {
         for inside in text.split('{').skip(1).filter_map(|rest| Some(rest.split_once('}')?.0)) {
             let mut own = Numbers::default();
@@ -72,8 +72,8 @@ impl Template {
     }
 }
 
-/// Returns a text with the values of numbers that other texts introduced, or the unchanged text if it names any other
-/// number.
+/// Returns a text with the values of numbers that other texts introduced. If the text contains any other number,
+/// returns the text unchanged.
 pub(crate) fn filled(text: &str, numbers: &Numbers, values: &[u32]) -> String {
     Template::read(text, &mut numbers.clone()).map_or_else(|_| text.to_owned(), |text| text.fill(values))
 }

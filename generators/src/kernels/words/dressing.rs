@@ -15,7 +15,7 @@ pub(crate) struct Palette<'a> {
     nouns: &'a Nouns,
     hero: &'static str,
     taken: Vec<String>,
-    /// The colours by type, or by the role of which a type is a state.
+    /// The colours by type. The colour of a state is stored under the role of its type.
     given: BTreeMap<String, String>,
 }
 
@@ -54,8 +54,8 @@ impl<'a> Palette<'a> {
         }
     }
 
-    /// Draws a colour: for the player, the one that the habits set; for a thing with a natural colour, that one;
-    /// otherwise one that suits the role.
+    /// Draws a colour. The player gets the colour of the habits, a thing with a natural colour gets that colour,
+    /// and any other type gets a colour that suits its role.
     fn draw(&mut self, name: &str, role: &str) -> String {
         let mut natural = self.nouns.get(name).into_iter().flat_map(|noun| hues::natural(noun));
         let free = |color: &&str| !self.taken.iter().any(|taken| taken == color);

@@ -1,7 +1,7 @@
 //! The natural colours of things.
 
-/// Colours with the nouns that have them: last words of nouns, or whole nouns that differ from others with the same
-/// last word.
+/// Colours with the nouns that have them. A noun is given by its last word, or in full if it differs from other
+/// nouns with the same last word.
 const NATURAL: &[(&str, &str)] = &[
     (
         "BROWN",
@@ -52,7 +52,7 @@ const NATURAL: &[(&str, &str)] = &[
     ("LIGHTBLUE", "crystal glass ice mirror pane window"),
 ];
 
-/// Colours with similar colours that can replace them if they are taken.
+/// Colours with the similar colours that can replace them if they are taken.
 const NEAR: &[(&str, &[&str])] = &[
     ("BROWN", &["LIGHTORANGE", "ORANGE"]),
     ("DARKGRAY", &["BLACK", "GRAY"]),

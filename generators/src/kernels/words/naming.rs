@@ -1,7 +1,8 @@
 //! VGDL type names like those that authors of small games write: one short word, or two in `camelCase`.
 //!
-//! Titles and stories use the nouns of the scene; rules use these names. A `curtainCord` is a `cord`, a `coalLump` is
-//! `coal`, an `oilCan` remains one, a lit `lamp` is a `litLamp`, an open `boathouse` an `exit`.
+//! Titles and stories use the nouns of the scene, while rules use these names. A `curtainCord` is a `cord`, a
+//! `coalLump` is `coal`, an `oilCan` remains an `oilCan`, a lit `lamp` is a `litLamp`, and an open `boathouse` is an
+//! `exit`.
 
 use super::phrase::Nouns;
 use super::vocabulary;
@@ -19,10 +20,10 @@ const VAGUE: &[&str] = &[
     "stub", "tile", "tip", "waste",
 ];
 
-/// Last words that denote an amount of a material: authors name the material.
+/// Last words that denote an amount of a material. Authors name the material instead.
 const AMOUNTS: &[&str] = &["bale", "bunch", "bundle", "heap", "lump", "pile", "puff", "sheaf"];
 
-/// The maximum length of a state's full name: a chandelier that is lit is just called `lit`.
+/// The maximum length of a state's full name. For example, a chandelier that is lit is just called `lit`.
 const LONGEST: usize = 12;
 
 /// Draws the names of a game's types, by their names in the kernel. `wall` and types without a noun keep their names.
@@ -38,7 +39,7 @@ pub(crate) fn names<'a>(
     let mut names = Names { nouns, given: BTreeMap::new(), taken };
     let habit = sampler.below(3);
     names.give("floor", &[["floor", "floor", "ground"][habit]]);
-    // Authors name the player after its part in the story, and some of them call it `avatar`.
+    // Authors name the player after its part in the story, and some authors call it `avatar`.
     if sampler.below(4) == 0 && !names.taken.contains("avatar") {
         names.give("hero", &["avatar"]);
     }
@@ -63,8 +64,7 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// Gives a type, if it has no name yet, the first of the candidates that is free, or else the last candidate with a
-    /// number.
+    /// Gives a type without a name the first free candidate, or else the last candidate with a number.
     fn give(&mut self, stype: &str, candidates: &[&str]) {
         if self.given.contains_key(stype) {
             return;
@@ -83,7 +83,7 @@ impl Names<'_> {
         let thing = noun.strip_prefix(adjective).unwrap_or(noun);
         let thing = self.given.get(of).cloned().unwrap_or_else(|| short(thing));
         let both = format!("{adjective}{}", english::capital(&thing));
-        // A kernel has its own word for some states, such as a follower, ashes or `dazed`.
+        // A kernel has a separate word for some states, such as a follower, ashes or `dazed`.
         let is_word = !stype.contains(|c: char| c.is_ascii_uppercase());
         let tells_more = is_word && !vocabulary::is_role(stype);
         let first = match (of, adjective) {
@@ -97,8 +97,8 @@ impl Names<'_> {
     }
 }
 
-/// Returns a noun's last word if it is clear on its own, the material if the noun is an amount of it, or else the whole
-/// noun.
+/// Returns a noun's last word if that word is clear on its own. If the noun is an amount of a material, returns the
+/// material. Otherwise returns the whole noun.
 fn short(noun: &str) -> String {
     let spaced = english::spaced(noun);
     match spaced.rsplit_once(' ') {

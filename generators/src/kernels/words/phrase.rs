@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// The nouns for a game's types, in the form of VGDL names.
 pub(crate) type Nouns = BTreeMap<String, String>;
 
-/// Fills nouns into a sentence; the noun for `<Hero>` begins with a capital letter.
+/// Fills nouns into a sentence. The noun for `<Hero>` begins with a capital letter.
 ///
 /// # Errors
 /// Returns an error if a name is not a type, or if a bracket has no partner.
@@ -14,7 +14,7 @@ pub(crate) fn fill(text: &str, nouns: &Nouns) -> Result<String, String> {
     filled(text, nouns, english::capital)
 }
 
-/// Fills nouns into a title; every word of the noun for `<Hero>` begins with a capital letter.
+/// Fills nouns into a title. Every word of the noun for `<Hero>` begins with a capital letter.
 pub(crate) fn title(text: &str, nouns: &Nouns) -> Result<String, String> {
     filled(text, nouns, english::headline)
 }
@@ -60,7 +60,7 @@ fn phrase(inside: &str, nouns: &Nouns, headline: fn(&str) -> String) -> Option<S
     Some(if capital { headline(&phrase) } else { phrase })
 }
 
-/// Returns `true` if a sentence names a type in any form.
+/// Returns `true` if a sentence mentions a type in any form.
 pub(crate) fn tells_of(sentence: &str, stype: &str) -> bool {
     let only = Nouns::from([(stype.to_owned(), stype.to_owned())]);
     sentence

@@ -23,8 +23,8 @@ pub(crate) struct Scene {
     pub(crate) titles: Vec<String>,
     /// The nouns for the roles. Alternatives for different games are separated by commas.
     pub(crate) cast: BTreeMap<String, String>,
-    /// The words around the nouns for a game with any rules, if the scene has a noun for every role that types can play
-    /// in such a game.
+    /// The words around the nouns for a game with any rules; `None` unless the scene has a noun for every role that
+    /// types can play in such a game.
     retelling: Option<Retelling>,
     /// The kernels that this scene fits, each with the nouns that differ for that kernel.
     #[serde(default)]
@@ -57,7 +57,7 @@ impl Retelling {
     }
 }
 
-/// The scenes with a [`Retelling`], in the order that draws depend on.
+/// The scenes with a [`Retelling`], in a fixed order that draws depend on.
 const OF_ANY_GAME: [&str; 12] = [
     "tidepool",
     "library",
@@ -122,7 +122,7 @@ impl Scene {
         Scene::all().iter().filter(|scene| scene.fits(kernel))
     }
 
-    /// Returns `true` if the scene lists the kernel and has a noun for each of its roles.
+    /// Returns `true` if the scene lists the kernel and has a noun for each of the kernel's roles.
     pub(crate) fn fits(&self, kernel: &Kernel) -> bool {
         let roles =
             kernel.roles.values().chain(kernel.variants.iter().flat_map(|variant| variant.roles.values()));
@@ -179,7 +179,8 @@ mod tests {
         assert_eq!(named.len(), OF_ANY_GAME.len());
     }
 
-    /// Types from any rules may meet in one game, so each role has nouns of its own, all valid as sprite types in VGDL.
+    /// Types from any rules may meet in one game. Each role therefore has its own nouns, all of which are valid as
+    /// sprite types in VGDL.
     #[test]
     fn no_noun_of_any_game_serves_two_roles() {
         let reserved = ["wall", "avatar", "eos", "time", "up", "down", "left", "right", "none", "nil"];

@@ -33,7 +33,7 @@ pub(crate) fn is_role(word: &str) -> bool {
     SUITING.iter().any(|(roles, _)| roles.contains(&word))
 }
 
-/// Returns a colour for a type of the given role that no other type has, as long as there are enough colours.
+/// Returns a colour that suits the role and that no other type has, as long as there are enough colours.
 pub(crate) fn color(role: &str, taken: &[String]) -> &'static str {
     let suiting =
         SUITING.iter().find(|(roles, _)| roles.contains(&role)).map_or(&[][..], |(_, colors)| colors);

@@ -1,7 +1,8 @@
-//! Goals and summaries that the makers of games can write about some rules: the texts of a card are checked by them.
+//! The goals and summaries that generators can write about given rules. The texts of a card are checked against them.
 //!
-//! The texts of a kernel are sentences with places for nouns and numbers. The nouns of a game are in its pictures (`img=role/noun`), so
-//! that every sentence about it is known but for the numbers. Texts of retold games follow from the rules alone.
+//! The texts of a kernel are sentences with placeholders for nouns and numbers. The nouns of a game are in its images
+//! (`img=role/noun`), so every sentence about the game is known except for its numbers. Texts of retold games follow
+//! from the rules alone.
 
 use super::phrase::{self, Nouns};
 use super::scene::Scene;
@@ -11,11 +12,12 @@ use engine::syntax::SpriteLine;
 use engine::{Analysis, Game};
 use std::collections::BTreeMap;
 
-/// The texts that can be written about a game whose maker used some patterns.
+/// The texts that can be written about a game whose generator used some patterns.
 pub struct Wording {
     analysis: Analysis,
     kernel: Option<OfKernel>,
-    /// `true` for inventions, and for kernels with grafts, which older versions made: their texts are not checked.
+    /// `true` for inventions, and for kernels with grafts, which older versions made. The texts of such games are not
+    /// checked.
     is_unchecked: bool,
 }
 
@@ -28,7 +30,7 @@ impl Wording {
         Wording { analysis: Analysis::of(game), kernel: OfKernel::read(game, patterns), is_unchecked }
     }
 
-    /// Returns `true` if the goal follows from the rules. Unchecked goals do.
+    /// Returns `true` if the goal follows from the rules, or if the goal is unchecked.
     pub fn has_goal(&self, goal: &str) -> bool {
         let of_kernel = |words: &OfKernel| words.says(&[(&words.kernel.goal, &words.nouns)], goal);
         self.is_unchecked
@@ -36,7 +38,7 @@ impl Wording {
             || self.kernel.as_ref().is_some_and(of_kernel)
     }
 
-    /// Returns `true` if the summary follows from the rules. Unchecked summaries do.
+    /// Returns `true` if the summary follows from the rules, or if the summary is unchecked.
     pub fn has_summary(&self, summary: &str) -> bool {
         let hero = blurb::hero(&self.analysis);
         let retold = |(_, retelling)| blurb::summary(&self.analysis, retelling, &hero) == summary;
@@ -61,7 +63,8 @@ struct OfKernel {
 }
 
 impl OfKernel {
-    /// Finds what the patterns name; `None` if they name no kernel and scene.
+    /// Finds the kernel, form, scene and variants in the patterns; `None` if the patterns contain no known kernel or
+    /// scene.
     fn read(game: &Game, patterns: &[String]) -> Option<OfKernel> {
         let named = |kind: &'static str| patterns.iter().filter_map(move |name| name.strip_prefix(kind));
         let (name, form) = (named("kernel/").next()?, named("form/").next());
@@ -79,7 +82,7 @@ impl OfKernel {
         Some(OfKernel { kernel, variants, scene, nouns })
     }
 
-    /// The sentences of the summary, in order.
+    /// Returns the sentences of the summary, in order.
     fn sentences(&self) -> Vec<(&str, &Choices)> {
         let variants = self.variants.iter().map(|&at| &self.kernel.variants[at].fact);
         let own =
@@ -87,7 +90,7 @@ impl OfKernel {
         own.map(|sentence| (sentence.as_str(), &self.nouns)).collect()
     }
 
-    /// Returns `true` if a text is these sentences, with blanks between, about the nouns of the game.
+    /// Returns `true` if a text consists of these sentences, separated by spaces, about the nouns of the game.
     fn says(&self, sentences: &[(&str, &Choices)], text: &str) -> bool {
         let mut rests = vec![text];
         for (at, (sentence, nouns)) in sentences.iter().enumerate() {
@@ -102,7 +105,7 @@ impl OfKernel {
     }
 }
 
-/// The pictures of a game's types, in parts: role and noun, or role, adjective and noun.
+/// Returns the images of a game's types, split into parts: role and noun, or role, adjective and noun.
 fn pictures(game: &Game) -> Vec<Vec<String>> {
     fn collect(lines: &[SpriteLine], found: &mut Vec<Vec<String>>) {
         for line in lines {
@@ -116,7 +119,7 @@ fn pictures(game: &Game) -> Vec<Vec<String>> {
     found
 }
 
-/// The nouns that each type can have by the pictures.
+/// Returns the nouns that each type can have according to the images.
 fn choices<'a>(
     pictures: &[Vec<String>],
     castings: impl Iterator<Item = (&'a String, &'a Casting)>,
@@ -142,7 +145,7 @@ fn choices<'a>(
     ["floor", "wall"].map(|role| (role.to_owned(), of_role(role))).into_iter().chain(own).collect()
 }
 
-/// The rests of a text that remain after a sentence about some of the nouns, with any numbers.
+/// Returns the possible rests of a text after a sentence about some of the nouns, with any numbers.
 fn after<'t>(sentence: &str, nouns: &Choices, text: &'t str, is_start: bool) -> Vec<&'t str> {
     let Some(at) = sentence.find(['<', '{']) else {
         return text.strip_prefix(sentence).into_iter().collect();
@@ -164,7 +167,7 @@ fn after<'t>(sentence: &str, nouns: &Choices, text: &'t str, is_start: bool) -> 
     found.into_iter().flat_map(|text| after(rest, nouns, text, false)).collect()
 }
 
-/// Returns the phrases that can stand in a place for a noun.
+/// Returns the phrases that can replace a placeholder for a noun.
 fn phrases(inside: &str, nouns: &Choices) -> impl Iterator<Item = String> {
     let filled = |(stype, nouns): (&String, &Vec<String>)| {
         let fill = |noun: &String| {

@@ -11,11 +11,11 @@ pub(crate) struct Board {
     pub(crate) grid: Grid,
     /// For each cell, `true` if it is a wall of the structure.
     pub(crate) wall: Vec<bool>,
-    /// The character placed in each cell, if any.
+    /// The character placed in each cell; `None` if the cell has none.
     pub(crate) placed: Vec<Option<u8>>,
     /// For each cell, `true` if it must be kept free.
     pub(crate) kept: Vec<bool>,
-    /// For each cell, the number of the gate that it lies behind, in the order of placement; 0 if none.
+    /// For each cell, the number of the gate in front of it, in the order of placement; 0 if there is no gate.
     pub(crate) zone: Vec<u8>,
     /// The cell where the avatar starts.
     pub(crate) start: usize,
@@ -65,15 +65,15 @@ impl Board {
         self.grid.flood(&[self.start], |cell| self.is_walkable(palette, cell))
     }
 
-    /// Returns `true` if an obstacle in the cell would cut off other cells. Locked cells count as open, since they will
-    /// be opened.
+    /// Returns `true` if an obstacle in the cell would cut off other cells. Locked cells count as open, because they
+    /// will be opened.
     pub(crate) fn would_cut(&self, palette: &Palette, cell: usize) -> bool {
         let locked = |symbol: u8| matches!(palette.walk(symbol), Walk::Locked(_));
         let open = |cell: usize| self.is_walkable(palette, cell) || self.placed[cell].is_some_and(locked);
         self.grid.is_cut(cell, open)
     }
 
-    /// Returns the number of the eight surrounding cells that are walls or off the board.
+    /// Returns the number of walls or cells off the board among the eight surrounding cells.
     pub(crate) fn walls_around(&self, cell: usize) -> usize {
         self.grid.around(cell).iter().filter(|next| next.is_none_or(|next| self.wall[next])).count()
     }
@@ -98,7 +98,7 @@ impl Board {
         text
     }
 
-    /// Returns the cells that the avatar can reach when it takes every reachable key and opens the keys' locks; used-up
+    /// Returns the cells that the avatar can reach when it takes every reachable key and opens the keys' locks. Used-up
     /// keys are counted. Cost: O(locks × cells).
     pub(crate) fn reach(&self, analysis: &Analysis, palette: &Palette) -> Vec<bool> {
         let mut opened = vec![false; self.grid.len()];

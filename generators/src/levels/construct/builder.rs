@@ -11,9 +11,9 @@ use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, SpriteType};
 
-/// The weight factor of a cell next to a companion that the examples almost always show beside such a sprite.
+/// The weight factor of a cell next to a companion that the examples almost always show next to such a sprite.
 const COMPANION_WEIGHT: u32 = 1000;
-/// The weight factor of a cell in line with other sprites of the type, if the examples show the type in lines.
+/// The weight factor of a cell in line with other sprites of the type, for types that the examples show in lines.
 const LINE_WEIGHT: u32 = 40;
 
 /// A level under construction, with everything that decisions about it need.
@@ -30,7 +30,7 @@ pub(crate) struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Puts a sprite of the type on a cell. Further cells that it covers are kept free.
+    /// Puts a sprite of the type on a cell. Any further cells that the sprite covers are kept free.
     pub(crate) fn put(&mut self, cell: usize, stype: SpriteType) {
         self.board.placed[cell] = self.palette.symbol(stype);
         self.log.push((cell, stype));
@@ -39,8 +39,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places one of the avatars that levels can start with, on the cell, or as near to it as possible if the avatar is
-    /// larger than a cell. A wall around the board stays closed.
+    /// Places one of the avatars that levels can start with on the cell. If the avatar is larger than a cell, places it
+    /// as near to the cell as possible. A wall around the board stays closed.
     pub(crate) fn put_avatar(&mut self, cell: usize) {
         let (stype, symbol) = *self.sampler.choose(&self.palette.avatars);
         let grid = self.board.grid;
@@ -120,8 +120,8 @@ impl Builder<'_> {
         Some(cell)
     }
 
-    /// Puts a sprite into a niche, or hollows a niche out of a wall, far from the start and away from other sprites.
-    /// Returns the cell.
+    /// Puts a sprite into a niche far from the start and away from other sprites. If there is no niche, hollows one out
+    /// of a wall. Returns the cell.
     fn put_in_niche(&mut self, stype: SpriteType) -> Option<usize> {
         self.palette.wall?;
         let grid = self.board.grid;
@@ -163,7 +163,7 @@ impl Builder<'_> {
                 weight = weight.saturating_mul(COMPANION_WEIGHT);
             }
         }
-        // Sprites on the board may want this one next to them.
+        // Sprites already on the board may want this sprite next to them.
         for &(there, kind) in &self.log {
             let wants = |&(way, other): &((i32, i32), SpriteType)| {
                 other == stype && grid.shift(there, way) == Some(cell)
@@ -182,14 +182,14 @@ impl Builder<'_> {
         weight
     }
 
-    /// Returns the types that the level should hold, if there are examples.
+    /// Returns the types that the level should contain if there are examples.
     pub(crate) fn expected(&self) -> Vec<SpriteType> {
         let Some(target) = &self.target else { return Vec::new() };
         self.analysis.game().sprite_types().filter(|stype| target.counts[stype.index()].0 > 0).collect()
     }
 
-    /// Draws whether a sprite must stand next to another one of its type, with the probability found in the examples;
-    /// `None` if it does not matter.
+    /// Draws whether a sprite must stand next to another sprite of its type, with the probability found in the
+    /// examples; `None` if the position does not matter.
     pub(crate) fn draw_group(&mut self, stype: SpriteType) -> Option<bool> {
         let share = self.examples()?.placement(stype).grouped();
         let first = self.log.iter().all(|(_, kind)| *kind != stype);
@@ -204,8 +204,8 @@ impl Builder<'_> {
         (self.fits(twin, stype) && !self.cuts(twin, stype)).then_some(twin)
     }
 
-    /// Decides the number of sprites of each type, either by the types' roles or from the examples, and according to
-    /// the configuration.
+    /// Decides the number of sprites of each type, from the configuration and from either the types' roles or the
+    /// examples.
     pub(crate) fn wishes(&mut self) -> Vec<Wish> {
         let (analysis, palette) = (self.analysis, self.palette);
         let (area, difficulty) = (self.board.area(), self.difficulty());

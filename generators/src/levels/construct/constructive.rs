@@ -1,4 +1,5 @@
-//! The constructive level generator: it builds the walls, furnishes the board by role, then inspects the result.
+//! The constructive level generator, which builds the walls, furnishes the board by role, and then inspects the
+//! result.
 
 use super::board::Board;
 use super::builder::Builder;
@@ -17,28 +18,28 @@ use engine::{Action, Analysis, Game, Level, SpriteType};
 
 /// The number of boards to try for one seed.
 const ATTEMPTS: u64 = 40;
-/// The number of further boards to try for optional wishes: cover, companions as in the examples, some difficulty.
+/// The number of further boards to try for optional wishes: cover, companions as in the examples, and some difficulty.
 const COVERS: u64 = 6;
-/// The maximum number of cells of all these boards together, because large boards take longer.
+/// The maximum total number of cells of all these boards, because large boards take longer.
 const PATIENCE: u64 = 2600;
-/// The number of boards to try for a puzzle before it is furnished like any other level.
+/// The number of boards to try for a puzzle, after which the puzzle is furnished like any other level.
 const PUZZLES: u64 = 30;
 
 /// The rank of a board that meets all wishes.
 const ALL: u32 = 0b1111;
-/// The number of layouts to draw; the one closest to the examples in its walls is used.
+/// The number of layouts to draw. The layout whose walls are closest to the examples is used.
 const LAYOUTS: usize = 2;
 /// The maximum fraction of inner walls at which a board counts as intentionally bare.
 const BARE: f64 = 0.02;
 
-/// Generates levels for any game: the roles of its sprite types are derived from the rules.
+/// Generates levels for any game. The roles of the game's sprite types are derived from the rules.
 ///
-/// Levels fit the game's LevelMapping and hold one avatar; no termination holds at the start; everything that counts
-/// for a win can be reached on foot (or by shooting, or through locks whose keys can be reached first); and a player
-/// who does nothing survives the first ticks if the game allows it at all. Puzzles of pushed things come with a
+/// Levels fit the game's LevelMapping and contain one avatar. No termination holds at the start. Everything that
+/// counts for a win can be reached on foot, by shooting, or through locks whose keys can be reached first. A player
+/// who does nothing survives the first ticks if the game allows that at all. Puzzles of pushed things come with a
 /// solution that has been played through.
 ///
-/// Cost: about a millisecond for a level of usual size; it grows with the square of the cells.
+/// Cost: about a millisecond for a level of usual size. The cost grows with the square of the number of cells.
 pub struct ConstructiveLevels<'a> {
     pub(crate) game: &'a Game,
     pub(crate) analysis: Analysis,
@@ -46,23 +47,23 @@ pub struct ConstructiveLevels<'a> {
     pub(crate) config: LevelConfig,
 }
 
-/// A level with the actions that win it, if the generator knows any.
+/// A level with the actions that win it, if the generator knows such actions.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// The level.
+    /// The generated level.
     pub level: Level,
-    /// The actions that win the level: known for puzzles of pushed things in deterministic games.
+    /// The actions that win the level; `None` except for puzzles of pushed things in deterministic games.
     pub solution: Option<Vec<Action>>,
 }
 
-/// A furnished board.
+/// A furnished board, and its solution.
 pub(crate) struct Made {
     pub(crate) board: Board,
-    /// The actions that win the level, if known.
+    /// The actions that win the level; `None` if they are not known.
     solution: Option<Vec<Action>>,
     /// `true` if the board's puzzle has been played through.
     pub(crate) played: bool,
-    /// The types that the level should hold, if there are examples.
+    /// The types that the level should contain if there are examples.
     pub(crate) expected: Vec<SpriteType>,
 }
 
@@ -77,9 +78,12 @@ impl<'a> ConstructiveLevels<'a> {
     /// Creates a generator for a game. Cost: one analysis.
     ///
     /// # Errors
-    /// Returns [`GenerateError::Unsuitable`] if the configuration is invalid, if no level can be won by play, if every
-    /// level is won by waiting, if no character places exactly one avatar, or if a termination holds in every level
-    /// that the LevelMapping can express.
+    /// Returns [`GenerateError::Unsuitable`] in each of these cases:
+    ///
+    /// - The configuration is invalid.
+    /// - No level can be won by play, or every level is won by waiting.
+    /// - No character places exactly one avatar.
+    /// - A termination holds in every level that the LevelMapping can express.
     pub fn new(game: &'a Game, config: LevelConfig) -> Result<Self, GenerateError> {
         if let Some(problem) = config.problem() {
             return Err(GenerateError::Unsuitable(problem));
@@ -130,9 +134,9 @@ impl<'a> ConstructiveLevels<'a> {
     /// Generates the level for a seed, with its solution if the generator knows one.
     ///
     /// # Errors
-    /// Returns [`GenerateError::Unlucky`] if every board that was tried has a fault.
+    /// Returns [`GenerateError::Unlucky`] if every attempted board has a fault.
     pub fn generate_solved(&self, seed: Seed) -> Result<Solved, GenerateError> {
-        // The best board so far, ranked by the wishes that it meets.
+        // The best board so far, ranked by the number and importance of the wishes that it meets.
         let mut second_best: Option<(u32, Solved)> = None;
         let mut tried = 0;
         let mut fault = "no board could be furnished".to_owned();
@@ -159,7 +163,7 @@ impl<'a> ConstructiveLevels<'a> {
                     if second_best.as_ref().is_none_or(|(best, _)| rank > *best) {
                         second_best = Some((rank, solved));
                     }
-                    // Stop early: a wish that several boards have missed is unlikely to be met.
+                    // Stop early, because a wish that several boards have missed is unlikely to be met.
                     tried += u64::from(survivable);
                     if tried > COVERS || tried * cells > PATIENCE {
                         break;
@@ -234,7 +238,8 @@ impl<'a> ConstructiveLevels<'a> {
             .any(|stype| matches!(self.analysis.facts(stype).motion, Motion::Chasing(_)));
         let loops =
             if chased { 0.8 - 0.3 * self.config.difficulty } else { 0.5 - 0.5 * self.config.difficulty };
-        // Closed layouts have a border even if nothing could leave, unless things wrap around to the other side.
+        // Closed layouts have a border even if nothing could leave the board, unless things wrap around to the other
+        // side.
         let wraps = self
             .analysis
             .encounters()
@@ -272,8 +277,8 @@ impl<'a> ConstructiveLevels<'a> {
         }
     }
 
-    /// Draws walls like those in the examples: either assembled from windows of the examples, or from a layout family
-    /// that suits the game with a similar number of walls.
+    /// Draws walls like those in the examples. They are assembled from windows of the examples, or come from a layout
+    /// family that suits the game, with a similar number of walls.
     fn walls_like(&self, target: &Target, ring: bool, loops: f64, layout: &mut Sampler) -> Vec<bool> {
         let grid = target.grid;
         let patterns = self.config.like.as_deref().map(|examples| &examples.patterns);
@@ -340,7 +345,7 @@ impl<'a> ConstructiveLevels<'a> {
         Board::new(grid, layout::walls(family, grid, ring, loops, layout))
     }
 
-    /// Makes a puzzle of pushed things and plays it through; returns `None` if the board does not work.
+    /// Makes a puzzle of pushed things and plays it through. Returns `None` if the board does not work.
     fn puzzle(&self, plan: &Jobs, mut builder: Builder<'_>, seed: Seed) -> Option<Made> {
         let ways = builder.warehouse(plan)?;
         let bare = self.play(&builder.board, &ways, plan.is_all, seed)?;
@@ -373,7 +378,7 @@ impl<'a> ConstructiveLevels<'a> {
     }
 }
 
-/// Describes an exact number that no level can contain, if the configuration has one.
+/// Describes an exact number that no level can contain; `None` if the configuration has no such number.
 fn unmet_count(analysis: &Analysis, palette: &Palette, config: &LevelConfig) -> Option<String> {
     let room = config.columns.1 * config.rows.1;
     let sum: usize = config.counts.iter().fold(0, |sum, (_, count)| sum.saturating_add(*count));

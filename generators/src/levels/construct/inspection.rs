@@ -1,4 +1,4 @@
-//! The final inspection of a board, and the playthrough of puzzles.
+//! The final inspection of a board, and playing puzzles through.
 
 use super::board::Board;
 use super::constructive::{ConstructiveLevels, Made};
@@ -12,8 +12,8 @@ const GRACE_TICKS: usize = 12;
 const FUTURES: u64 = 4;
 /// The number of ticks in which a game should not be won by doing nothing.
 const MAX_IDLE_TICKS: usize = 300;
-/// The maximum number of ticks for an idle player if survival wins, and the number of random steps in deterministic
-/// games.
+/// The maximum number of ticks for an idle player if survival wins. It is also the number of random steps in
+/// deterministic games.
 const MAX_TICKS: usize = 1000;
 
 impl ConstructiveLevels<'_> {
@@ -67,7 +67,7 @@ impl ConstructiveLevels<'_> {
         Ok((level, self.is_survivable(&state, seed)))
     }
 
-    /// Returns `true` if a level is won by doing nothing, or, in deterministic games, by random steps.
+    /// Returns `true` if a level is won by doing nothing, or by random steps in deterministic games.
     pub(crate) fn is_trivial(&self, level: &Level, seed: Seed) -> bool {
         let start = self.game.start(level, seed);
         let wins = |ticks: usize, seed: Seed, act: &mut dyn FnMut(&State) -> Action| {
@@ -117,7 +117,7 @@ impl ConstructiveLevels<'_> {
     }
 
     /// Returns `true` if all harmless spawned chasers of something other than the avatar can reach their targets by
-    /// steps that each bring them nearer; chasers make no other steps.
+    /// steps that each bring them nearer. Chasers make no other steps.
     pub(crate) fn chasers_reach_targets(&self, board: &Board) -> bool {
         let grid = board.grid;
         let types = |cell: usize| {
@@ -143,7 +143,7 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Returns `true` if the target can be reached through open cells by steps that each get nearer to it.
+    /// Returns `true` if the target can be reached through open cells by steps that each lead nearer to the target.
     fn is_approached(&self, board: &Board, from: usize, aim: usize, open: impl Fn(usize) -> bool) -> bool {
         let grid = board.grid;
         let mut reached = vec![from];
@@ -182,8 +182,8 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Plays the avatar's steps on a board. Returns the actions if they win, or, if `wins` is `false`, if all of them
-    /// can be played. An avatar that turns before it moves gets an extra tick for each turn.
+    /// Plays the avatar's steps on a board. Returns the actions if they win. If `wins` is `false`, returns the
+    /// actions if all of them can be played. An avatar that turns before it moves gets an extra tick for each turn.
     pub(crate) fn play(
         &self,
         board: &Board,

@@ -1,4 +1,5 @@
-//! The tasks with pushed things in a game: the pushes, the path that they open, and the things to visit afterwards.
+//! The tasks with pushed things in a game: the pushes, the path that the pushes open, and the things to visit
+//! afterwards.
 
 use super::plan::{furnishable, round};
 use crate::levels::palette::{Palette, Walk};
@@ -7,12 +8,12 @@ use engine::analysis::{Fate, Key, Lock, Pushable, Role, Sink, Steering};
 use engine::{Analysis, SpriteType};
 use itertools::Itertools;
 
-/// A task: push a sprite onto a partner.
+/// A task to push a sprite onto a partner.
 #[derive(Clone, Debug)]
 pub(crate) struct Job {
     pub(crate) pushed: SpriteType,
     pub(crate) partner: SpriteType,
-    /// `true` if the partner is pushed too, and both are removed.
+    /// `true` if the partner can also be pushed, and both are removed.
     pub(crate) merges: bool,
     /// `true` if the pushed sprite, or the sprite that it turns into, remains in the cell.
     pub(crate) stays: bool,
@@ -29,23 +30,23 @@ pub(crate) struct Jobs {
     pub(crate) jobs: Vec<Job>,
     /// `true` if the last job bridges the gap before the things to visit.
     pub(crate) bridge: bool,
-    /// A door that the last job opens, if any.
+    /// The door that the last job opens; `None` if it opens no door.
     pub(crate) door: Option<SpriteType>,
-    /// A gate in front of the things to visit, if there is neither a bridge nor a door.
+    /// The gate in front of the things to visit; `None` if there is a bridge, a door or no gate.
     pub(crate) gate: Option<SpriteType>,
-    /// The number of visits to the gate's keys, which come first.
+    /// The number of visits to the gate's keys. These visits come first.
     pub(crate) keys: usize,
     /// The types of pushable things that are merely obstacles.
     pub(crate) loose: Vec<SpriteType>,
-    /// The things that the avatar has to touch at the end, in order: keys, then exits and goods.
+    /// The things that the avatar must touch at the end, in order: keys, then exits and goods.
     pub(crate) visits: Vec<SpriteType>,
     /// `true` if a win needs nothing else.
     pub(crate) is_all: bool,
 }
 
 impl Jobs {
-    /// Draws a plan; `None` if nothing in the game has to be pushed onto something. `asked` holds the requested exact
-    /// numbers of some sprites.
+    /// Draws a plan; `None` if the game has nothing to push onto something. `asked` holds the requested exact numbers
+    /// of some sprites.
     pub(crate) fn draw(
         analysis: &Analysis,
         palette: &Palette,
@@ -167,7 +168,7 @@ impl Jobs {
         self.bridge || self.door.is_some() || self.gate.is_some()
     }
 
-    /// Blocks the path with a gate, if there is a suitable one and nothing else blocks the path.
+    /// Blocks the path with a gate, if there is a suitable gate and nothing else blocks the path.
     fn guard(&mut self, analysis: &Analysis, palette: &Palette, sampler: &mut Sampler) {
         if self.is_barred() || self.visits.is_empty() {
             return;
@@ -198,7 +199,7 @@ impl Jobs {
     }
 }
 
-/// Returns `true` if a lock opens by pushing something onto something.
+/// Returns `true` if a lock opens when one thing is pushed onto another.
 fn is_pushed_open(lock: &Lock) -> bool {
     matches!(lock.key, Key::Switch(_, Some(_)))
 }
@@ -231,8 +232,8 @@ fn bridges(job: &Job) -> bool {
     job.fills && !job.stays && !job.merges && !job.walkable
 }
 
-/// Returns the things to visit: the keys of locked exits, then exits; in a game without exits, the goods that count for
-/// a win.
+/// Returns the things to visit. These are the keys of locked exits, then the exits. In a game without exits, they are
+/// the goods that count for a win.
 fn visits(analysis: &Analysis, palette: &Palette) -> Vec<SpriteType> {
     let exits = furnishable(analysis, palette, Role::Exit);
     let mut visits: Vec<SpriteType> = Vec::new();

@@ -1,4 +1,4 @@
-//! Construction of levels: a layout provides walls, the roles of the sprite types guide the furnishing, and the result
+//! Construction of levels. A layout provides walls, the roles of the sprite types guide the furnishing, and the result
 //! is inspected.
 
 pub(crate) mod board;

@@ -39,7 +39,7 @@ pub(crate) fn wishes(
     wishes
 }
 
-/// Returns the types to furnish a level with, and the number of each as in the examples.
+/// Returns the types to furnish a level with, and the number of each, following the examples.
 pub(crate) fn wishes_like(
     analysis: &Analysis,
     palette: &Palette,
@@ -53,8 +53,8 @@ pub(crate) fn wishes_like(
         for stype in furnishable(analysis, palette, role) {
             let (drawn, [least, usual, most]) = target.counts[stype.index()];
             let wanted = analysis.aims().remove.contains(&stype);
-            // Numbers of harmful or required things follow the difficulty; numbers of helpful things follow it
-            // inversely.
+            // The numbers of harmful or required things increase with the difficulty, and the numbers of helpful
+            // things decrease with it.
             let share = match role {
                 Role::Enemy | Role::Boulder | Role::Hazard => Some(difficulty),
                 Role::Spawner if analysis.makes_harm(stype) => Some(difficulty),
@@ -64,7 +64,7 @@ pub(crate) fn wishes_like(
             };
             let count = match share {
                 Some(share) => {
-                    // Half difficulty gives the median, since the examples may hold an extreme.
+                    // Half difficulty gives the median, because the examples may hold an extreme.
                     let (from, to, share) = if share < 0.5 {
                         (least, usual, 2.0 * share)
                     } else {
@@ -78,7 +78,7 @@ pub(crate) fn wishes_like(
             wishes.push(Wish { stype, role, count });
         }
     }
-    // These keys are in addition to the ones that locks need.
+    // These keys are placed in addition to the keys that locks need.
     for stype in furnishable(analysis, palette, Role::Key) {
         wishes.push(Wish { stype, role: Role::Key, count: target.counts[stype.index()].0 });
     }
@@ -92,7 +92,7 @@ pub(crate) fn wishes_like(
     wishes
 }
 
-/// Limits the counts to what is possible.
+/// Limits the counts to the possible numbers.
 fn make_feasible(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     for wish in wishes.iter_mut().filter(|wish| analysis.facts(wish.stype).singleton) {
         wish.count = wish.count.min(1);
@@ -100,7 +100,7 @@ fn make_feasible(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     require(analysis, area, wishes);
 }
 
-/// The roles in placement order: sprites that others must not obstruct come first.
+/// The roles in placement order. Sprites that others must not obstruct come first.
 const ROLES: [Role; 16] = [
     Role::Exit,
     Role::Portal,
@@ -120,7 +120,7 @@ const ROLES: [Role; 16] = [
     Role::Collectable,
 ];
 
-/// Returns the types of a role that are worth placing: they have a character, they last, and they are not mere
+/// Returns the types of a role that are worth placing. Such types have a character, last, and are not mere
 /// projectiles.
 pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) -> Vec<SpriteType> {
     let types = analysis.game().sprite_types().filter(|&stype| {
@@ -173,8 +173,8 @@ fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) ->
     }
 }
 
-/// Returns the minimum number of sprites for a role. If each type has its own meaning, there is one of each, unless
-/// there are too many types.
+/// Returns the minimum number of sprites for a role. If each type has its own meaning, the minimum is one of each,
+/// unless there are too many types.
 fn least(role: Role, types: usize) -> usize {
     match role {
         Role::Exit | Role::Portal | Role::PortalExit | Role::Neutral => types,
@@ -183,12 +183,13 @@ fn least(role: Role, types: usize) -> usize {
     }
 }
 
-/// Rounds up or down at random, with the value as the mean.
+/// Rounds up or down at random, so that the mean is the value.
 pub(crate) fn round(value: f64, sampler: &mut Sampler) -> usize {
     (value + sampler.unit()) as usize
 }
 
-/// Distributes a total over the types: one for each as far as possible, the rest at random.
+/// Distributes a total over the types. Each type gets one sprite as far as possible, and the rest is distributed at
+/// random.
 fn share(mut types: Vec<SpriteType>, role: Role, total: usize, sampler: &mut Sampler) -> Vec<Wish> {
     sampler.shuffle(&mut types);
     let mut wishes: Vec<Wish> = types.iter().map(|&stype| Wish { stype, role, count: 0 }).collect();

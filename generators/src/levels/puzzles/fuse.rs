@@ -8,7 +8,7 @@ pub(crate) struct FuseSymbols {
     pub(crate) wall: char,
 }
 
-/// Returns the row for a fuse of `cells` cells, the last of which is the keg.
+/// Returns the row for a fuse of `cells` cells. The last cell is the keg.
 pub(crate) fn row(columns: usize, cells: usize, symbols: &FuseSymbols) -> String {
     let symbol = |column: usize| match column {
         0 => symbols.spark,

@@ -1,4 +1,4 @@
-//! A careful player among strays, which wander at random: its win rate shows how often frequent looks win a level.
+//! A careful player among strays, which wander at random. Its win rate shows how often frequent looks win a level.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::{Sampler, Seed};
@@ -14,9 +14,9 @@ const HALF: f64 = 3.0;
 const BLIND: usize = 2;
 /// The approximate probability of surviving a tick beyond the plan.
 const SURVIVAL: f64 = 0.95;
-/// The survival probabilities, for more and less patience, in further episodes of a game.
+/// The survival probabilities for further episodes of a game, with more and with less patience.
 const OTHERS: [f64; 2] = [0.98, 0.9];
-/// The value that means that no win is possible.
+/// The value for states without a possible win.
 const NEVER: u16 = u16::MAX;
 
 /// The actions for the steps in [`WAYS`].
@@ -34,32 +34,32 @@ pub(crate) trait Moves {
     fn is_won(&self, state: usize) -> bool;
     /// Returns `true` if something other than a stray kills the avatar in a cell after a tick.
     fn is_busy(&self, tick: usize, cell: usize) -> bool;
-    /// Returns the possible steps in a state, as indices into [`WAYS`], or `None` for a rest, each with the state after
-    /// it.
+    /// Returns the possible steps in a state, each with the state after the step. A step is an index into [`WAYS`], or
+    /// `None` for a rest.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)>;
 }
 
-/// The strays of a level at its start, and the floor on which they wander; only walls stop them.
+/// The strays of a level at its start, and the floor on which they wander. Only walls stop them.
 #[derive(Clone, Debug)]
 pub(crate) struct Strays {
     pub(crate) grid: Grid,
     pub(crate) is_floor: Vec<bool>,
     pub(crate) cells: Vec<usize>,
-    /// The number of ticks in which a stray moves by one cell.
+    /// The number of ticks in which a stray moves one cell.
     pub(crate) cooldown: usize,
 }
 
 impl Strays {
-    /// Returns `true` if the strays move in a tick: unless they move in every tick, they rest in the first one.
+    /// Returns `true` if the strays move in a tick. Unless they move in every tick, they rest in the first tick.
     fn move_in(&self, tick: usize) -> bool {
         (tick + 1).is_multiple_of(self.cooldown)
     }
 }
 
-/// A player that knows everything except the random moves of the strays, of which it knows the current positions and
-/// the rules. It plans the way with the greatest probability of meeting no stray, as if collisions in different ticks
-/// were independent, and takes the remaining time into account. Its win rate is a lower bound of what a player can win
-/// by looking, not the optimum.
+/// A player that knows everything except the future random moves of the strays. It knows their current positions and
+/// their rules. It plans the path with the greatest probability of meeting no stray, as if collisions in different
+/// ticks were independent, and takes the remaining time into account. Its win rate is a lower bound on what looking can
+/// achieve, not the optimum.
 pub(crate) struct Lookout<M> {
     strays: Strays,
     moves: M,
@@ -102,9 +102,9 @@ impl<M: Moves> Lookout<M> {
         self.moves.cell(self.moves.start())
     }
 
-    /// Places strays at the first of the `cells`: the largest number in the range with which at least a fraction
-    /// `share` of `plays` episodes is won with a look before every tick, and for which the same holds for all smaller
-    /// numbers in the range. Returns the number, or `None` if even the smallest one is too large.
+    /// Places strays at the first of the `cells`. Their number is the largest in the range for which at least a
+    /// fraction `share` of `plays` episodes is won with a look before every tick. The same must hold for all smaller
+    /// numbers in the range. Returns the number, or `None` if even the smallest number is too large.
     pub(crate) fn most_fair(
         &mut self,
         cells: &[usize],
@@ -129,8 +129,8 @@ impl<M: Moves> Lookout<M> {
         won as f64 / plays.max(1) as f64
     }
 
-    /// Returns `true` if at least a fraction `share` of `plays` episodes is won with a look before every tick; stops as
-    /// soon as the result is certain.
+    /// Returns `true` if at least a fraction `share` of `plays` episodes is won with a look before every tick. The
+    /// function stops as soon as the result is certain.
     fn wins(&self, share: f64, plays: usize, sampler: &mut Sampler) -> bool {
         let needed = ((share * plays as f64).ceil() as usize).min(plays);
         let (mut won, mut lost) = (0, 0);
@@ -165,8 +165,8 @@ impl<M: Moves> Lookout<M> {
         false
     }
 
-    /// Plays the game, in which the strays have the type `stray`, with a look before every tick. If that loses, tries
-    /// again with more and with less patience. Returns actions that win, or `None`.
+    /// Plays the game with a look before every tick. The strays have the type `stray`. If the first episode is lost,
+    /// plays again with more and with less patience. Returns actions that win, or `None`.
     pub(crate) fn win_game(
         &mut self,
         game: &Game,
@@ -183,7 +183,7 @@ impl<M: Moves> Lookout<M> {
         })
     }
 
-    /// Plays the game once; returns the actions if they win.
+    /// Plays the game once. Returns the actions if they win.
     pub(crate) fn play_game(
         &self,
         game: &Game,
@@ -214,8 +214,8 @@ impl<M: Moves> Lookout<M> {
         None
     }
 
-    /// Returns the states of the best plan for the next `commit` ticks, or until it wins; `None` if no path wins in
-    /// time.
+    /// Returns the states of the best plan for the next `commit` ticks, or until the plan wins; `None` if no path wins
+    /// in time.
     fn plan(&self, tick: usize, state: usize, strays: &[usize], commit: usize) -> Option<Vec<usize>> {
         let last = (tick + commit.max(AHEAD)).min(self.ticks);
         let clear = self.clear(tick, last, strays);

@@ -21,7 +21,7 @@ const POCKET: usize = 4;
 /// The use of a level character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SymbolUse {
-    /// Ground that can lie anywhere: the empty cell, floor, soil.
+    /// Ground that can lie anywhere, such as the empty cell, floor or soil.
     Ground,
     /// An obstacle that always blocks the avatar.
     Wall,
@@ -38,12 +38,12 @@ pub(crate) struct Vocabulary {
     kinds: Vec<SymbolUse>,
     /// For each character, `true` if it is harmful or makes harmful things.
     harmful: Vec<bool>,
-    /// The minimum and maximum number of each character; equal if all sample levels agree.
+    /// The minimum and maximum number of each character. They are equal if all sample levels agree.
     bounds: Vec<(usize, usize)>,
-    /// For each character, the range of its positions across the avatar's line of movement, in thousandths; empty if
-    /// the avatar is not bound to a line.
+    /// For each character, the range of its positions across the avatar's line of movement, in thousandths. The list is
+    /// empty if the avatar is not bound to a line.
     bands: Vec<(usize, usize)>,
-    /// The requested minimum and maximum fraction of cells with more than floor.
+    /// The requested minimum and maximum fraction of cells that hold more than floor.
     cover: Option<(f64, f64)>,
 }
 
@@ -127,7 +127,7 @@ impl Vocabulary {
     }
 }
 
-/// The faults of a level as numbers; 0 is best for each.
+/// The faults of a level as numbers. A value of 0 is best for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Faults {
     /// The number of sprites by which the level misses the game's requirements or the usual numbers.
@@ -138,7 +138,7 @@ pub(crate) struct Faults {
     pub(crate) crowded: usize,
     /// The number of isolated wall blocks, gates in the open, and things in unusual positions.
     pub(crate) misplaced: usize,
-    /// The number of cells with more than floor that are missing or in excess.
+    /// The number of missing or excess cells that hold more than floor.
     pub(crate) cover_deviation: usize,
 }
 
@@ -172,7 +172,7 @@ pub(crate) struct Draft<'v> {
     pub(crate) grid: Grid,
     /// The characters in row-major order.
     pub(crate) cells: Vec<u8>,
-    /// `true` if the whole border consists of walls, and has to stay that way.
+    /// `true` if the whole border consists of walls, and must stay that way.
     closed: bool,
 }
 
@@ -281,7 +281,7 @@ impl<'v> Draft<'v> {
         count_deviation + self.vocabulary.things().map(unusual).sum::<usize>()
     }
 
-    /// Returns the number of pushed things that have to be removed and have no target.
+    /// Returns the number of pushed things that must be removed and have no target.
     fn pushables_without_target(&self) -> usize {
         let analysis = &self.levels.analysis;
         let wanted = |stype: &SpriteType| analysis.aims().remove.contains(stype);
@@ -333,8 +333,8 @@ impl<'v> Draft<'v> {
         over.ceil() as usize
     }
 
-    /// Returns whether there is a wall on each side of a cell, in the order of [`WAYS`]; cells off the board count as
-    /// walls.
+    /// Returns, for each side of a cell, `true` if there is a wall, in the order of [`WAYS`]. Cells off the board count
+    /// as walls.
     pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
         WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_wall(next)))
     }
@@ -344,7 +344,7 @@ impl<'v> Draft<'v> {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
 
-    /// Returns `true` if a character belongs in a cell: gates need walls on both sides, and if the avatar moves along a
+    /// Returns `true` if a character belongs in a cell. Gates need walls on both sides. If the avatar moves along a
     /// line, everything keeps its usual distance from that line.
     pub(crate) fn is_in_place(&self, symbol: u8, cell: usize) -> bool {
         let gate = self.vocabulary.kind(symbol) == SymbolUse::Thing(Role::Gate);
@@ -354,12 +354,12 @@ impl<'v> Draft<'v> {
         in_band && (!gate || self.is_between(cell))
     }
 
-    /// Returns `true` if the cell is ground where a character belongs.
+    /// Returns `true` if the cell is ground on which a character belongs.
     pub(crate) fn suits(&self, symbol: u8, cell: usize) -> bool {
         self.is_ground(cell) && self.is_in_place(symbol, cell)
     }
 
-    /// Opens the fewest possible walls to connect unreachable regions, and fills small empty ones.
+    /// Opens as few walls as possible to connect unreachable regions, and fills small empty regions.
     pub(crate) fn open_ways(&mut self) {
         let Some(wall) = self.levels.palette.wall else { return };
         for _ in 0..self.grid.len() {
@@ -376,7 +376,7 @@ impl<'v> Draft<'v> {
         }
     }
 
-    /// Opens the fewest possible walls between the avatar and a cell.
+    /// Opens as few walls as possible between the avatar and a cell.
     fn open_way(&mut self, to: usize) -> Option<()> {
         let avatar = self.avatar()?;
         let mut opened = vec![FAR; self.grid.len()];

@@ -1,4 +1,4 @@
-//! Small, meaningful changes to a level, such as a designer would make next.
+//! Small, meaningful changes to a level, like the next changes of a designer.
 
 use super::draft::{Draft, SymbolUse};
 use crate::levels::construct::layout;
@@ -17,13 +17,13 @@ const PART: usize = 4;
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edit {
-    /// Moves a thing to a cell close by; a straight mover stays in its row or column.
+    /// Moves a thing to a nearby cell. A straight mover stays in its row or column.
     Nudge,
     /// Moves a thing anywhere.
     Carry,
-    /// Adds a thing. If it is pushed, also adds a target for it.
+    /// Adds a thing. If the thing is pushed, also adds a target for it.
     Add,
-    /// Removes a thing. If it is a target, also removes one of the pushed things.
+    /// Removes a thing. If the thing is a target, also removes one of the pushed things.
     Remove,
     /// Swaps two things of different kinds.
     Swap,
@@ -41,7 +41,7 @@ pub(crate) enum Edit {
     Shift,
     /// Copies the walls of one half to the other half.
     Mirror,
-    /// Redraws the walls of a part; the things in it stay.
+    /// Redraws the walls of a part of the level. The things in the part stay.
     Regrow,
 }
 
@@ -93,7 +93,7 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Makes a change of the given kind; returns `None` if there is nothing to change, or if the drawn change does not
+    /// Makes a change of the given kind. Returns `None` if there is nothing to change, or if the drawn change does not
     /// work. The draft must then be discarded.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
@@ -131,7 +131,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Returns the direction of a thing that moves straight ahead, and so the line that it belongs to.
+    /// Returns the direction of a thing that moves straight ahead, and therefore the line that the thing belongs to.
     fn line_of_motion(&self, cell: usize) -> Option<(i32, i32)> {
         let analysis = &self.levels.analysis;
         self.levels.game.places(self.cells[cell]).iter().find_map(|&stype| {
@@ -151,8 +151,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Returns the cells of other things with the same character, if it gives shelter or is breakable: such things lie
-    /// together.
+    /// Returns the cells of other things with the same character, if the character gives shelter or is breakable,
+    /// because such things lie together.
     fn cluster(&self, thing: usize) -> Vec<usize> {
         let symbol = self.cells[thing];
         let lies = matches!(
@@ -182,7 +182,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Puts one more thing with a character on the ground, either near others with that character or anywhere.
+    /// Puts one more thing with a character on the ground, either near things with the same character or anywhere.
     fn put(&mut self, symbol: u8, sampler: &mut Sampler) -> Option<()> {
         let like: Vec<usize> = self.cells_where(|draft, cell| draft.cells[cell] == symbol);
         let near = sampler.ratio(1, 2) && !like.is_empty();
@@ -205,7 +205,7 @@ impl Draft<'_> {
         let cell = pick(&things, sampler)?;
         let symbol = self.cells[cell];
         self.clear(cell);
-        // Adds a pushed thing as well, if it would otherwise lack a target.
+        // Removes a pushed thing as well, if it would otherwise lack a target.
         let pushed = self.cells_where(|draft, cell| draft.partners(draft.cells[cell]).contains(&symbol));
         let homes = self.count(symbol);
         if pushed.len() > homes {
@@ -260,8 +260,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Turns a cell that `wanted` accepts from wall into ground, or the other way round. If the walls are symmetric,
-    /// also turns the cell's mirror image.
+    /// Turns a cell that `wanted` accepts from wall into ground, or vice versa. If the walls are symmetric, also turns
+    /// the cell's mirror image.
     fn toggle(&mut self, sampler: &mut Sampler, wanted: impl Fn(&Self, usize) -> bool) -> Option<()> {
         let wall = self.levels.palette.wall?;
         let symmetry = self.symmetry();
@@ -287,7 +287,7 @@ impl Draft<'_> {
         cells
     }
 
-    /// Returns the symmetry of the walls, if there are enough walls to determine it.
+    /// Returns the symmetry of the walls; `None` if there are too few walls to determine it.
     fn symmetry(&self) -> Option<Symmetry> {
         let inner = self.cells_where(Draft::is_wall).len();
         let holds = |symmetry: &Symmetry| {
@@ -312,7 +312,7 @@ impl Draft<'_> {
         let symmetry = self.symmetry();
         let cell = pick(&self.cells_where(Draft::is_wall), sampler)?;
         let (dx, dy) = *sampler.choose(&WAYS);
-        // Collect the line in both directions from the cell; the line then moves sideways.
+        // Collect the line in both directions from the cell. The line then moves sideways.
         let mut line = vec![cell];
         for along in [(dy, dx), (-dy, -dx)] {
             let mut next = self.grid.shift(cell, along);
@@ -410,7 +410,7 @@ impl Draft<'_> {
     }
 }
 
-/// Picks one of the options, if there are any.
+/// Picks one of the options; `None` if there are no options.
 pub(crate) fn pick<T: Copy>(options: &[T], sampler: &mut Sampler) -> Option<T> {
     if options.is_empty() { None } else { Some(*sampler.choose(options)) }
 }

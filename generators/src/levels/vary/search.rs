@@ -1,4 +1,4 @@
-//! The choice of a variation for a game's levels: puzzles if the game is one, small edits otherwise.
+//! The choice of a variation for a game's levels: puzzles if the game is a puzzle game, small edits otherwise.
 
 use super::variation::LevelVariation;
 use crate::levels::config::LevelConfig;
@@ -10,10 +10,10 @@ use engine::{Game, Level};
 
 /// The variation of levels that suits a game.
 pub enum LevelSearch<'a> {
-    /// The variation for games that are won by pushing alone: it varies floor plans, and searches each plan backwards
+    /// The variation for games that are won by pushing alone. It varies floor plans, and searches each plan backwards
     /// for its farthest position.
     Puzzles(PuzzleVariation<'a>),
-    /// The variation for any other game: it edits levels.
+    /// The variation for any other game, which edits levels.
     Edits(LevelVariation<'a>),
 }
 

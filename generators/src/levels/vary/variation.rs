@@ -13,13 +13,13 @@ const REDRAWS: usize = 24;
 /// The number of mutations or crossovers to try before a candidate is returned unchanged.
 const ATTEMPTS: usize = 12;
 
-/// Levels of any game as candidates of a search, made by [`ConstructiveLevels`] and changed by edits that are
-/// meaningful in the game (things move, are added or removed by role; lines of wall grow, shrink, open and shift).
+/// Levels of any game as candidates of a search. [`ConstructiveLevels`] makes the levels, and edits that are meaningful
+/// in the game change them. Things move, or are added or removed by role. Lines of wall grow, shrink, open and shift.
 ///
-/// All results are levels with one avatar, the size and the closed border of the parent, no termination that holds at
-/// the start, and no fault that is worse than in the parents: required things are present, numbers and cover are as
-/// requested and usual, no cell is cut off, nothing harmful stands right next to the avatar, no gate is in the open,
-/// and no wall block is isolated. Symmetric walls mostly stay symmetric. Nothing is evaluated here: other code judges
+/// All results are levels with one avatar, with the size and the closed border of the parent, and without a termination
+/// that holds at the start. No fault is worse than in the parents: required things are present, and numbers and cover
+/// are as requested and usual. No cell is cut off, nothing harmful stands next to the avatar, no gate is in the open,
+/// and no wall block is isolated. Symmetric walls mostly stay symmetric. This type evaluates nothing. Other code judges
 /// whether a level can be won.
 ///
 /// Cost: some tens of microseconds per mutation of a level of usual size.
@@ -115,7 +115,7 @@ impl Variation for LevelVariation<'_> {
         self.levels.generate(seed).ok()
     }
 
-    /// Makes one to three edits; returns the parent itself if many attempts yield no level.
+    /// Makes one to three edits. Returns the parent itself if many attempts yield no level.
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
         let draft = self.draft(parent);
         let allowed = draft.faults();
@@ -123,7 +123,7 @@ impl Variation for LevelVariation<'_> {
         mutated.unwrap_or_else(|| parent.clone())
     }
 
-    /// Puts a half or a rectangle of the second level into the first, as far as they overlap; mutates the first level
+    /// Puts a half or a rectangle of the second level into the first, as far as they overlap. Mutates the first level
     /// if several attempts yield no level.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.draft(one), self.draft(two));
@@ -132,7 +132,8 @@ impl Variation for LevelVariation<'_> {
     }
 }
 
-/// Draws a section of a side: a half, the whole side, or a third to two thirds anywhere. Returns the start and the end.
+/// Draws a section of a side: a half, the whole side, or a third to two thirds at any position. Returns the start and
+/// the end.
 fn stretch(length: usize, sampler: &mut Sampler) -> (usize, usize) {
     match sampler.below(4) {
         0 => (0, length / 2),
@@ -157,7 +158,7 @@ mod tests {
         Seed::from_text("variation").child(name, 0)
     }
 
-    /// Returns the border cells, if all of them are walls.
+    /// Returns the border cells; `None` unless all of them are walls.
     fn border(variation: &LevelVariation<'_>, level: &Level) -> Option<Vec<u8>> {
         let draft = variation.draft(level);
         let border: Vec<usize> = (0..draft.grid.len()).filter(|&cell| draft.grid.on_border(cell)).collect();

@@ -8,7 +8,7 @@ use generators::levels::{StrayConfig, StrayLevels};
 /// The names of the pushed types and of the avatar.
 const MOVED: [&str; 5] = ["crate", "barrel", "settledCrate", "settledBarrel", "pusher"];
 
-/// Returns the same rules without strays. If there are no such rules without sills, returns the rules with sills, which
+/// Returns the same rules without strays. If there are no such rules without sills, returns rules with sills, which
 /// play the same in levels without sills.
 fn without_strays(rules: PushRules) -> PushRules {
     let name = rules.name();
@@ -25,7 +25,7 @@ fn burn(game: &Game) -> u32 {
     cooldown.value.text.parse().expect("a number")
 }
 
-/// If no strays are in the way, things move as in the rules without strays: a failed push moves nothing.
+/// If no strays are in the way, things move as in the rules without strays. A failed push moves nothing.
 #[test]
 fn things_are_pushed_among_strays_as_without_them() {
     let config = StrayConfig { strays: (3, 3), fairness: 0.0, ..StrayConfig::default() };
@@ -61,7 +61,7 @@ fn things_are_pushed_among_strays_as_without_them() {
             }
         }
         pushed += usize::from(places(&game, &state, 1) != places(&game, &game.start(&level, seed), 1));
-        // It would undo the moves of the strays and the spark.
+        // `undoAll` would undo the moves of the strays and the spark.
         assert!(!syntax::print(game.description()).contains("undoAll"), "{}", rules.name());
     }
     assert!(pushed > 4, "{pushed}");

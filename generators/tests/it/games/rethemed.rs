@@ -77,7 +77,7 @@ fn corpus_games_play_alike_under_other_names() {
     for (name, source, levels) in corpus() {
         let game = game(&source);
         let rethemed = check(&name, &game, &levels);
-        // A different seed gives different names, except for general ones.
+        // A different seed gives different names, except for general names.
         let other = Rethemed::of(&game, seed().child(&name, 1)).unwrap();
         let names = BTreeSet::from_iter(rethemed.description.own_names());
         let others = BTreeSet::from_iter(other.description.own_names());
@@ -129,7 +129,7 @@ fn texts_follow_from_the_rules() {
     assert!(rethemed.summary.ends_with(&summary), "{}", rethemed.summary);
     assert!(rethemed.summary.starts_with(&capital(&one(&hero))), "{}", rethemed.summary);
     assert_eq!(rethemed.goal, format!("You win when no {pear} and no {plum} is left."));
-    // The level keeps its floor, its avatar, and a wall that has no line of its own.
+    // The level keeps its floor, its avatar, and a wall without its own line in the LevelMapping.
     let level = rethemed.level("wwww\nwA.w\nwpsw\n");
     assert!(level.starts_with("wwww\nwA.w\nw") && !level.contains(['p', 's']), "{level}");
 }

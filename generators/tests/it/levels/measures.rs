@@ -1,5 +1,5 @@
-//! Tests of the measures and the similarity of levels, with small levels that show one measure, and with the levels of
-//! games.
+//! Tests of the measures and the similarity of levels. Small levels show one measure each, and the levels of games are
+//! also used.
 
 use crate::corpora::{self, game_in, levels_in};
 use engine::{Analysis, Game, Level};

@@ -1,4 +1,4 @@
-//! Tests of the levels of all games: the corpus games and, if they are available, public ones.
+//! Tests of the levels of all games: the corpus games and, if available, public games.
 
 mod measures;
 mod puzzles;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// The number of levels to generate per game.
 const SEEDS: u64 = 50;
-/// The public games of which all levels are inspected.
+/// The public games whose levels are all inspected.
 const PUBLIC: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
 
 #[test]
@@ -134,7 +134,7 @@ fn harder_levels_hold_more_harmful_things() {
     assert!(easy < middle && middle < hard, "{easy} {middle} {hard}");
 }
 
-/// Generates levels that resemble a game's own, for each corpus game.
+/// The generated levels of each corpus game resemble the game's own levels.
 #[test]
 fn levels_resemble_their_examples() {
     for folder in corpora::own() {
@@ -269,7 +269,7 @@ fn a_large_avatar_stands_inside_the_wall() {
     }
 }
 
-/// A golden test: if this level changes, `GENERATION` must be incremented.
+/// This is a golden test. If this level changes, `GENERATION` must be incremented.
 #[test]
 fn levels_are_frozen() {
     let game = Game::from_source(

@@ -21,16 +21,16 @@ fn mirror_images_have_equal_digests() {
     for image in ["wwwww/wg.Aw/w.w.w/wwwww", "wwwww/w.w.w/wA.gw/wwwww", "wwww/w.Aw/ww.w/w.gw/wwww"] {
         assert_eq!(distance(seen, image), 0.0);
     }
-    // Rotated by 90 degrees, with a different character for the wall.
+    // The level is rotated by 90 degrees, and its wall has a different character.
     assert_eq!(distance(seen, "vvvv/vA.v/v.vv/vg.v/vvvv"), 0.0);
     assert!(distance(seen, "wwwww/wAg.w/w.w.w/wwwww") > 0.0);
 }
 
 #[test]
 fn ground_does_not_count() {
-    // The avatar and one gem are in common, and one gem is moved, which counts as two cells of weight 2.
+    // The levels share the avatar and one gem. The other gem is moved, which counts as two cells of weight 2.
     assert_eq!(distance("A....g/g.....", "A....g/.g...."), 4.0 / 8.0);
-    // Inner walls weigh half as much, and border walls nothing.
+    // Inner walls weigh half as much, and border walls weigh nothing.
     assert_eq!(distance("wwwwww/wA..ww/wwwwww", "wwwwww/wA.www/wwwwww"), 1.0 / 4.0);
     // Columns that one of the levels lacks count like walls.
     assert_eq!(distance("A.g/...", "A.g./...."), 2.0 / 6.0);

@@ -13,8 +13,9 @@ use tests::any_game::any_game;
 use tests::choices::{Choices, random_bytes};
 use tests::{generated, sweep, workspace_root};
 
-/// The number of generated games in a sweep, and the number of ticks in each.
+/// The number of generated games in a sweep.
 const GAMES: usize = 4000;
+/// The number of ticks to play each generated game in a sweep.
 const TICKS: usize = 40;
 /// The number of generated games to play, most of which compile.
 const INVENTED: u64 = 400;
@@ -26,7 +27,8 @@ struct Case {
     levels: Vec<Level>,
 }
 
-/// Returns the games in the subfolders of a folder that load. Prints a message and returns no games if the folder is missing.
+/// Returns the games in the subfolders of a folder that load. If the folder is missing, prints a message and returns no
+/// games.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn games(folder: &Path) -> Vec<Case> {
     let Ok(entries) = fs::read_dir(folder) else {
@@ -126,7 +128,8 @@ fn deterministic_states_have_one_future() {
     assert!(certain > 100 && turned > 0, "{certain} states, {turned} of them in stochastic games");
 }
 
-/// The same property in generated games.
+/// In generated games too, different seeds with the same actions give the same sprites once randomness no longer
+/// matters.
 #[test]
 fn deterministic_generated_games_have_one_future() {
     let mut sampler = sweep::seed("one future").sampler();
@@ -166,7 +169,8 @@ fn deterministic_generated_games_have_one_future() {
     assert!(certain > 100 && drawn > 20, "{certain} states, {drawn} of them with draws");
 }
 
-/// Goals that can hold only from the start are not reached later, and goals that cannot hold at the start do not hold then.
+/// Goals that can hold only from the start are not reached later, and goals that cannot hold at the start do not hold
+/// at the start.
 #[test]
 fn goals_are_attained_as_proved() {
     let mut holds: Vec<bool> = Vec::new();
@@ -196,8 +200,8 @@ fn goals_are_attained_as_proved() {
     });
 }
 
-/// Generated games are neither won nor lost after their first tick if that is proven impossible, and their sprites stay within
-/// their reach.
+/// Generated games are neither won nor lost after their first tick if that is proved impossible, and their sprites stay
+/// within their reach.
 #[test]
 fn any_game_ends_as_proved() {
     let mut sampler = sweep::seed("ends").sampler();
@@ -236,7 +240,7 @@ fn any_game_ends_as_proved() {
     assert!(proofs > games / 4 && ends > games / 80, "{proofs} proofs, {ends} ends of {games}");
 }
 
-/// In hand-written games, every sprite is where its type can be, whatever is played.
+/// In hand-written games, every sprite is where its type can be, whatever actions are played.
 #[test]
 fn sprites_are_where_they_can_be() {
     let mut reach = None;
@@ -250,7 +254,7 @@ fn sprites_are_where_they_can_be() {
     assert!(looked > 100_000, "{looked} cells");
 }
 
-/// Our own levels can be won, and no proof says otherwise.
+/// The levels of the corpus can be won, and no proof denies this.
 #[test]
 fn the_goals_of_the_corpus_are_in_reach() {
     for Case { name, game, levels } in games(&workspace_root().join("corpora")) {
@@ -262,7 +266,7 @@ fn the_goals_of_the_corpus_are_in_reach() {
     }
 }
 
-/// The same property in generated games.
+/// In generated games too, every sprite is where its type can be.
 #[test]
 fn sprites_of_generated_games_are_where_they_can_be() {
     let (mut played, mut narrow) = (0, 0);
@@ -293,8 +297,8 @@ fn sprites_of_generated_games_are_where_they_can_be() {
     );
 }
 
-/// Checks that all sprites of a state are where their types can be, and that the game ends only as it can. Returns the number of
-/// cells that the sprites cover.
+/// Checks that all sprites of a state are where their types can be, and that the game ends only as it can end. Returns
+/// the number of cells that the sprites cover.
 fn look(Case { name, game, .. }: &Case, reach: &Reach, level: &Level, state: &State) -> u64 {
     let lost = state.outcome() == Outcome::Lost && state.tick() < engine::MAX_TICKS;
     assert!(reach.can_win() || state.outcome() != Outcome::Won, "{name} is won\n{level}");

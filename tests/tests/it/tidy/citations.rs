@@ -143,7 +143,7 @@ impl Tree {
         tree
     }
 
-    /// Returns the two digits of a page if the file is one of the specification's pages.
+    /// Returns the two digits in the name of a page of the specification; `None` for any other file.
     fn spec_page<'a>(&self, file: &'a str) -> Option<&'a str> {
         let name = file.strip_prefix(PAGES)?.strip_prefix('/')?;
         let digits = name.get(..2)?;
@@ -232,7 +232,7 @@ impl CitationKind {
         }
     }
 
-    /// Returns the comment in a line, if it has one.
+    /// Returns the comment in a line; `None` if the line has no comment.
     fn comment(self, line: &str) -> Option<&str> {
         let mark = match self {
             CitationKind::Slashes => "//",
@@ -259,7 +259,7 @@ fn blocks(source: &str, kind: CitationKind) -> Vec<Block> {
     let mut last = 0;
     for (line, number) in source.lines().zip(1..) {
         let Some(comment) = kind.comment(line) else { continue };
-        // Code before a comment separates it from the one above.
+        // Code before a comment separates it from the comment above.
         let alone = kind == CitationKind::Prose || line.trim_start().starts_with(['/', '#']);
         if blocks.is_empty() || last + 1 != number || !alone {
             blocks.push(Block { text: String::new(), lines: Vec::new() });

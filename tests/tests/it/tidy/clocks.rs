@@ -1,4 +1,4 @@
-//! The readers of clocks: a few files, none of which makes a game, a level, a verdict or a move.
+//! The readers of clocks, which are a few files. None of them makes a game, a level, a verdict or a move.
 
 use tests::rust_files;
 

@@ -115,7 +115,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
 /// The crate that may depend on all others, because no crate depends on it.
 pub(super) const ABOVE_ALL: &str = "tests";
 
-/// External crates (with their families, such as `pest_derive`) that only a few of ours may use.
+/// External crates (with their families, such as `pest_derive`) that only a few of our crates may use.
 const CONFINED: &[(&str, &[&str])] = &[
     ("pest", &["engine"]),
     ("clap", &["cli", "xtask"]),
@@ -236,7 +236,8 @@ fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> b
     false
 }
 
-/// A crate without doctests says so in its manifest, which saves a compilation. A crate that says so must have none.
+/// A crate without doctests states this in its manifest, which saves a compilation. A crate that states this must
+/// have no doctests.
 #[test]
 fn doctests_are_looked_for_where_there_are_some() {
     let mut fenced: BTreeMap<String, String> = BTreeMap::new();

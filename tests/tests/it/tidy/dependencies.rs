@@ -68,7 +68,7 @@ fn named(page: &str) -> Vec<(String, usize)> {
     named
 }
 
-/// Returns the external crates that any manifest declares, each with one manifest that does.
+/// Returns the external crates that any manifest declares, each with one manifest that declares it.
 fn declared() -> BTreeMap<String, String> {
     let source = read("Cargo.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("Cargo.toml: {error}"));
@@ -95,7 +95,7 @@ fn declared() -> BTreeMap<String, String> {
     declared
 }
 
-/// Returns problems for missing rows, and then for rows without a dependency.
+/// Returns problems for missing rows, and then problems for rows without a dependency.
 fn differences(named: &[(String, usize)], declared: &BTreeMap<String, String>) -> Vec<String> {
     let rows: BTreeSet<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
     let missing = declared.iter().filter(|(name, _)| !rows.contains(name.as_str()));

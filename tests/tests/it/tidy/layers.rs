@@ -8,7 +8,7 @@ const ENGINE: &str = "engine/src/";
 /// The layers, from bottom to top. Modules outside all layers are above them.
 const LAYERS: [&[&str]; 5] = [&["syntax"], &["rules", "compile"], &["world"], &["tick"], &["schedule"]];
 
-/// The modules that know nothing about games, which every layer may use.
+/// The modules that do not depend on games, which every layer may use.
 const VALUES: [&str; 6] = ["diagnostic", "flat", "keywords", "limits", "meanings", "numbers"];
 
 fn layer(module: &str) -> Option<usize> {

@@ -1,5 +1,5 @@
-//! House rules that can be checked automatically: the imports between crates, the length of files, the targets of
-//! links.
+//! House rules that can be checked automatically, such as the imports between crates, the length of files and the
+//! targets of links.
 //!
 //! Every message has the form `file:line: the problem; the fix`, and a test reports all problems at once.
 
@@ -22,7 +22,7 @@ use toml::de::{DeTable, DeValue};
 /// The maximum length of a Rust file, in lines.
 const RUST_LINES: usize = 1000;
 
-/// The pages at the root; their links are checked like those in `docs/`.
+/// The pages at the root. Their links are checked like the links in `docs/`.
 const PAGES: [&str; 4] = ["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "README.md"];
 
 #[test]
@@ -45,7 +45,7 @@ fn rust_files_are_short() {
 fn lib_files_hold_docs_and_declarations_only() {
     let mut problems = Vec::new();
     for (file, text) in rust_files() {
-        // The helpers of this crate are few and have no other users, so they stay in its lib.rs.
+        // The helpers of this crate are few and have no other users, so they stay in the crate's lib.rs.
         if !file.ends_with("src/lib.rs") || file.starts_with(crates::ABOVE_ALL) {
             continue;
         }
@@ -206,7 +206,7 @@ fn code_is_formatted() {
         command
     };
     if !cargo().arg("--version").output().is_ok_and(|output| output.status.success()) {
-        // This bypasses the output capture of the test harness, so that the message is visible.
+        // Writing to standard error bypasses the output capture of the test harness, so that the message is visible.
         writeln!(std::io::stderr(), "rustfmt is not installed: formatting is not checked")
             .expect("stderr is open");
         return;
@@ -271,7 +271,7 @@ impl Manifest {
 
 /// A dependency in a manifest.
 struct Dependency {
-    /// The real package name, even if it is renamed.
+    /// The real package name, even if the dependency is renamed.
     package: String,
     /// `true` if only tests, examples and benches have the dependency.
     development: bool,
@@ -292,7 +292,7 @@ fn manifests() -> Vec<Manifest> {
     folders.map(|folder| manifest(folder, shared)).collect()
 }
 
-/// Reads one member's manifest; `shared` is `[workspace.dependencies]`.
+/// Reads the manifest of one member. `shared` is `[workspace.dependencies]`.
 fn manifest(folder: &str, shared: Option<&DeTable<'_>>) -> Manifest {
     let source = read(Path::new(folder).join("Cargo.toml"));
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("{folder}/Cargo.toml: {error}"));
@@ -323,7 +323,7 @@ fn manifest(folder: &str, shared: Option<&DeTable<'_>>) -> Manifest {
     Manifest { folder: folder.to_owned(), package: package.to_owned(), dependencies }
 }
 
-/// Returns the `package = "..."` of a dependency, if it is renamed.
+/// Returns the `package = "..."` of a dependency; `None` if the dependency is not renamed.
 fn renamed<'a>(dependency: &'a DeValue<'_>) -> Option<&'a str> {
     dependency.as_table().and_then(|table| get(table, "package")).and_then(DeValue::as_str)
 }
@@ -393,7 +393,7 @@ fn relative_links(page: &str) -> Vec<(usize, String)> {
     links
 }
 
-/// Fails with one line per problem, if there are any.
+/// Fails with one line per problem if there are any problems.
 #[track_caller]
 fn report(problems: Vec<String>) {
     assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));

@@ -1,12 +1,12 @@
-//! Paths in messages: names of files may hold line breaks, so that messages never write a path as it is.
+//! Paths in messages. File names may contain line breaks, so messages never write a path unescaped.
 
 use super::report;
 use tests::rust_files;
 
-/// The calls that do; in two halves, so that this file is not found to have one.
+/// The calls that write a path unescaped. They are split in two halves, so that this file does not match.
 const RAW: [&str; 2] = [concat!(".display", "()"), concat!("Path::", "display")];
 
-/// The files that write a path as it is, with the reason.
+/// The files that write a path unescaped, each with the reason.
 const ALLOWED: &[(&str, &str)] = &[
     ("crates/cli/src/verbs/release/sealed.rs", "the name of another file"),
     ("crates/cli/src/verbs/report.rs", "the name of another file"),

@@ -1,5 +1,5 @@
-//! One row for each keyword of VGDL: few files mention an effect, and no match over effects, sprite classes or conditions has a
-//! catch-all arm.
+//! One row for each keyword of VGDL. Few files mention an effect, and no match over effects, sprite classes or
+//! conditions has a catch-all arm.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use super::report;
 /// The file that declares the effects.
 const EFFECTS: &str = "engine/src/rules/effects/mod.rs";
 
-/// The maximum number of files that may mention an effect: where it is executed, built, summarised and described.
+/// The maximum number of files that may mention an effect. These files execute, build, summarise and describe it.
 const FILES: usize = 4;
 
 /// The enums over which a match lists every variant, with their short names.

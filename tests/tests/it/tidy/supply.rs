@@ -1,5 +1,5 @@
-//! The origin of everything that is built: external crates come from one registry, each with its checksum and under the licences
-//! that `deny.toml` allows, and our crates have no unsafe code. If it is installed, `cargo deny check` checks more.
+//! The origin of everything that is built. External crates come from one registry, each with its checksum and under the
+//! licences that `deny.toml` allows, and our crates have no unsafe code. `cargo deny check`, if installed, checks more.
 
 use super::{get, manifests, report};
 use std::collections::BTreeSet;
@@ -80,8 +80,8 @@ fn host() -> String {
     text.lines().find_map(|line| line.strip_prefix("host: ")).expect("a host").to_owned()
 }
 
-/// Returns `true` if a licence expression (in SPDX, or with `/` for `OR` as in older manifests) can be satisfied by allowed
-/// licences.
+/// Returns `true` if allowed licences can satisfy a licence expression. The expression is in SPDX, or has `/` for `OR`
+/// as in older manifests.
 fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
     let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let tokens: Vec<&str> = spaced.split_whitespace().collect();
@@ -89,7 +89,7 @@ fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
     any(&mut rest, allowed) == Some(true) && rest.is_empty()
 }
 
-/// Evaluates alternatives; `OR` binds less tightly than `AND`. Returns `None` if the expression ends early.
+/// Evaluates alternatives. `OR` binds less tightly than `AND`. Returns `None` if the expression ends early.
 fn any(rest: &mut &[&str], allowed: &BTreeSet<String>) -> Option<bool> {
     let mut holds = all(rest, allowed)?;
     while let ["OR", after @ ..] = rest {

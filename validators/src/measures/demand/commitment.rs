@@ -6,29 +6,29 @@ use base::Seed;
 use engine::{Analysis, Episode, Game, Level, Outcome};
 
 base::named_enum! {
-    /// The length of the longest plan, in actions played without another look, with which a planner wins a level. Lower
-    /// is more demanding.
+    /// The length of the longest plan, in actions played without another look, with which a planner wins a level. A
+    /// shorter length is more demanding.
     pub enum Commitment {
         /// No planner wins, even with a look before every action.
         None = "none",
-        /// A look before every action.
+        /// A commitment of 1 action, which means a look before every action.
         One = "1",
-        /// Plans of 2 actions.
+        /// A commitment of 2 actions.
         Two = "2",
-        /// Plans of 5 actions.
+        /// A commitment of 5 actions.
         Five = "5",
-        /// Plans of 10 actions.
+        /// A commitment of 10 actions.
         Ten = "10",
-        /// Plans of 20 actions.
+        /// A commitment of 20 actions.
         Twenty = "20",
-        /// Plans of 50 actions.
+        /// A commitment of 50 actions.
         Fifty = "50",
-        /// One plan for the whole episode.
+        /// A commitment to one plan for the whole episode.
         All = "all",
     }
 }
 
-/// The planners of the portfolio that play, each in open loop.
+/// The planners of the portfolio that play. Each plays in open loop.
 const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
 /// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(200);
@@ -77,7 +77,7 @@ impl Commitment {
     }
 }
 
-/// Plays one episode in plans of `actions` actions; returns `true` if it is won.
+/// Plays one episode in plans of `actions` actions. Returns `true` if the episode is won.
 fn is_won(
     game: &Game,
     level: &Level,

@@ -13,9 +13,9 @@ use std::collections::BTreeSet;
 pub struct DeadEnds {
     /// The number of distinct states.
     pub states: usize,
-    /// The number of states from which it is proved that no win exists, including lost ones.
+    /// The number of states from which it is proved that no win exists, including lost states.
     pub dead: usize,
-    /// The number of states from which a win was found. The rest are undecided.
+    /// The number of states from which a win was found. All other states are undecided.
     pub won: usize,
 }
 
@@ -25,7 +25,7 @@ const TICKS: usize = 40;
 const CALLS: u64 = 3000;
 
 impl DeadEnds {
-    /// Leaves the win at up to [`TICKS`] of its ticks by every other action, and then by a random one; states of the
+    /// Leaves the win at up to [`TICKS`] of its ticks, by every other action and then by a random action. States of the
     /// win itself do not count. Returns `None` if the level is stochastic. Cost: up to 320 searches of [`CALLS`] calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Option<DeadEnds> {
         let game = analysis.game();

@@ -1,4 +1,4 @@
-//! Players that go for nearby goals, and how far from the win that leads them.
+//! Players that go for nearby goals, and the distance from the win to which these goals lead them.
 
 use super::patience;
 use super::route::{Route, avatar_cell};

@@ -20,22 +20,22 @@ use route::Route;
 use serde::{Deserialize, Serialize};
 
 /// The demands of a level on its player, measured on a known win. The same arguments give the same numbers on every
-/// machine and number of threads. All counts are exact for that win; the other values are seeded samples.
+/// machine and any number of threads. All counts are exact for that win, and all other values are seeded samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Demand {
     /// The number of ticks of the win.
     pub ticks: usize,
-    /// The number of ticks of the win in which a key is pressed: its actions other than nil.
+    /// The number of ticks of the win in which a key is pressed, which are its actions other than nil.
     pub decisions: usize,
-    /// The number of times that the win pushes and moves a sprite, or removes it by a push.
+    /// The number of times that the win pushes and moves a sprite, or removes a sprite by a push.
     pub pushes: usize,
     /// `true` if it is proved that no win takes fewer ticks.
     pub shortest: bool,
     /// The longest commitment with which a planner still wins.
     pub commitment: Commitment,
-    /// The states beside the win from which no win exists; `None` if the level is stochastic, so that no search can
-    /// tell.
+    /// The states beside the win from which no win exists; `None` if the level is stochastic, because no search can
+    /// then find them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_ends: Option<DeadEnds>,
     /// The number of sprites that move by themselves and come into or next to a cell of the win's route.
@@ -45,11 +45,11 @@ pub struct Demand {
 }
 
 impl Demand {
-    /// Measures a level with a win; returns `None` if the episode does not win. `shortest` means that it is proved that
+    /// Measures a level with a win. Returns `None` if the episode does not win. `shortest` means that it is proved that
     /// no win takes fewer ticks.
     ///
     /// Cost: at most 2.2 million forward-model calls for commitments, 1 million for dead ends, and the ticks of a few
-    /// episodes; typically a tenth of that.
+    /// episodes. The typical cost is a tenth of the maximum.
     pub fn of(
         analysis: &Analysis,
         level: &Level,
@@ -79,7 +79,8 @@ impl Demand {
     }
 }
 
-/// Returns the maximum number of ticks of an episode on a level with a known win: twice the win's ticks plus twenty.
+/// Returns the maximum number of ticks of an episode on a level with a known win, which is twice the win's ticks plus
+/// twenty.
 fn patience(win: &Episode) -> usize {
     2 * win.actions.len() + 20
 }
@@ -90,7 +91,7 @@ mod tests {
     use agents::{PortfolioConfig, Solution, solve};
     use engine::Game;
 
-    /// A game in which crates go into pits and never off a wall again; the wasp flies along its row.
+    /// A game in which crates go into pits, and cannot be moved away from a wall. The wasp flies along its row.
     const GAME: &str = "BasicGame\n  SpriteSet\n    pit > Immovable\n    crate > Passive\n    wasp > Missile orientation=LEFT speed=1\n    avatar > MovingAvatar\n  LevelMapping\n    o > pit\n    c > crate\n    s > wasp\n  InteractionSet\n    avatar wall > stepBack\n    avatar pit > stepBack\n    crate avatar > bounceForward\n    crate wall > undoAll\n    crate crate > undoAll\n    crate pit > killSprite scoreChange=1\n    avatar wasp > killSprite\n    wasp wall > reverseDirection\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=200 win=False\n";
 
     fn check(level: &str) -> Demand {
@@ -116,7 +117,7 @@ mod tests {
 
     #[test]
     fn pushes_that_cannot_be_undone_are_dead_ends() {
-        // The path to the winning push is to the left of the avatar; a push to the right or down ends at the wall.
+        // The path to the winning push is to the left of the avatar. A push to the right or down ends at the wall.
         let demand = check("wwwwwww\nw     w\nw oc  w\nw  A  w\nwwwwwww\n");
         let found = demand.dead_ends.unwrap();
         assert!(found.dead > 0 && found.won > 0 && found.states >= found.dead + found.won, "{found:?}");

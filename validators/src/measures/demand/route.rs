@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 /// The cells that the avatar enters in a win.
 pub(super) struct Route {
     pub(super) cells: BTreeSet<(i32, i32)>,
-    /// The number of sprites that move by themselves, not counting the player's shots, and come into or next to one of
-    /// the cells.
+    /// The number of sprites that move by themselves, not counting the player's shots, and that come into or next to
+    /// one of the cells.
     pub(super) movers: usize,
 }
 
@@ -47,7 +47,7 @@ impl Route {
     }
 }
 
-/// Returns the avatar's cell, if the avatar is alive.
+/// Returns the avatar's cell; `None` if the avatar is dead.
 pub(super) fn avatar_cell(state: &State) -> Option<(i32, i32)> {
     let block = state.block();
     state.avatar_place().map(|(x, y)| (x.div_euclid(block), y.div_euclid(block)))

@@ -4,13 +4,13 @@ use super::{Commitment, Demand};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The tier of a level: a documented function of its [`Demand`] ([`TIERS`]).
+/// The tier of a level, which is a documented function of its [`Demand`] ([`TIERS`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "u8", into = "u8")]
 pub enum Tier {
     /// A few decisions, or nothing that punishes mistakes.
     One = 1,
-    /// Some decisions, and one trap that punishes hasty ones.
+    /// Some decisions, and one trap that punishes hasty decisions.
     Two = 2,
     /// Long plans against two traps.
     Three = 3,
@@ -21,7 +21,7 @@ pub enum Tier {
 /// The minimum demands of a level in a tier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TierBounds {
-    /// The tier.
+    /// The tier with these bounds.
     pub tier: Tier,
     /// The minimum number of decisions of the win.
     pub decisions: usize,
@@ -29,7 +29,7 @@ pub struct TierBounds {
     pub traps: usize,
 }
 
-/// The minimum demands of each tier; a level belongs to the highest tier whose demands it meets.
+/// The minimum demands of each tier. A level belongs to the highest tier whose demands it meets.
 pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::One, decisions: 0, traps: 0 },
     TierBounds { tier: Tier::Two, decisions: 20, traps: 1 },
@@ -37,19 +37,22 @@ pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::Four, decisions: 120, traps: 3 },
 ];
 
-/// The maximum plan length with which a planner may win, for foresight to be a trap.
+/// The maximum plan length with which a planner may win if foresight is to count as a trap.
 const FORESIGHT: Commitment = Commitment::Five;
-/// The minimum fraction of dead ends among the states beside the win, for dead ends to be a trap.
+/// The minimum fraction of dead ends among the states beside the win at which dead ends count as a trap.
 const DEAD_ENDS: f64 = 0.03;
-/// The minimum number of sprites that move by themselves and come next to the route, for movers to be a trap.
+/// The minimum number of sprites that move by themselves and come next to the route at which movers count as a trap.
 const MOVERS: usize = 3;
-/// The minimum fraction of episodes that greedy players lose, for greed to be a trap.
+/// The minimum fraction of episodes lost by greedy players at which greed counts as a trap.
 const LOSSES: f64 = 0.75;
 
 impl Demand {
-    /// Returns which of the four traps the level has: planners with a small budget win only with short plans, if at
-    /// all; at least 3% of the states beside the win are dead ends; at least three movers come next to the route; and
-    /// greedy players lose at least three of four episodes.
+    /// Returns which of the four traps the level has, in this order:
+    ///
+    /// 1. Planners with a small budget win only with short plans, if at all.
+    /// 2. At least 3% of the states beside the win are dead ends.
+    /// 3. At least three movers come next to the route.
+    /// 4. Greedy players lose at least three of four episodes.
     pub fn traps(&self) -> [bool; 4] {
         [
             self.commitment <= FORESIGHT,

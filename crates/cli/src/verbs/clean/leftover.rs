@@ -1,4 +1,4 @@
-//! Files and folders left behind by interrupted runs, each recognised by a property that only arcade's files have.
+//! Files and folders left behind by interrupted runs. Each is recognised by a property that only arcade's files have.
 
 use crate::failure::Failure;
 use base::MessagePath;
@@ -16,11 +16,12 @@ pub(super) struct Leftover {
 }
 
 pub(super) enum LeftoverKind {
-    /// The unfinished folder of a release, report or export. If it has finished jobs, the run was interrupted and can resume.
+    /// The unfinished folder of a release, report or export. If it has finished jobs, the run was interrupted and can
+    /// resume.
     Draft(Abandoned),
     /// A shard of a release, with its description.
     Shard(String),
-    /// An unfinished file. While it is held open, no other process considers it abandoned.
+    /// An unfinished file. While this process holds it open, no other process considers it abandoned.
     File(#[expect(dead_code, reason = "it holds the lock")] File),
     Scratch,
     /// A file that redirected a browser to the page of `arcade studio`.
@@ -28,7 +29,7 @@ pub(super) enum LeftoverKind {
 }
 
 impl Leftover {
-    /// Returns the leftover at this path, or `None` if the path is anything else or in use.
+    /// Returns the leftover at this path; `None` if the path is anything else or in use.
     pub(super) fn at(path: &Path) -> Result<Option<Leftover>, Failure> {
         let Ok(found) = fs::symlink_metadata(path) else { return Ok(None) };
         let kind = if found.is_file() {
@@ -59,7 +60,7 @@ impl Leftover {
         }
     }
 
-    /// Returns the disk space that its files occupy, in bytes.
+    /// Returns the disk space that the leftover's files occupy, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         let (mut bytes, mut waiting) = (0, vec![self.path.clone()]);
         while let Some(path) = waiting.pop() {
@@ -94,11 +95,11 @@ fn is_drawn(text: &str) -> bool {
 
 /// The prefix of the names of players' scratch folders.
 const SCRATCH: &str = "arcade-player-";
-/// The age from which a scratch folder cannot belong to a player that is just starting.
+/// The minimum age at which a scratch folder cannot belong to a player that is just starting.
 const SETTLED: Duration = Duration::from_secs(3600);
 
-/// Returns the scratch folders of players that no longer run, in the system's temporary folder. Finds none on systems that do not
-/// list the working folders of processes.
+/// Returns the scratch folders of players that no longer run, in the system's temporary folder. The list is empty on
+/// systems that do not list the working folders of processes.
 pub(super) fn scratch() -> Vec<Leftover> {
     let Some(used) = working_folders() else { return Vec::new() };
     let Ok(place) = fs::canonicalize(std::env::temp_dir()) else { return Vec::new() };
@@ -114,7 +115,7 @@ pub(super) fn scratch() -> Vec<Leftover> {
     paths.into_iter().filter_map(of).collect()
 }
 
-/// Returns `true` for this user's file that redirected a browser to a studio at least an hour ago.
+/// Returns `true` for a file of this user that redirected a browser to a studio at least an hour ago.
 fn is_page(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let drawn = name.and_then(|name| name.strip_prefix("arcade-studio-")?.strip_suffix(".html"));
@@ -151,12 +152,12 @@ fn is_own(_found: &fs::Metadata) -> bool {
     false
 }
 
-/// Returns the working folders of running processes, or `None` if the system does not list them.
+/// Returns the working folders of running processes; `None` if the system does not list them.
 fn working_folders() -> Option<Vec<PathBuf>> {
     let processes = fs::read_dir("/proc").ok()?;
     let folders: Vec<PathBuf> =
         processes.flatten().filter_map(|process| fs::read_link(process.path().join("cwd")).ok()).collect();
-    // This process itself has a working folder, so an empty list means that the system hides them.
+    // This process itself has a working folder, so an empty list means that the system hides the working folders.
     (!folders.is_empty()).then_some(folders)
 }
 

@@ -1,4 +1,4 @@
-//! The choice of levels by a scale: `--plan`, `--adaptive` and their targets.
+//! The choice of levels by a scale, with `--plan`, `--adaptive` and their targets.
 
 use super::Args;
 use super::player::RequestedPlayer;
@@ -88,7 +88,7 @@ pub(super) enum Choice {
     Adaptive(Box<AdaptiveChoice>),
 }
 
-/// Chooses the levels: restricts the settings and subjects to a plan's levels, or prepares an adaptive choice.
+/// Chooses the levels. Either restricts the settings and subjects to a plan's levels, or prepares an adaptive choice.
 pub(super) fn choose(
     args: &Args,
     requested: &RequestedPlayer,
@@ -175,7 +175,7 @@ impl Args {
     }
 }
 
-/// Prints a plan.
+/// Prints a plan of an evaluation.
 pub(super) fn print(plan: &Plan, settings: &Settings, console: &Console) -> Answer {
     let games: Vec<_> = settings
         .games

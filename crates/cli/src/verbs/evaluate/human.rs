@@ -17,7 +17,7 @@ impl Human {
         Human { prompter, past: Vec::new() }
     }
 
-    /// Returns the prompt for a turn, preceded by the rules at the first turn.
+    /// Returns the prompt for a turn. At the first turn, the rules come first.
     fn shown(&self, turn: &Turn<'_>) -> String {
         if turn.number == 0 {
             show(self.prompter.static_part());

@@ -32,7 +32,8 @@ impl RequestedMailbox {
         Ok(RequestedMailbox { folder: folder.into(), prompts, reasks })
     }
 
-    /// Returns the player's entry for results. Its name is that of `--name`, or else the last component of the folder.
+    /// Returns the player's entry for results. Its name is the value of `--name`, or else the last component of the
+    /// folder.
     pub(super) fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let digest = match subjects.first() {
             Some(subject) => {

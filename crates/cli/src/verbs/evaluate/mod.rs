@@ -294,7 +294,7 @@ fn forecast(
     Ok(true)
 }
 
-/// Adds the commitment to the settings that distinguish the player from others.
+/// Adds the commitment to the settings that distinguish the player from other players.
 fn with_commitment(mut entrant: Entrant, commit: Commitment) -> Entrant {
     entrant.aids.extend(commit.aid());
     entrant.aids.sort();

@@ -20,7 +20,7 @@ use std::time::Duration;
 
 /// The maximum size of the advice that can be added to a prompt, in bytes.
 const MAX_STRATEGY: usize = 1 << 16;
-/// The number of tokens that dry runs assume per answer, unless a limit is given.
+/// The number of tokens that dry runs assume per answer if no limit is given.
 const ANSWER_TOKENS: u64 = 100;
 
 /// The model, its requests, and the limits on their cost.
@@ -169,7 +169,7 @@ enum Aid {
 }
 
 impl PromptArgs {
-    /// Returns the settings of prompts: the settings of the track, or the settings that the flags specify.
+    /// Returns the settings of prompts, which come from the track or from the flags.
     ///
     /// # Errors
     ///
@@ -189,7 +189,7 @@ impl PromptArgs {
             settings.mode = mode;
         }
         settings.history_tokens = self.history_tokens.unwrap_or(settings.history_tokens);
-        // The values that a flag sets must equal the track's.
+        // The values that a flag sets must equal the track's values.
         let free = PromptSettings {
             mode: settings.mode,
             history_tokens: settings.history_tokens,
@@ -206,7 +206,8 @@ impl PromptArgs {
         Ok(settings)
     }
 
-    /// Returns the differences between the settings and the track's (or the default's without a track), as results list them.
+    /// Returns the differences between the settings and the track's settings, as results list them. Without a track,
+    /// the defaults replace the track's settings.
     pub(super) fn aids(&self, settings: &PromptSettings) -> Vec<String> {
         let usual = self.track.map_or_else(PromptSettings::default, Track::settings);
         settings.aids_beyond(&usual)
@@ -261,7 +262,7 @@ impl Aid {
     }
 }
 
-/// The defaults of flags that are rejected for players on which they have no effect.
+/// The defaults of flags that are rejected for players on which these flags have no effect.
 const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("it is positive");
 const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("it is positive");
 const TIMEOUT: u64 = 600;
@@ -359,9 +360,9 @@ pub(crate) struct ConnectedModel {
     prompters: Prompters,
     decoding: Decoding,
     reasks: u32,
-    /// `true` if the model's price is known. Otherwise the cost is unknown.
+    /// `true` if the model's price is known. If it is not known, the cost is unknown.
     pub(crate) is_priced: bool,
-    /// The spending so far, and its caps.
+    /// The spending so far, and the caps on it.
     pub(crate) caps: Arc<client::Caps>,
 }
 
@@ -373,11 +374,11 @@ pub(crate) struct Forecast {
     input_tokens: u64,
     cacheable_tokens: u64,
     output_tokens: u64,
-    /// The cost in US dollars, or `None` if the price is unknown.
+    /// The cost in US dollars; `None` if the price is unknown.
     cost: Option<f64>,
     cost_if_cached: Option<f64>,
     answer_tokens: u64,
-    /// The maximum number of tokens per answer, or `None` if there is no limit.
+    /// The maximum number of tokens per answer; `None` if there is no limit.
     max_answer_tokens: Option<u64>,
     /// The number of output tokens, assuming that all answers are as long as possible.
     max_output_tokens: Option<u64>,
@@ -388,7 +389,7 @@ pub(crate) struct Forecast {
     estimated_requests: Option<u64>,
     /// The cost of the estimated requests in US dollars.
     estimated_cost: Option<f64>,
-    /// The part of the forecast that exceeds a cap.
+    /// The part of the forecast that exceeds a cap; `None` if no cap is exceeded.
     forbidden: Option<String>,
 }
 
@@ -490,7 +491,7 @@ impl RequestedModel {
         decisions: impl Fn(&Task<'_>) -> u64,
     ) -> Result<Vec<Batch>, Failure> {
         let mut batches = Vec::new();
-        // The number of decisions of the earlier levels in the same conversation.
+        // The number of decisions on the earlier levels in the same conversation.
         let mut earlier = 0;
         for task in tasks {
             let prompter = self.prompter(task.subject, task.max_steps, task.commit)?;
@@ -502,7 +503,7 @@ impl RequestedModel {
             if task.series.is_none_or(|place| place.index == 0) {
                 earlier = 0;
             }
-            // The final question counts as a decision too.
+            // The final question also counts as a decision.
             let asked =
                 u64::from(prompter.asks_predictions() && task.series.is_some_and(SeriesPlace::is_last));
             let decisions = decisions + asked;
@@ -525,7 +526,8 @@ impl RequestedModel {
     }
 }
 
-/// Returns the number of tokens of earlier turns in the prompts of `steps` steps, which grows by `turn` per step up to `room`.
+/// Returns the number of tokens of earlier turns in the prompts of `steps` steps. The number grows by `turn` per step
+/// up to `room`.
 fn history(steps: u64, turn: u64, room: u64) -> u64 {
     let Some(most) = room.checked_div(turn) else { return 0 };
     let growing = steps.min(most + 1);

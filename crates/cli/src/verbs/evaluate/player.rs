@@ -38,7 +38,7 @@ pub(super) enum RequestedPlayer {
 /// A constructor of the player for an episode.
 pub(super) type PlayerOf = Box<dyn Fn(&Task<'_>) -> Contestant + Sync>;
 
-/// A connected player: a constructor of players for episodes, and the state that outlives an episode.
+/// A connected player, which is a constructor of players for episodes and the state that outlives an episode.
 pub(super) struct Connected {
     pub(super) contestant: PlayerOf,
     pub(super) model: Option<Arc<ConnectedModel>>,
@@ -91,7 +91,8 @@ impl RequestedPlayer {
     ///
     /// # Errors
     ///
-    /// Returns a failure if it cannot. The message lists the games, the reason, and the games that the player can play.
+    /// Returns a failure if the player cannot read a prompt. The message lists the games, the reason, and the games
+    /// that the player can play.
     pub(super) fn check(&self, settings: &Settings, subjects: &[Subject]) -> Result<(), Failure> {
         let RequestedPlayer::Prompted(player, prompts) = self else { return Ok(()) };
         let prompters = model::prompters(subjects, prompts, settings.max_steps, settings.commit)?;
@@ -181,8 +182,8 @@ impl RequestedPlayer {
         Ok(contestant.into())
     }
 
-    /// Returns the number of concurrent episodes, which is at most the number of episodes. Episodes of models wait most of the
-    /// time.
+    /// Returns the number of concurrent episodes, which is at most the number of episodes. Episodes of models wait most
+    /// of the time.
     pub(super) fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let requested = match self {
             RequestedPlayer::Model(_) => args.model.concurrency().get(),
@@ -201,7 +202,7 @@ impl RequestedPlayer {
     }
 }
 
-/// Rejects flags that would have no effect, because a user who gives them expects one.
+/// Rejects flags that would have no effect, because a user who specifies such a flag expects an effect.
 pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
     if args.budget.is_some() && !matches!(requested, RequestedPlayer::Planner(_)) {
         bail!(

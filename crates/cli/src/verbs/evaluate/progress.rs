@@ -23,7 +23,7 @@ pub(super) struct Bar<'a> {
     pub(super) keep_going: bool,
     /// The folder of the logs.
     pub(super) logs: PathBuf,
-    /// The mailbox whose episodes are waiting, if the player has one.
+    /// The mailbox whose episodes are waiting; `None` if the player has no mailbox.
     pub(super) mailbox: Option<Arc<Mailbox>>,
 }
 

@@ -34,10 +34,10 @@ pub(crate) struct Wanted<'a> {
     pub(crate) as_reference: bool,
 }
 
-/// The games, and the snapshot's root digest if all of them come from one snapshot.
+/// The games, and the snapshot's root digest if all games come from one snapshot.
 pub(crate) struct Subjects {
     pub(crate) snapshot: Option<Digest>,
-    /// The name of the snapshot, if all games come from one.
+    /// The name of the snapshot; `None` unless all games come from one snapshot.
     pub(crate) release: Option<String>,
     pub(crate) games: Vec<Subject>,
 }
@@ -115,8 +115,8 @@ fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
     })
 }
 
-/// Returns suggestions for an unknown game: a similar ID or title, a game whose name contains the word, or else a list of all
-/// games.
+/// Returns suggestions for an unknown game. These are a similar ID or title, a game whose name contains the word, or
+/// else a list of all games.
 fn help_with(unknown: &str, games: &[Subject]) -> String {
     let names =
         || games.iter().flat_map(|game| [(game.id.as_str(), game), (game.facts.title.as_str(), game)]);
@@ -149,7 +149,7 @@ enum Files<'a> {
 }
 
 impl<'a> Files<'a> {
-    /// Opens the release at `place`, and returns it with its problems.
+    /// Opens the release at `place`, and returns the release with its problems.
     fn open(place: &'a Path) -> Result<(Integrity, Files<'a>), Failure> {
         if place.is_dir() {
             return Ok((check_integrity(place)?, Files::Folder(place)));
@@ -192,7 +192,8 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<S
         let (id, file) = item.path.strip_prefix("games/")?.split_once('/')?;
         (file == "card.json").then_some(id)
     });
-    // The marks of a sealed release are withheld, and those of a different version cannot be read: both count as missing.
+    // The marks of a sealed release are withheld, and marks of a different version cannot be read. Both count as
+    // missing.
     let path = Marks::path_in(manifest);
     let marks = path.filter(|path| files.has(path)).map(|path| files.text(&path, MAX_MARKS)).transpose()?;
     let marks = marks.and_then(|text| Marks::read(text.as_bytes()).ok());

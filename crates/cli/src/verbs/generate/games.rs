@@ -1,4 +1,4 @@
-//! `arcade generate games`.
+//! `arcade generate games`: makes new games.
 
 use super::pretty;
 use crate::console::{Console, Stopwatch};
@@ -76,7 +76,7 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    /// Returns `true` if kernels are to provide the rules: only they have kinds.
+    /// Returns `true` if kernels are to provide the rules. Only kernels have kinds.
     fn is_of_kernels(&self) -> bool {
         !self.kind.is_empty()
     }
@@ -89,7 +89,8 @@ impl Args {
         GameOrder { kinds: self.kind.clone(), ..order }
     }
 
-    /// Returns the digest of everything that determines the bytes of the result. It decides whether stored attempts can be used.
+    /// Returns the digest of everything that determines the bytes of the result. The digest decides whether stored
+    /// attempts can be used.
     fn plan(&self, order: &GameOrder) -> Digest {
         let versions = (engine::SEMANTICS, generators::GENERATION);
         let kinds: Vec<&str> = match self.is_of_kernels() {
@@ -176,7 +177,8 @@ fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     embedded::corpus()?.games.iter().map(compile).collect()
 }
 
-/// Judges the games again, with different seeds and twice as many episodes as a release requires, and writes the report on them.
+/// Judges the games again, with different seeds and twice as many episodes as a release requires, and writes the report
+/// on the games.
 fn report(
     args: &Args,
     draft: Draft,
@@ -217,12 +219,13 @@ fn report(
     Ok(())
 }
 
-/// The progress of the generation: a bar, or one line per game if no bar can be drawn. Stores finished attempts.
+/// The progress of the generation, as a bar, or as one line per game if no bar can be drawn. Finished attempts are
+/// stored.
 struct Bar<'a> {
     bar: ProgressBar,
     console: &'a Console,
     store: JobFolder,
-    /// The first failure of the store.
+    /// The first failure of the store; `None` if no access failed.
     failure: Mutex<Option<SnapshotError>>,
 }
 
@@ -274,7 +277,7 @@ fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the answer for programs. It has the same bytes for the same flags.
+/// Returns the answer for programs. The same flags give the same bytes.
 fn document(args: &Args, set: &GameSet) -> serde_json::Value {
     let cards: Vec<&Card> = set.games.iter().map(|game| &game.card).collect();
     json!({

@@ -1,4 +1,4 @@
-//! `arcade generate levels`.
+//! `arcade generate levels`: makes new levels for a game.
 
 use super::pretty;
 use crate::console::{Console, Stopwatch};
@@ -225,7 +225,7 @@ fn write(draft: &Draft, input: &GameInput, set: &LevelSet) -> Result<(), Failure
     Ok(())
 }
 
-/// Returns the answer for programs. It has the same bytes for the same flags.
+/// Returns the answer for programs. The same flags give the same bytes.
 fn document(args: &Args, game: &Game, set: &LevelSet) -> serde_json::Value {
     let levels: Vec<serde_json::Value> = set.levels.iter().enumerate().map(level).collect();
     json!({

@@ -1,4 +1,4 @@
-//! `arcade generate`: new games, and new levels for a game.
+//! `arcade generate`: makes new games, and new levels for a game.
 
 mod games;
 mod levels;

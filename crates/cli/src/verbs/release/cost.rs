@@ -4,14 +4,15 @@ use super::probe;
 use snapshots::Corpus;
 use snapshots::mint::{Forecast, Job, Plan};
 
-/// The expected duration, in seconds of one core, from which a mint prints how to resume it.
+/// The minimum expected duration at which a mint prints how to resume it, in seconds of one core.
 pub(crate) const LONG: f64 = 30.0;
 
-/// The expected duration, in seconds of one core, from which it is worth a third of a second to measure the machine's speed.
+/// The minimum expected duration at which it is worth a third of a second to measure the machine's speed, in seconds of
+/// one core.
 const PROBED: f64 = 30.0;
 
-/// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns how many times longer this machine
-/// takes than the one on which costs were measured.
+/// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns how many times longer this
+/// machine takes than the machine on which costs were measured.
 pub(crate) fn forecast(plan: &Plan<'_>, jobs: &[Job], corpus: &Corpus) -> (Forecast, Option<f64>) {
     let usual = plan.forecast(jobs);
     let slowness = if usual.median >= PROBED { probe::slowness(corpus) } else { None };

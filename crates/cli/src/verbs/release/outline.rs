@@ -11,8 +11,8 @@ use snapshots::mint::{Job, JobFolder, Plan};
 use snapshots::{Corpus, Draft, Order, Prepared, PuzzleKind, Recipe, SnapshotError, Tools, check_vacant};
 use std::path::{Path, PathBuf};
 
-/// Prints the contents of a mint and its cost on this machine, whose speed is probed if the mint takes more than half a minute.
-/// If the order resumes, counts only what an interrupted mint left to do.
+/// Prints the contents of a mint and its cost on this machine. The machine's speed is probed if the mint takes more
+/// than half a minute. If the order resumes, only the jobs that an interrupted mint has not finished are counted.
 pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, console: &Console) -> Answer {
     let Prepared { plan, jobs, .. } = prepared;
     let &Order { ref recipe, ref out, resume, .. } = order;

@@ -1,4 +1,4 @@
-//! The speed of this machine: a few fixed episodes, timed.
+//! The speed of this machine, measured by timing a few fixed episodes.
 
 use agents::{Budget, Limits, Mcts, MctsConfig, Olets, OletsConfig, Planner, play};
 use base::Seed;
@@ -8,17 +8,19 @@ use snapshots::{Corpus, CorpusGame};
 
 /// The games of the probe, which are about pushing, chasing and shooting.
 const GAMES: [&str; 3] = ["dormouse-millrace", "bellwether-down", "hailglass"];
-/// The number of ticks per episode, and of forward-model calls per decision.
+/// The number of ticks per episode.
 const TICKS: usize = 200;
+/// The number of forward-model calls per decision.
 const CALLS: u64 = 400;
-/// The number of repetitions. The fastest counts, because other work only slows episodes down.
+/// The number of repetitions. Only the fastest repetition counts, because other work can only slow episodes down.
 const TIMES: u64 = 3;
-/// The time that the episodes take on the machine that docs/reference/recipes.md describes, with both cores playing, in seconds of one
-/// core.
+/// The time that the episodes take on the machine that docs/reference/recipes.md describes, in seconds of one core.
+/// Both cores of that machine were playing.
 const USUAL: f64 = 0.109;
 
-/// Returns how many times longer this machine takes than the one on which costs were measured, with all threads of the current
-/// pool at work. Returns `None` if the corpus lacks a game of the probe. Cost: about a third of a second of each thread.
+/// Returns how many times longer this machine takes than the machine on which costs were measured, with all threads of
+/// the current pool at work. Returns `None` if the corpus lacks a game of the probe. Cost: about a third of a second of
+/// each thread.
 pub(super) fn slowness(corpus: &Corpus) -> Option<f64> {
     let games = GAMES.iter().map(|name| compiled(corpus.games.iter().find(|game| game.name == *name)?));
     let games = games.collect::<Option<Vec<(Game, Level)>>>()?;

@@ -1,4 +1,4 @@
-//! The progress of a mint: a bar on a terminal, and otherwise one line per tenth of the jobs.
+//! The progress of a mint, as a bar on a terminal, and otherwise as one line per tenth of the jobs.
 
 use super::cost::{LONG, forecast, words as forecast_words};
 use crate::console::{Console, Stopwatch};
@@ -15,7 +15,7 @@ pub(crate) struct ProgressBars<'a> {
     last_report: Mutex<LastReport>,
 }
 
-/// The progress reported last, if there is no bar.
+/// The progress that was reported last, for output without a bar.
 #[derive(Default)]
 struct LastReport {
     jobs: u64,
@@ -39,7 +39,7 @@ impl Progress for ProgressBars<'_> {
     fn begin(&self, jobs: usize, made: usize) {
         self.bar.set_length(jobs as u64);
         self.bar.set_position(made as u64);
-        // Jobs that were finished earlier say nothing about the time for the rest.
+        // Jobs that were finished earlier say nothing about the time for the remaining jobs.
         self.bar.reset_eta();
         if let Ok(mut last_report) = self.last_report.lock() {
             *last_report = LastReport { jobs: jobs as u64, found: made as u64, ..LastReport::default() };
@@ -77,13 +77,13 @@ impl Progress for Remarks<'_> {
     }
 }
 
-/// A reporter of a mint: prints notes and the command that resumes it, and shows bars.
+/// A reporter of a mint. It prints notes and the command that resumes the mint, and shows bars.
 pub(crate) struct Reporter<'a> {
     console: &'a Console,
     corpus: &'a Corpus,
     /// The command that resumes the mint.
     resumed: &'a str,
-    /// The progress bars, once the jobs have begun.
+    /// The progress bars; empty until the jobs have begun.
     bars: OnceLock<ProgressBars<'a>>,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Reporter<'a> {
         Reporter { console, corpus, resumed, bars: OnceLock::new() }
     }
 
-    /// Returns the seconds since the jobs began, or `None` if they have not begun.
+    /// Returns the seconds since the jobs began; `None` if they have not begun.
     pub(crate) fn seconds(&self) -> Option<f64> {
         self.bars.get().map(|bars| bars.started.seconds())
     }

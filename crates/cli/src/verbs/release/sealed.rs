@@ -97,7 +97,8 @@ fn mint_command(recipe: &Path, secret: &Path, parent: Option<&Path>) -> String {
     shell::command(mint)
 }
 
-/// Returns the failure for a path that already holds a secret, with advice on how to continue. A secret is never overwritten.
+/// Returns the failure for a path that already holds a secret, with advice on how to continue. A secret is never
+/// overwritten.
 fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) -> Failure {
     let shown = format!("`{}` exists, and a secret is never overwritten", file.in_message());
     let Ok(there) = read_secret(file) else {

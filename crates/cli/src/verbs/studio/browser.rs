@@ -4,10 +4,11 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use tempfile::NamedTempFile;
 
-/// Tries to open an address in the user's browser. It is not an error if no browser opens.
+/// Tries to open an address in the user's browser. If no browser opens, that is not an error.
 ///
-/// Program arguments are visible to all users of a machine, and the address contains the token. So the browser gets a file that
-/// only this user can read and that redirects to the address. The file is removed when the returned value is dropped.
+/// Program arguments are visible to all users of a machine, and the address contains the token. The browser therefore
+/// gets a file that only this user can read and that redirects to the address. The file is removed when the returned
+/// value is dropped.
 pub(super) fn open(url: &str) -> Option<NamedTempFile> {
     let mut file = tempfile::Builder::new().prefix("arcade-studio-").suffix(".html").tempfile().ok()?;
     let page = format!(
@@ -19,7 +20,7 @@ pub(super) fn open(url: &str) -> Option<NamedTempFile> {
     let mut command = if cfg!(windows) { Command::new("explorer") } else { Command::new(program) };
     command.arg(file.path()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = command.spawn().ok()?;
-    // The child may run as long as the browser does, and nothing else waits for it.
+    // The child may run as long as the browser, and nothing else waits for the child.
     std::thread::spawn(move || child.wait());
     Some(file)
 }

@@ -1,4 +1,5 @@
-//! `arcade studio --judge`: pairs of games, judged by people who do not see where the games come from.
+//! `arcade studio --judge`: shows pairs of games to people, who judge them without seeing the sources of the
+//! games.
 
 use super::open;
 use crate::console::Console;
@@ -74,7 +75,7 @@ fn source(name: &str, console: &Console) -> Result<Source, Failure> {
     Ok(Source { name: name.to_owned(), games })
 }
 
-/// Returns the game as a candidate, or `None` if it has no level.
+/// Returns the game as a candidate; `None` if the game has no level.
 fn candidate(input: &GameInput) -> Result<Option<Candidate>, Failure> {
     let game: Game = input.compile(false)?;
     let levels: Vec<Level> = input.checked_levels(&game)?;

@@ -1,4 +1,4 @@
-//! `arcade studio`: games on a web page served by this machine.
+//! `arcade studio`: serves games on a web page on this machine.
 
 mod browser;
 mod judge;
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if !args.judge.is_empty() {
         let pairs = usize::try_from(args.pairs).unwrap_or(MOST_PAIRS);
         let judging = judge::session(&args.judge, &args.seed, pairs, args.out.as_deref(), console)?;
-        // The page shows only the pairs, because a list of games would reveal where they come from.
+        // The page shows only the pairs, because a list of games would reveal their sources.
         let workspace = Workspace::new(Kind::Games, "pairs to judge", PathBuf::new(), Vec::new());
         return serve(Studio::new(workspace, version::version(), page).judging(judging), args, console);
     }
@@ -82,7 +82,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     serve(with_signatures(studio, root, &args.trust), args, console)
 }
 
-/// Adds the check of the opened release's signatures, if a key was given.
+/// Adds the check of the opened release's signatures if a key was given.
 fn with_signatures(studio: Studio, root: Option<PathBuf>, trust: &TrustArgs) -> Studio {
     let Some(root) = root.filter(|_| !trust.is_empty()) else { return studio };
     let trust = trust.clone();
@@ -112,7 +112,7 @@ fn serve(studio: Studio, args: &Args, console: &Console) -> Answer {
     served.map(|()| true)
 }
 
-/// Stops the server, and with it the program, at the first SIGINT, SIGTERM or SIGHUP.
+/// Stops the server, and the program with it, at the first SIGINT, SIGTERM or SIGHUP.
 #[cfg(unix)]
 fn end_on_signal(stop: Stop) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};

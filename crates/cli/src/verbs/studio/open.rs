@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use studio::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};
 
-/// Opens the specified place, or the corpus if the user specified none.
+/// Opens the specified place, or the corpus if the user specified no place.
 pub(crate) fn workspace(
     place: Option<&str>,
     out: Option<&Path>,
@@ -70,7 +70,7 @@ fn is_in(file: &Path, place: &Path) -> bool {
     file == place || file.parent() == Some(place)
 }
 
-/// Returns the results of evaluations at a path: the folder itself, or the results folders in it.
+/// Returns the results of evaluations at a path, which are the folder itself or the results folders in it.
 fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     if !path.is_dir() {
         return Ok(Vec::new());
@@ -83,7 +83,7 @@ fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(folders)
 }
 
-/// Returns `true` if a path is a release: a folder with a manifest, or an archive.
+/// Returns `true` if a path is a release, which is a folder with a manifest, or an archive.
 pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
     let Some(found) = paths::metadata(path)? else { return Ok(false) };
     if found.is_dir() {
@@ -135,7 +135,7 @@ fn entry(input: &GameInput) -> Result<GameEntry, Failure> {
     Ok(GameEntry { id, title, place, summary, card, witnesses })
 }
 
-/// Returns the card beside a game, if there is a readable one.
+/// Returns the card beside a game; `None` if there is no readable card.
 pub(super) fn card(input: &GameInput) -> Option<serde_json::Value> {
     let folder = input.path.as_ref()?.parent()?;
     let read = |name: &str| input::read_text(&folder.join(name), MAX_CARD).ok();
@@ -147,7 +147,7 @@ pub(super) fn card(input: &GameInput) -> Option<serde_json::Value> {
 /// The maximum size of a card, in bytes.
 const MAX_CARD: usize = 1 << 22;
 
-/// Returns the winning episodes beside a game, as `arcade generate games` writes them.
+/// Returns the winning episodes beside a game, in the form that `arcade generate games` writes.
 fn witnesses(folder: &Path, levels: usize) -> Vec<WitnessEntry> {
     let read = |level: usize| {
         let name = format!("lvl{level}");
@@ -177,7 +177,7 @@ fn corpus() -> Result<Vec<GameEntry>, Failure> {
     Ok(embedded::corpus()?.games.into_iter().map(entry).collect())
 }
 
-/// Opens a release, and the one to compare it with. Both are verified first.
+/// Opens a release, and the release to compare it with. Both are verified first.
 fn release(path: &Path, against: Option<&Path>, copies: PathBuf) -> Result<Workspace, Failure> {
     let read = |path: &Path| Released::read(path).map_err(|error| unsound(path, &error));
     let mut workspace = of_release(path, read(path)?, copies);

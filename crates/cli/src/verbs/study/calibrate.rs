@@ -1,4 +1,4 @@
-//! `arcade study calibrate`: difficulties of the levels of a release, by examinees that never change.
+//! `arcade study calibrate`: measures difficulties of the levels of a release with examinees that never change.
 
 use super::scale::left_out;
 use crate::console::Console;
@@ -158,7 +158,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the examinees that play: all, or those of an earlier scale.
+/// Returns the examinees that play, which are all examinees or those of an earlier scale.
 fn examinees(
     earlier: Option<&ScaleFile>,
     path: &Option<PathBuf>,

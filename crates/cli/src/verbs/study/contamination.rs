@@ -196,7 +196,8 @@ fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
     }
 }
 
-/// Returns the test's greater power against a player that knows half of the levels, if nothing was found and that power is small.
+/// Returns the test's greater power against a player that knows half of the levels. Returns `None` if something was
+/// found, or if that power is not small.
 fn weak(player: &PlayerMemory) -> Option<f64> {
     let half = player.power.iter().find(|power| power.share == 0.5)?;
     let greatest = half.solutions.into_iter().chain(half.games).reduce(f64::max)?;

@@ -1,4 +1,4 @@
-//! `arcade study`: comparisons of months and models beyond one evaluation.
+//! `arcade study`: compares months and models beyond one evaluation.
 
 mod calibrate;
 mod contamination;

@@ -1,4 +1,4 @@
-//! `arcade study scale`: abilities of players on one scale across releases.
+//! `arcade study scale`: computes abilities of players on one scale across releases.
 
 use crate::console::Console;
 use crate::failure::Answer;

@@ -1,4 +1,4 @@
-//! `arcade study timeline`: a year of months on one page.
+//! `arcade study timeline`: shows a year of months on one page.
 
 use super::scale::left_out;
 use crate::console::Console;

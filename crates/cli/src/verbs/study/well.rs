@@ -1,4 +1,4 @@
-//! `arcade study well`: the games that a chain of months can still invent.
+//! `arcade study well`: measures how many games a chain of months can still invent.
 
 use crate::console::Console;
 use crate::embedded;

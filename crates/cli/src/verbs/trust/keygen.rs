@@ -1,4 +1,4 @@
-//! `arcade trust keygen`: a new pair of keys.
+//! `arcade trust keygen`: makes a new pair of keys.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};

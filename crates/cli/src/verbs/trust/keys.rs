@@ -1,4 +1,4 @@
-//! `arcade trust keys`: the sets of keys of a publisher, from the first to the newest.
+//! `arcade trust keys`: makes and shows a publisher's sets of keys, from the first set to the newest.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};

@@ -1,4 +1,4 @@
-//! `arcade trust`: keys, signed roots and the public log.
+//! `arcade trust`: manages keys, signed roots and the public log.
 
 mod keygen;
 mod keys;

@@ -1,4 +1,4 @@
-//! `arcade trust sign`: the signed statement about a release's root.
+//! `arcade trust sign`: signs a statement about a release's root.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};

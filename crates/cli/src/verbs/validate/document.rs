@@ -1,4 +1,4 @@
-//! The answer for programs, whose schema is `docs/reference/validate.md`.
+//! The answer for programs. Its schema is in `docs/reference/validate.md`.
 
 use crate::diagnostics::Placed;
 use crate::input::Named;
@@ -16,7 +16,7 @@ pub(super) struct Document<'a> {
     pub(super) criteria: Option<&'a Criteria>,
     pub(super) problems: Vec<Placed>,
     pub(super) levels: Vec<LevelDocument<'a>>,
-    /// Judgements of the game over all its levels.
+    /// The judgements of the game over all its levels.
     pub(super) judgements: &'a [Judgement],
 }
 

@@ -95,7 +95,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let panel = Panel::new(criteria.check().map_err(Failure::malformed)?, Effort::Calls(args.budget));
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");
-    // The seed depends on the level, so that a level gets the same answer alone and with others.
+    // The seed depends on the level, so that a level gets the same answer alone and with other levels.
     let judge = |level: &Level| {
         let seed = seed.child(&level.digest().to_string(), 0);
         panel.judge(Judging::level(&game, level, seed))
@@ -109,7 +109,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut judged: Vec<JudgedLevel<'_>> = judged.collect();
     let sound: Vec<Level> = judged.iter().filter_map(|judged| judged.level.clone().ok()).collect();
     let reports: Vec<Report> = judged.iter().filter_map(|judged| judged.report.clone()).collect();
-    // Criteria about the game over all its levels require all of them.
+    // Criteria about the game over all its levels require all levels.
     let all = sound.len() == judged.len() && judged.len() >= input.count();
     let together = || panel.judge(Judging::together(&game, &sound, &reports, seed));
     let mut of_game = if all { together() } else { Vec::new() };

@@ -1,4 +1,4 @@
-//! The answer for people: the verdict first, then the reasons.
+//! The answer for people. It gives the verdict first and then the reasons.
 
 use super::document::{Document, LevelDocument};
 use crate::input::Named;
@@ -14,8 +14,8 @@ const MOST_SEEN: usize = 6;
 /// The maximum number of links to show per chain of causes.
 const MOST_LINKS: usize = 16;
 
-/// Returns the whole answer: the verdicts, the warnings about the files, and the criteria. A quiet answer leaves out everything
-/// that passes, and is empty if everything passes.
+/// Returns the whole answer, which is the verdicts, the warnings about the files, and the criteria. A quiet answer
+/// leaves out everything that passes, and is empty if everything passes.
 pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String], quiet: bool) -> String {
     if quiet && document.passes {
         return String::new();
@@ -89,7 +89,7 @@ fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
     format!("passes{won}{hard}")
 }
 
-/// Returns a difficulty label in words: `very hard`.
+/// Returns a difficulty label in words, such as `very hard`.
 fn in_words(difficulty: Difficulty) -> String {
     difficulty.to_string().replace('_', " ")
 }
@@ -129,7 +129,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     };
     let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
-    // A criterion's name alone says little, so its question is added if the answer matters.
+    // A criterion's name alone says little, so the criterion's question is added if the answer matters.
     let is_asked = mark == "FAIL" || mark == "?" && !words.starts_with("needs a win");
     if is_asked {
         let _ = writeln!(text, "       asks: {}", criterion.question());
@@ -163,7 +163,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     }
 }
 
-/// Writes a piece of evidence: its text, with tick, cell and line.
+/// Writes a piece of evidence, which is its text with tick, cell and line.
 fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
     let mut parts = Vec::new();
     if !said.contains(seen.text.as_str()) {

@@ -1,4 +1,4 @@
-//! Proofs of single items: written from a snapshot, checked without it.
+//! Proofs of single items. They are written from a snapshot, and checked without it.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -56,7 +56,7 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
     let io = |action, path: &Path, source| SnapshotError::Io { action, path: path.to_path_buf(), source };
     let found = fs::metadata(place).map_err(|source| io("examine", place, source))?;
     if found.is_dir() {
-        // The place is the game's own folder, or a folder that contains it.
+        // The place is the game's own folder, or a folder that contains the game's folder.
         let inside = place.join("games").join(id);
         let top = if inside.is_dir() { inside } else { place.to_path_buf() };
         let prefix = format!("games/{id}/");

@@ -70,9 +70,9 @@ pub(crate) struct Args {
 struct Document<'a> {
     #[serde(flatten)]
     verification: &'a Verification,
-    /// `true` if the root was compared with one from another source.
+    /// `true` if the root was compared with a root from another source.
     root_compared: bool,
-    /// The result of checking the signatures, if they were checked.
+    /// The result of checking the signatures; `None` if they were not checked.
     #[serde(skip_serializing_if = "Option::is_none")]
     signed: Option<&'a Signed>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -235,7 +235,7 @@ fn damaged(error: SnapshotError, snapshot: &Path, console: &Console) -> Answer {
     Ok(false)
 }
 
-/// Puts a problem on one line. It may quote untrusted text, which must not look like a line of our own output.
+/// Puts a problem on one line. A problem may quote untrusted text, which must not look like a line of our own output.
 fn one_line(problem: &str) -> String {
     problem.replace('\n', "\\n")
 }
@@ -252,8 +252,8 @@ pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     }
 }
 
-/// Converts the error: a folder that does not exist or is not a snapshot is a malformed question, and a disk failure is a failure
-/// of the environment.
+/// Converts the error. A folder that does not exist or is not a snapshot is a malformed question, and a disk failure is
+/// a failure of the environment.
 impl From<SnapshotError> for Failure {
     fn from(error: SnapshotError) -> Failure {
         match error {
@@ -279,7 +279,7 @@ fn absent(path: &Path) -> Failure {
     })
 }
 
-/// Returns a failure that says what was found instead of a snapshot, and explains what a snapshot is.
+/// Returns a failure that states the kind of file found instead of a snapshot, and explains what a snapshot is.
 fn no_snapshot(path: &Path) -> Failure {
     let shown = path.in_message();
     let ends = |end: &str| path.extension().is_some_and(|found| found == end);

@@ -1,4 +1,4 @@
-//! Running the binary as a user does.
+//! Helpers that run the binary as a user does.
 
 use snapshots::{Recipe, Secret};
 use std::collections::BTreeMap;
@@ -8,14 +8,14 @@ use std::process::{Child, Command, Output};
 use std::sync::{LazyLock, Mutex, PoisonError};
 use tempfile::TempDir;
 
-/// A folder with one mint of the recipe `tiny` in `tiny`, shared by the tests that only read it or a copy of it.
+/// A folder with one mint of the recipe `tiny` in `tiny`. Tests share the folder if they only read or copy it.
 pub(crate) static TINY: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), &["release", "tiny", "--out", "tiny", "--jobs", "2"], 0);
     folder
 });
 
-/// A recipe of four jobs, each within a second; with this seed few candidates fail.
+/// A recipe of four jobs, each of which takes less than a second. With this seed, few candidates fail.
 pub(crate) const SLICES_RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'pieces'\n[generated]\ngames = 1\n\
     levels = 1\ncandidates = 2.0\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 100\n\
     budget = 80000\ndepths = [10, 25]\nrandom_plays = 10\n";
@@ -45,7 +45,7 @@ fn copy_of(minted: &TempDir, name: &str) -> (TempDir, PathBuf) {
     (folder, root)
 }
 
-/// Returns whether the tests run at full size (`cargo xtask sweep`).
+/// Returns `true` if the tests run at full size (`cargo xtask sweep`).
 pub(crate) fn sweeping() -> bool {
     std::env::var_os("ARCADE_SWEEP").is_some()
 }
@@ -57,14 +57,15 @@ pub(crate) fn arcade(folder: &Path) -> Command {
     command
 }
 
-/// Ends a program as `kill` does: its exit status is then 143. A shell's background jobs ignore SIGINT, and so would the program.
+/// Ends a program like `kill`, which gives it the exit status 143. A shell's background jobs ignore SIGINT, and so
+/// would the program.
 #[cfg(unix)]
 pub(crate) fn terminate(child: &Child) {
     let done = Command::new("kill").arg(child.id().to_string()).status().unwrap();
     assert!(done.success());
 }
 
-/// Runs with these arguments and expects this exit status; on another one, shows the output.
+/// Runs the binary with these arguments and expects this exit status. Shows the output if the status differs.
 #[track_caller]
 pub(crate) fn run(folder: &Path, args: &[&str], status: i32) -> Output {
     let output = arcade(folder).args(args).output().expect("the binary starts");
@@ -76,7 +77,7 @@ pub(crate) fn run(folder: &Path, args: &[&str], status: i32) -> Output {
     output
 }
 
-/// The commands that an output suggests: in backticks, or after a colon to the end of the line.
+/// Returns the commands that an output suggests, in backticks, or after a colon to the end of the line.
 fn suggested(said: &str) -> Vec<Vec<String>> {
     let mut found = Vec::new();
     for line in said.lines() {
@@ -84,11 +85,11 @@ fn suggested(said: &str) -> Vec<Vec<String>> {
             let (before, rest) = line.split_at(at);
             let command = match before.chars().next_back() {
                 Some('`') => rest.split('`').next(),
-                // Several commands stand after each other, as a shell takes them.
+                // Several commands follow each other, separated as in a shell.
                 _ if before.ends_with(": ") || before.ends_with("; ") => rest.split("; ").next(),
                 _ => None,
             };
-            // `arcade [OPTIONS] <COMMAND>` is a line of usage.
+            // `arcade [OPTIONS] <COMMAND>` is a usage line.
             let command = command.filter(|command| !command.contains('<'));
             found.extend(command.and_then(shlex::split));
         }
@@ -96,7 +97,8 @@ fn suggested(said: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// Checks that a suggested command names a verb, flags of that verb, and pages of the manual that exist.
+/// Checks that a suggested command has an existing subcommand, flags of that subcommand, and existing pages of the
+/// manual.
 #[track_caller]
 fn check_suggested(command: &[String]) {
     static HELP: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
@@ -135,8 +137,9 @@ fn check_suggested(command: &[String]) {
     }
 }
 
-/// Commits to a recipe as `--commit` does, with a secret that is the same in every run: whether a recipe this small finds enough
-/// levels depends on the seed. Takes the recipe of a commitment; writes `NAME.toml` and `NAME.secret.json`.
+/// Commits to a recipe like `--commit`, but with the same secret in every run, because it depends on the seed whether
+/// such a small recipe finds enough levels. `recipe` returns the recipe for a commitment. The function writes
+/// `NAME.toml` and `NAME.secret.json`.
 pub(crate) fn commit(folder: &Path, recipe: &dyn Fn(&str) -> String) -> Secret {
     let open = Recipe::to_commit(&recipe(&"0".repeat(64))).unwrap();
     let secret = Secret::draw(&open.name, open.committed(), [7; 64]);

@@ -52,11 +52,11 @@ pub struct GameEntry {
     pub found: GameRow,
     /// The edge of the strongest held-out player over the players that do not look ahead.
     pub held_out: Option<Edge>,
-    /// The game's levels.
+    /// The levels of the game.
     pub levels: Vec<LevelEntry>,
-    /// The game of the set that is nearest to this one.
+    /// The nearest game in the set.
     pub nearest: Option<Nearest>,
-    /// The game of the corpus that is nearest to this one.
+    /// The nearest game in the corpus.
     pub nearest_corpus: Option<Nearest>,
 }
 
@@ -75,7 +75,7 @@ pub struct LevelEntry {
     pub label: Option<Difficulty>,
 }
 
-/// A neighbouring game.
+/// A neighbour of a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nearest {
     /// The name of the game.

@@ -1,7 +1,7 @@
-//! The one report of every generator of games: the games of a set, individually and together.
+//! The report on games, which is the same for every generator: the games of a set, individually and together.
 //!
-//! The report is a pure function of the games and their verdicts: the same input gives the same bytes. It contains no
-//! times and no paths. The meaning of each figure is in `docs/reference/game-report.md`.
+//! The report is a pure function of the games and their verdicts, so the same input gives the same bytes. It contains
+//! no times and no paths. The meaning of each figure is in `docs/reference/game-report.md`.
 
 mod entry;
 mod likeness;
@@ -30,7 +30,7 @@ pub struct GamesSample<'a> {
     pub method: &'a str,
     /// The games, in the order in which they were made.
     pub games: &'a [SurveyedGame],
-    /// The games that the set should differ from, by name; may be empty.
+    /// The named games that the set should differ from; may be empty.
     pub corpus: &'a [(String, Game)],
     /// The criteria that the panel applied.
     pub criteria: &'a Criteria,
@@ -45,7 +45,7 @@ pub struct GamesSample<'a> {
 /// games for means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameSetReport {
-    /// The figures.
+    /// The figures about the set.
     pub set: SetReport,
     /// One row per game.
     pub games: Vec<GameEntry>,

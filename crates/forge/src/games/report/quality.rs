@@ -20,7 +20,7 @@ pub(super) fn validity(games: &[SurveyedGame]) -> Section {
         .tally("obstacles", "fail first", &first, Some(games.len() as u64))
 }
 
-/// The difference between win rates that counts as certain.
+/// The difference between win rates that counts as significant.
 const SURE: f64 = 0.25;
 
 /// Describes the skill that the games demand; `None` if no ladder played.

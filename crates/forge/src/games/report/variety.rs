@@ -16,7 +16,7 @@ struct Pair {
     games: u64,
 }
 
-/// The number of games that have something.
+/// The number of games that have a property.
 #[derive(Serialize)]
 struct Having {
     name: String,
@@ -65,7 +65,7 @@ pub(super) fn variety(measured: &[Measured<'_>]) -> Section {
     section
 }
 
-/// Returns the table of the kinds of avatars by the kinds of goals.
+/// Returns the table of the avatar kinds by the goal kinds.
 pub(super) fn kinds(measured: &[Measured<'_>]) -> Table {
     let pairs = pairs(measured);
     let avatars: BTreeSet<AvatarKind> = pairs.keys().map(|(avatar, _)| *avatar).collect();

@@ -3,13 +3,13 @@
 use engine::Game;
 use std::collections::BTreeSet;
 
-/// The maximum fraction of names that a game may share with another one.
+/// The maximum fraction of names that a game may share with a different game.
 const SHARED: f64 = 0.5;
 
-/// The names that do not count because many games have them.
+/// The names that are ignored because many games have them.
 const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
 
-/// The names of a game's types, except common ones.
+/// The names of a game's types, except common names.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cast(BTreeSet<String>);
 
@@ -20,7 +20,7 @@ impl Cast {
         Cast(names.filter(|name| !COMMON.contains(&name.as_str())).collect())
     }
 
-    /// Returns `true` if most names of the smaller cast also occur in the other one.
+    /// Returns `true` if most names of the smaller cast also occur in the other cast.
     pub fn is_shared(&self, other: &Cast) -> bool {
         let shared = self.0.intersection(&other.0).count() as f64;
         shared > SHARED * self.0.len().min(other.0.len()) as f64

@@ -1,5 +1,5 @@
-//! The games of a set so far, which limit the next ones: they have to differ, and each kernel and kind has a maximum
-//! number of games.
+//! The games of a set so far, which limit later games. Later games must differ from them, and each kernel and kind has
+//! a maximum number of games.
 
 use super::cast::Cast;
 use crate::games::candidate::{Candidate, MadeGame};
@@ -12,8 +12,8 @@ use generators::kernels::KernelGenome;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
 
-/// The games of a set so far. No two games are near, no two share a title or a cast, no kernel and no kind is crowded,
-/// and games of the same kernel have different maps.
+/// The games of a set so far. No two games are near each other or share a title or a cast, no kernel and no kind is
+/// crowded, and games of the same kernel have different maps.
 #[derive(Default)]
 pub(crate) struct Company {
     forms: Vec<GameForm>,
@@ -25,14 +25,14 @@ pub(crate) struct Company {
     walls: BTreeSet<(String, usize, Vec<String>)>,
     /// The scenes of the games.
     pub(crate) scenes: BTreeSet<String>,
-    /// The remaining places.
+    /// The remaining room for games.
     pub(crate) room: Room,
 }
 
-/// The remaining places of a set for kernels and kinds.
+/// The remaining room in a set for games of kernels and kinds.
 #[derive(Clone, Default)]
 pub(crate) struct Room {
-    /// The number of games of each family of kernels that hardly differ.
+    /// The number of games of each family. A family consists of kernels that hardly differ.
     of_families: BTreeMap<String, usize>,
     /// The number of games of each kernel in each form.
     of_forms: BTreeMap<(String, Option<String>), usize>,
@@ -49,13 +49,13 @@ const FEW: usize = 2;
 /// The reason for rejecting a game whose kernel or kind has enough games.
 pub(crate) const CROWDED: &str = "enough of its kind";
 
-/// Returns the maximum number of games of a kind in a set of `count` games.
+/// Returns the maximum number of games of one kind in a set of `count` games.
 fn most_of_kind(count: usize) -> usize {
     (count * OF_KIND.0 / OF_KIND.1).max(FEW)
 }
 
 impl Room {
-    /// Returns the places for an order. A small set has one game per kernel; a larger one has more, since games of some
+    /// Returns the room for an order. A small set has one game per kernel. A larger set has more, because games of some
     /// kernels may fail. Kinds are limited by [`OF_KIND`]. If only some kinds are requested, there is no limit.
     fn of(order: &GameOrder) -> Room {
         let (count, kernels) = (order.count as usize, KernelGenome::kernels().count());
@@ -64,13 +64,13 @@ impl Room {
         Room { most, ..Room::default() }
     }
 
-    /// Returns `true` if there is a place for a game of this kernel and kind.
+    /// Returns `true` if there is room for a game of this kernel and kind.
     pub(crate) fn has_room(&self, kernel: &str, kind: &str) -> bool {
         let Some((of_family, of_kind)) = self.most else { return true };
         self.games_of(kernel) < of_family && self.of_kinds.get(kind).is_none_or(|&there| there < of_kind)
     }
 
-    /// Returns `true` if a game of the kernel may have this form, which requires that no other form has fewer games.
+    /// Returns `true` if a game of the kernel may have this form. No other form may have fewer games.
     pub(crate) fn is_open(&self, kernel: &str, form: Option<&str>) -> bool {
         let there = |form: Option<&str>| {
             let key = (kernel.to_owned(), form.map(str::to_owned));
@@ -98,7 +98,7 @@ impl Company {
         Company { room: Room::of(order), ..Company::default() }
     }
 
-    /// Returns the reason why a game cannot be admitted, whatever its levels are.
+    /// Returns the reason why a game cannot be admitted, regardless of its levels.
     pub(crate) fn objection(&self, candidate: &Candidate) -> Option<&'static str> {
         self.objection_to(&candidate.game, &candidate.title)
     }
@@ -166,7 +166,7 @@ impl Company {
     }
 }
 
-/// Returns the walls of a level, mirrored such that mirror images give the same result.
+/// Returns the walls of a level, mirrored so that mirror images give the same result.
 fn walls(level: &str) -> Vec<String> {
     let rows: Vec<String> = level
         .lines()

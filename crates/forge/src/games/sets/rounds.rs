@@ -1,4 +1,4 @@
-//! Sets of games that are made one by one, in short rounds: each round knows the games of all earlier rounds.
+//! Sets of games that are made one by one in short rounds. Each round knows the games of all earlier rounds.
 
 use super::company::{Company, Room};
 use crate::games::attempt::Attempted;
@@ -9,11 +9,11 @@ use generators::kernels::{KernelGenome, Turns};
 use rayon::prelude::*;
 use std::slice;
 
-/// The minimum and maximum number of attempts in a round. The resulting bytes depend on it.
+/// The minimum and maximum number of attempts in a round. The resulting bytes depend on these numbers.
 const ROUND: (usize, usize) = (8, 24);
 
 /// The number of attempts by which a kernel is postponed for each of its games. Kernels differ in how often they pass,
-/// so waiting for one must come to an end.
+/// so waiting for a kernel must come to an end.
 const TRIES_PER_GAME: u32 = 16;
 
 /// A kernel and its record.
@@ -28,7 +28,7 @@ struct Fared {
 pub(crate) struct Turn {
     /// The number of the attempt in the set.
     pub(crate) number: u32,
-    /// The game.
+    /// The game that is attempted.
     pub(crate) drawn: KernelGenome,
 }
 
@@ -36,7 +36,7 @@ pub(crate) struct Turn {
 struct Ledger(Vec<Fared>);
 
 impl Ledger {
-    /// Plans a round: kernels with the fewest games and attempts come first, no kernel occurs twice while others are
+    /// Plans a round. Kernels with the fewest games and attempts come first, no kernel occurs twice while others are
     /// left, and each game has a different scene if possible.
     fn plan(&mut self, maker: &Maker<'_>, company: &Company, size: usize, first: u32) -> Vec<Turn> {
         let mut room = company.room.clone();
@@ -60,7 +60,7 @@ impl Ledger {
         turns
     }
 
-    /// Returns the index of the kernel to try next, among the kernels that there is room for.
+    /// Returns the index of the kernel to try next, among the kernels with room for a game.
     fn next(&self, room: &Room) -> Option<usize> {
         let fared = self.0.iter().enumerate();
         let open = fared.filter(|(_, fared)| room.has_room(fared.kernel, fared.kind.name()));
@@ -76,8 +76,8 @@ impl Ledger {
 }
 
 impl Maker<'_> {
-    /// Makes short rounds of attempts on all threads, until there are enough games, no room for more, or no attempts
-    /// left.
+    /// Makes short rounds of attempts on all threads, until there are enough games, no room for more games, or no
+    /// attempts left.
     pub(crate) fn make_in_rounds(&self) -> GameSet {
         let (order, wanted) = (self.order, self.order.count as usize);
         let mut company = Company::of(order);
@@ -118,7 +118,7 @@ impl Maker<'_> {
         set
     }
 
-    /// Makes one attempt.
+    /// Makes one attempt of a round.
     fn make_in_turn(&self, turn: &Turn, company: &Company) -> Attempted {
         let mut attempted = Attempted::default();
         let seed = self.seed_of(turn.number);

@@ -1,5 +1,5 @@
-//! Sets of rules that are assigned in advance to games made independently of each other: no two sets are near, and each
-//! has its own names.
+//! Sets of rules that are assigned in advance to games made independently of each other. No two sets are near each
+//! other, and each set has its own names.
 
 use super::cast::Cast;
 use base::Seed;
@@ -10,44 +10,45 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 use validators::novelty::GameForm;
 
-/// Draws of numbers for each form of a kernel, with and without its variants.
+/// The number of draws of numbers for each form of a kernel, with and without its variants.
 const DRAWS: u64 = 10;
 
 /// The number of draws of different numbers for a game of a set.
 const REDRAWS: u64 = 4;
 
-/// The places that have spare sets, in turn with their own: as many as small releases have.
+/// The number of positions that have spare sets. Small releases have up to this many games.
 const SMALL: usize = 16;
 
-/// The number of spare sets of each of these places. They are taken from the end, which few other places reach.
+/// The number of spare sets of each of the first [`SMALL`] positions. Spare sets are taken from the end of the list,
+/// which few other positions reach.
 const SPARE: usize = 3;
 
 /// The number of draws of nouns for a set in each scene.
 const NAMINGS: u64 = 6;
 
-/// A set of rules: a kernel in one of its forms, with variants and numbers, under the nouns of a scene. Levels are open, and so
-/// are the numbers as far as a game does not come near to another set.
+/// A set of rules: a kernel in one of its forms, with variants and numbers, under the nouns of a scene. The levels are
+/// open. The numbers are open too, as long as a game does not come near another set.
 #[derive(Clone, Debug)]
 pub(crate) struct RuleSet {
     genome: KernelGenome,
     form: GameForm,
 }
 
-/// Sets of rules in the order of their turns: each kernel has one before any kernel has a second.
+/// Sets of rules in the order of their turns. Each kernel has one set before any kernel has a second.
 ///
-/// A place always has the same set, regardless of the number of places. Only the first set of each kernel is drawn at
-/// once. The others are drawn when they are needed, because most releases are small.
+/// A position always has the same set, regardless of the number of positions. Only the first set of each kernel is
+/// drawn at once. The others are drawn when they are needed, because most releases are small.
 #[derive(Clone, Debug)]
 pub struct RuleSets {
     draws: Draws,
-    /// The kernels in the order of their turns, each with all of its sets, under no names yet.
+    /// The kernels in the order of their turns. All sets of a kernel are still unnamed.
     kernels: Vec<(&'static str, OnceLock<Vec<RuleSet>>)>,
-    /// The first sets.
+    /// The first set of each kernel.
     opening: Vec<RuleSet>,
     all: OnceLock<Vec<RuleSet>>,
 }
 
-/// The way to the sets of a kernel.
+/// The inputs for drawing the sets of a kernel.
 #[derive(Clone, Debug)]
 struct Draws {
     seed: Seed,
@@ -65,7 +66,7 @@ fn form_of(genome: &KernelGenome) -> Option<GameForm> {
     Some(GameForm::of(&built(genome)?.0))
 }
 
-/// The sets of one kernel so far.
+/// The sets of one kernel found so far.
 struct OfKernel<'a> {
     known: &'a [GameForm],
     sets: Vec<RuleSet>,
@@ -91,12 +92,12 @@ impl Draws {
         (seed, all)
     }
 
-    /// Takes in sets until there are so many.
+    /// Adds sets until there are `most` sets or no draws are left.
     fn fill(&self, sets: &mut OfKernel<'_>, of_kernel: &(Seed, Vec<KernelGenome>), most: usize) {
         (0..DRAWS).for_each(|draw| self.draw(sets, of_kernel, draw, most));
     }
 
-    /// Adds the sets of one draw of numbers until there are `most`.
+    /// Adds the sets of one draw of numbers until there are `most` sets.
     fn draw(&self, sets: &mut OfKernel<'_>, (seed, all): &(Seed, Vec<KernelGenome>), draw: u64, most: usize) {
         let seed = seed.child("numbers", draw);
         for genome in all {
@@ -107,22 +108,22 @@ impl Draws {
         }
     }
 
-    /// The first set of a kernel; `None` if it has no other than known games.
+    /// Returns the first set of a kernel; `None` if all of its sets are near known games.
     fn first(&self, kernel: &str) -> Option<RuleSet> {
         let mut first = OfKernel { known: &self.known, sets: Vec::new() };
         self.fill(&mut first, &self.of_kernel(kernel), 1);
         first.sets.pop()
     }
 
-    /// All sets of a kernel.
+    /// Returns all sets of a kernel.
     fn all(&self, kernel: &str) -> Vec<RuleSet> {
         let mut sets = OfKernel { known: &self.known, sets: Vec::new() };
         self.fill(&mut sets, &self.of_kernel(kernel), usize::MAX);
         sets.sets
     }
 
-    /// The same sets under names of their own: no two share a title or most of a cast, and scenes take turns. Sets that there are no names
-    /// left for go.
+    /// Returns the sets under their own names. No two sets share a title or most of a cast, and scenes take turns. Sets
+    /// without any names left are dropped.
     fn named(&self, sets: Vec<RuleSet>) -> Vec<RuleSet> {
         let seed = self.seed.child("names", 0).child("sets", 0);
         let mut given = Given::default();
@@ -132,8 +133,9 @@ impl Draws {
 }
 
 impl RuleSets {
-    /// Draws the sets of these kinds that are not near to a `known` game. Cost: about a millisecond for each that is considered, and for
-    /// each of the names that are tried: some 100 for the first sets of all kernels, and some 900 for the others, once a place asks for them.
+    /// Draws the sets of these kinds that are not near a `known` game. Cost: about a millisecond per considered set and
+    /// per tried naming. There are some 100 of these for the first sets of all kernels, and some 900 for the other
+    /// sets, which are drawn on demand.
     pub fn draw(kinds: &[Kind], known: &[GameForm], seed: Seed) -> RuleSets {
         let draws = Draws { seed, known: known.to_vec() };
         let turns = Turns::draw(kinds, seed);
@@ -143,8 +145,9 @@ impl RuleSets {
         RuleSets { draws, kernels, opening, all: OnceLock::new() }
     }
 
-    /// The number of sets of these kinds that a mint can count on, whatever its seed: those of one draw of numbers that are near neither to
-    /// a `known` game nor to one of an `earlier` release. Cost: about a millisecond for each form of a kernel.
+    /// Returns the number of sets of these kinds that a mint can rely on with any seed. These are the sets from one
+    /// draw of numbers that are near neither a `known` game nor a game of an `earlier` release. Cost: about a
+    /// millisecond per form of a kernel.
     pub fn supply(kinds: &[Kind], known: &[GameForm], earlier: &[GameForm]) -> usize {
         let draws = Draws { seed: Seed::from_text("supply"), known: known.to_vec() };
         let of_kernel = |(kernel, _)| {
@@ -157,7 +160,7 @@ impl RuleSets {
         all.filter(|set| !earlier.iter().any(|game| set.form.is_near(game))).count()
     }
 
-    /// All sets, of which the opening is the beginning.
+    /// Returns all sets, which begin with the opening.
     fn all(&self) -> &[RuleSet] {
         self.all.get_or_init(|| {
             let of_kernels = self.kernels.iter().map(|of_kernel| self.of_kernel(of_kernel).to_vec());
@@ -165,12 +168,12 @@ impl RuleSets {
         })
     }
 
-    /// All sets of one of the kernels.
+    /// Returns all sets of one kernel.
     fn of_kernel<'a>(&self, (kernel, sets): &'a (&'static str, OnceLock<Vec<RuleSet>>)) -> &'a [RuleSet] {
         sets.get_or_init(|| self.draws.all(kernel))
     }
 
-    /// The set of a place, at a turn of it; `None` if there is none left.
+    /// Returns the set for a turn at a position; `None` if no set is left.
     pub(crate) fn of_place(&self, place: u32, turn: u32) -> Option<&RuleSet> {
         let (place, turn) = (place as usize, turn as usize);
         if let (0, Some(set)) = (turn, self.opening.get(place)) {
@@ -185,13 +188,13 @@ impl RuleSets {
         sets.get(at)
     }
 
-    /// Draws a game of a set, with different numbers unless they bring it near another set.
+    /// Draws a game of a set, with different numbers unless these bring the game near another set.
     pub(crate) fn draw_of(&self, set: &RuleSet, seed: Seed) -> KernelGenome {
         let mut drawn = (0..REDRAWS).map(|draw| set.genome.redrawn(seed.child("numbers", draw)));
         drawn.find(|genome| self.is_of(genome, set)).unwrap_or_else(|| set.genome.clone())
     }
 
-    /// Returns `true` if a game has the kernel of a set and is near none of that kernel's other sets.
+    /// Returns `true` if a game has the kernel of a set and is not near any other set of that kernel.
     fn is_of(&self, genome: &KernelGenome, own: &RuleSet) -> bool {
         let kernel = self.kernels.iter().find(|(kernel, _)| *kernel == genome.kernel());
         let sets = kernel.into_iter().flat_map(|of_kernel| self.of_kernel(of_kernel));
@@ -201,7 +204,7 @@ impl RuleSets {
     }
 }
 
-/// The names that sets have been given.
+/// The names that have been given to sets.
 #[derive(Default)]
 struct Given {
     titles: BTreeSet<String>,
@@ -212,7 +215,7 @@ struct Given {
 }
 
 impl Given {
-    /// Gives a set names of its own; returns `None` if there are no names left.
+    /// Gives a set its own names. Returns `None` if there are no names left.
     fn named(&mut self, set: RuleSet, seed: Seed) -> Option<RuleSet> {
         let mut scenes = set.genome.scenes();
         seed.child("scenes", 0).sampler().shuffle(&mut scenes);
@@ -241,7 +244,7 @@ impl Given {
     }
 }
 
-/// Orders the sets of kernels in rounds: each kernel has one set in every round, as long as it has more.
+/// Orders the sets of kernels in rounds. Each kernel has one set per round, as long as it has sets left.
 fn in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
     let mut left: Vec<_> = of_kernels.into_iter().map(Vec::into_iter).collect();
     let mut all = Vec::new();
@@ -327,7 +330,7 @@ mod tests {
             let there = RuleSets::draw(&kinds, &[], Seed::from_text(seed)).all().len();
             assert!((1..=there).contains(&supply), "{seed}: {supply} of {there}");
         }
-        // What earlier releases have used is not there again.
+        // Sets that earlier releases have used are no longer available.
         let used: Vec<GameForm> = SETS.all().iter().take(2).map(|set| set.form.clone()).collect();
         let left = RuleSets::supply(&kinds, &[], &used);
         assert!(left < supply, "{left} {supply}");

@@ -50,7 +50,7 @@ pub(super) fn diversity(
         .quantiles("nearest", "distance to the most similar one", &nearest)
 }
 
-/// Describes the distances to the game's own levels; `None` if it has none.
+/// Describes the distances to the game's own levels; `None` if the game has no levels of its own.
 pub(super) fn novelty(
     levels: &[SurveyedLevel],
     examples: &[SurveyedLevel],

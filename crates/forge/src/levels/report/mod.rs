@@ -1,7 +1,8 @@
-//! The one report of every level generator: the levels of a set, individually and together.
+//! The report on levels, which is the same for every generator: the levels of a set, individually and together.
 //!
-//! The report is a pure function of the levels and their verdicts: the same input gives the same bytes. It contains no
-//! times and no paths. The meaning of each figure, with its formula and source, is in `docs/how-to/generate-levels.md`.
+//! The report is a pure function of the levels and their verdicts, so the same input gives the same bytes. It contains
+//! no times and no paths. The meaning of each figure, with its formula and source, is in
+//! `docs/how-to/generate-levels.md`.
 
 mod control;
 mod likeness;
@@ -34,9 +35,9 @@ pub struct Sample<'a> {
     pub method: &'a str,
     /// The levels, in the order in which they were made.
     pub levels: &'a [SurveyedLevel],
-    /// The game's own levels, for comparison; empty if it has none.
+    /// The game's own levels, for comparison; empty if the game has no levels of its own.
     pub examples: &'a [SurveyedLevel],
-    /// The labels of levels made without a requested difficulty, which show what picking at random would give.
+    /// The labels of levels made without a requested difficulty. They show the result of picking levels at random.
     pub pool: &'a [Difficulty],
     /// The cost of making the levels, without judging them for the report.
     pub cost: &'a Tally,
@@ -46,9 +47,9 @@ pub struct Sample<'a> {
 /// levels for means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelSetReport {
-    /// The figures.
+    /// The figures about the set.
     pub set: SetReport,
-    /// The measures compared with those of the game's own levels; empty if it has none.
+    /// The measures compared with those of the game's own levels; empty if the game has no levels of its own.
     pub fits: Vec<Fit>,
     /// The distributions of the levels over pairs of measures.
     pub ranges: Vec<Range>,
@@ -57,7 +58,8 @@ pub struct LevelSetReport {
 }
 
 impl LevelSetReport {
-    /// Creates the report on a set. Cost: one comparison per pair of levels, on all threads; the rest is cheap.
+    /// Creates the report on a set. Cost: one comparison per pair of levels, on all threads. The remaining cost is
+    /// small.
     pub fn of(sample: &Sample<'_>) -> LevelSetReport {
         let Sample { analysis, method, levels, examples, pool, cost } = *sample;
         let (game, likeness) = (analysis.game(), LevelSimilarity::of(analysis));

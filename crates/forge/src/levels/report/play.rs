@@ -10,7 +10,7 @@ use validators::{Criterion, Ladder, Line, PlayerResult, Verdict, is_guard};
 /// The unit over which means are taken.
 const LEVEL: &str = "level";
 
-/// A measure compared with that of the game's own levels.
+/// A measure compared with the same measure of the game's own levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fit {
     /// `columns`, `rows`, or a measure of the layout.
@@ -163,7 +163,7 @@ pub(super) fn skill(levels: &[SurveyedLevel]) -> Option<Section> {
     Some(PlayerRate::add_all(section, ladders))
 }
 
-/// An interaction, and the levels that use it.
+/// An interaction, and the levels that use the interaction.
 #[derive(Serialize)]
 struct LineUse {
     /// The line, in canonical spelling.

@@ -20,13 +20,13 @@ pub const BINS: usize = 10;
 /// The positions of a set's levels in a pair of measures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Range {
-    /// The horizontal axis.
+    /// The measure on the horizontal axis.
     pub x: Axis,
-    /// The vertical axis.
+    /// The measure on the vertical axis.
     pub y: Axis,
-    /// The values of the levels that have both measures: x, then y.
+    /// The pairs of values, x then y, of the levels that have both measures.
     pub levels: Vec<[f64; 2]>,
-    /// The values of the game's own levels that have both measures.
+    /// The pairs of values of the game's own levels that have both measures.
     pub examples: Vec<[f64; 2]>,
     /// The number of levels in each cell: [`BINS`] rows, from the bottom, with [`BINS`] cells each.
     pub cells: Vec<Vec<u64>>,
@@ -34,7 +34,7 @@ pub struct Range {
     pub occupied: u64,
 }
 
-/// A measure, and the range of it that is shown.
+/// A measure, and the range of the measure that is shown.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
     /// The name of the measure.
@@ -46,8 +46,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Chooses the range of an axis. Fractions go from 0 to 1 (or from −1, if a difference is negative); counts go from
-    /// 0 to a round number that no value exceeds.
+    /// Chooses the range of an axis. Fractions range from 0 to 1, or from −1 if a difference is negative. Counts range
+    /// from 0 to a round number that no value exceeds.
     fn of(measure: &str, values: impl Iterator<Item = f64>) -> Axis {
         let (least, greatest) = values
             .fold((0.0, 0.0), |(least, greatest): (f64, f64), value| (least.min(value), greatest.max(value)));
@@ -77,7 +77,7 @@ fn above(value: f64) -> f64 {
 }
 
 impl Range {
-    /// Returns the pairs of [`PAIRS`] that the levels have, and whose values are not all 0.
+    /// Returns the pairs of [`PAIRS`] whose measures the levels have and whose values are not all 0.
     pub(super) fn all(levels: &[SurveyedLevel], examples: &[SurveyedLevel]) -> Vec<Range> {
         PAIRS.iter().filter_map(|&(x, y)| Range::of(x, y, levels, examples)).collect()
     }

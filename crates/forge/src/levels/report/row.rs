@@ -20,11 +20,11 @@ pub struct LevelRow {
     pub passes: bool,
     /// The first criterion that the level does not meet.
     pub obstacle: Option<Criterion>,
-    /// The answer of the search for a win: `solved`, `impossible` or `unknown`.
+    /// The result of the search for a win: `solved`, `impossible` or `unknown`.
     pub solved: &'static str,
-    /// The requested difficulty.
+    /// The requested difficulty; `None` if none was requested.
     pub asked: Option<Difficulty>,
-    /// The measured difficulty.
+    /// The measured difficulty; `None` if it was not measured.
     pub label: Option<Difficulty>,
     /// The ease measured by the ladder, from 0 to 1.
     pub ease: Option<f64>,
@@ -36,7 +36,7 @@ pub struct LevelRow {
     pub nearest: Option<f64>,
 }
 
-/// The names of the measures of play, in the order of the report; the measures of the board follow.
+/// The names of the measures of play, in the order of the report. The measures of the board follow.
 const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressure", "skill"];
 
 impl LevelRow {
@@ -75,8 +75,8 @@ impl LevelRow {
         }
     }
 
-    /// Returns the measured difficulty, with the requested one if it differs: `hard (asked: easy)`. Empty if neither is
-    /// known.
+    /// Returns the measured difficulty, with the requested difficulty if the two differ: `hard (asked: easy)`. The text
+    /// is empty if neither is known.
     pub fn difficulty(&self) -> String {
         match (self.label, self.asked) {
             (Some(label), Some(asked)) if label != asked => format!("{label} (asked: {asked})"),
@@ -87,7 +87,7 @@ impl LevelRow {
     }
 
     /// Describes the level in one line: `34 ticks (shortest), 12 pushes, length not passed`. If `proofs` is `true`, the
-    /// line says what is proved.
+    /// line states what is proved.
     pub fn remark(&self, proofs: bool) -> String {
         let ticks = match self.measures.get("ticks") {
             Some(ticks) if proofs && self.shortest.is_some() => format!("{ticks} ticks (shortest)"),

@@ -1,4 +1,4 @@
-//! Tests with a small set made by hand, whose figures are easy to count.
+//! Tests with a small hand-made set, whose figures are easy to count.
 
 use super::*;
 use crate::survey::LevelSurvey;
@@ -28,8 +28,8 @@ fn fared(player: &str, looks_ahead: bool, wins: u64) -> PlayerResult {
     }
 }
 
-/// Returns a level that is won by `steps` steps to the right, or not won if `steps` is 0, with invented verdicts of its
-/// judges.
+/// Returns a level that `steps` steps to the right win, with invented verdicts of its judges. If `steps` is 0, the
+/// level is not won.
 fn judged(game: &Game, text: &str, steps: usize, [random, weak, strong]: [u64; 3]) -> SurveyedLevel {
     let level = game.level(text).unwrap();
     let (mut episode, mut state) = Episode::begin(game, &level, Seed::from_text("made up"));
@@ -92,7 +92,7 @@ fn example() -> LevelSetReport {
     report(&levels, &examples, &pool)
 }
 
-/// The format of the report is stable: this test may change only with [`REPORT_FORMAT`], or with the meaning of a
+/// The format of the report is stable. This test may change only with [`REPORT_FORMAT`], or with the meaning of a
 /// figure.
 #[test]
 fn a_report_is_what_it_was() {
@@ -100,7 +100,7 @@ fn a_report_is_what_it_was() {
     assert_eq!(text, include_str!("golden.json"), "the report has moved; it reads\n{text}");
 }
 
-/// Parses the report as programs do.
+/// Parses the report like a program that reads it.
 fn read(report: &LevelSetReport) -> Json {
     serde_json::from_str(&report.set.to_json().unwrap()).unwrap()
 }
@@ -135,9 +135,9 @@ fn players_and_rules_are_summed_up() {
     let json = read(&example());
     let skill = &json["skill"];
     assert_eq!(skill["players"][2]["wins"]["count"], 8);
-    // The levels without a witness have no measures, and so no gap.
+    // The levels without a witness have no measures, and therefore no gap.
     assert_eq!(skill["wins"]["levels"], 2);
-    // Two players do equally well on the second level; if all players do, there is no order.
+    // Two players do equally well on the second level. If all players do equally well, there is no order.
     let order = &skill["order"];
     assert_eq!(order["levels"], 2);
     assert!(
@@ -168,7 +168,7 @@ fn asked_labels_stand_beside_random_picking() {
     assert_eq!(control["expressible"], json!([Difficulty::Easy, Difficulty::Medium, Difficulty::VeryHard]));
     let all = &control["all"];
     assert_eq!((counts(&all["exact"]), counts(&all["within_one"])[0]), ([1, 3], 3));
-    // In the pool of 4, 2, 1 and 1 levels have the label; 3, 3 and 1 have it or a neighbouring one.
+    // In the pool, 4, 2, 1 and 1 levels have the label, and 3, 3 and 1 levels have the label or a neighbouring one.
     let close = |key: &str, expect: f64| (all[key].as_f64().unwrap() - expect).abs() < 1e-12;
     assert!(close("random_exact", 1.0 / 3.0) && close("random_within_one", 7.0 / 12.0));
     let asked = report.set.tables.iter().find(|table| table.id == "asked").unwrap();

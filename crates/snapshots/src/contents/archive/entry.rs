@@ -8,7 +8,7 @@ use tar::{EntryType, Header};
 
 /// The size of a block, in bytes. A header takes one block, and contents are padded to whole blocks.
 pub(super) const BLOCK: usize = 512;
-/// The number of zero bytes at the end.
+/// The number of zero bytes at the end of an archive.
 pub(super) const END: usize = 2 * BLOCK;
 
 /// Returns the header of `item` in the release called `name`; `None` if the path is too long for a header.
@@ -25,7 +25,7 @@ pub(super) fn header(name: &str, item: &Item) -> Option<[u8; BLOCK]> {
     Some(*header.as_bytes())
 }
 
-/// Returns the number of zero bytes that follow a content of `size` bytes.
+/// Returns the number of zero bytes that follow `size` bytes of content.
 pub(super) fn padding(size: u64) -> usize {
     let rest = (size % BLOCK as u64) as usize;
     if rest == 0 { 0 } else { BLOCK - rest }
@@ -86,7 +86,7 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
     }
 }
 
-/// Describes how a header differs from those that [`header`] writes.
+/// Describes how a header differs from a header written by [`header`].
 pub(super) fn describe_difference(block: &[u8; BLOCK]) -> String {
     let header = Header::from_byte_slice(block);
     let kind = header.entry_type();

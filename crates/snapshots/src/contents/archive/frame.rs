@@ -66,8 +66,8 @@ pub(super) fn is_sealed(path: &Path) -> Result<bool, SnapshotError> {
     Ok(end.len() == SEAL_LENGTH && end.starts_with(&SEAL))
 }
 
-/// Decompresses the first block of the regular file at `path`, whatever tool compressed it; `None` if it cannot be
-/// decompressed.
+/// Decompresses the first block of the regular file at `path`, regardless of the tool that compressed the file;
+/// `None` if the block cannot be decompressed.
 ///
 /// # Errors
 /// Returns an error if the file cannot be opened.
@@ -87,7 +87,7 @@ pub(super) struct FrameWriter<'a> {
 }
 
 impl<'a> FrameWriter<'a> {
-    /// Starts a frame of `size` bytes.
+    /// Starts a frame for `size` bytes of content.
     pub(super) fn begin(file: &'a mut File, size: u64) -> io::Result<FrameWriter<'a>> {
         let mut encoder = zstd::Encoder::new(Hashed { inner: file, hasher: blake3::Hasher::new() }, LEVEL)?;
         encoder.window_log(u32::from(WINDOW_LOG))?;

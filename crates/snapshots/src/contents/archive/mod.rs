@@ -56,7 +56,7 @@ pub const MAX_RATIO: u64 = 200;
 /// The result of [`pack`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Packed {
-    /// The release's root.
+    /// The root of the packed release.
     pub root: Digest,
     /// The digest of the uncompressed bytes.
     pub digest: Digest,
@@ -77,9 +77,9 @@ pub struct Packed {
 /// Cost: two passes over the files, and enough memory for one of them.
 ///
 /// # Errors
-/// Returns an error if the folder is not a release or differs from its manifest; if the release exceeds the limits of
-/// an archive ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot represent; or if `out` exists or a file
-/// system operation fails.
+/// Returns an error if the folder is not a release or differs from its manifest. Also returns an error if the release
+/// exceeds the limits of an archive ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot represent, if
+/// `out` exists, or if a file system operation fails.
 pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
     refuse_unfinished(root)?;
     let integrity = check_integrity(root)?;
@@ -311,7 +311,7 @@ fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadab
     Ok((name.to_owned(), reader.file(size)?))
 }
 
-/// The path of a problem with the archive as a whole, until the archive's name replaces it.
+/// The placeholder path of a problem with the archive as a whole. The archive's name replaces the placeholder later.
 const WHOLE: &str = ".";
 
 /// A reason to stop reading early.
@@ -362,7 +362,7 @@ fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
     }
 }
 
-/// Reads the list of one part of the withheld files. Its size is the one that the header states.
+/// Reads the list of one part of the withheld files. The header states the list's size.
 fn read_list(
     reader: &mut FrameReader,
     manifest: &Manifest,

@@ -24,7 +24,7 @@ pub(super) fn bounded<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Valu
     Bounded { levels: MAX_NESTING, values: &Cell::new(MAX_VALUES) }.deserialize(deserializer)
 }
 
-/// The remaining budget: the levels below this value, and the values anywhere.
+/// The remaining budget: the number of levels below this value, and the number of values in the whole recipe.
 #[derive(Clone, Copy)]
 struct Bounded<'a> {
     levels: usize,
@@ -153,7 +153,7 @@ mod tests {
         refuse(&list("{}", MAX_VALUES / OBJECT), "more than 1048576 values");
     }
 
-    /// The releases that are kept as minted stay far below the bounds.
+    /// The recipes of the stored releases stay far below the bound on nesting.
     #[test]
     fn our_recipes_are_flat() {
         fn levels(value: &Value) -> usize {

@@ -1,4 +1,4 @@
-//! Checks that a manifest is sound in itself, except for its syntax, its root and the files.
+//! Checks that a manifest is consistent in itself, apart from its syntax, its root and the files.
 
 use super::{FORMAT, HEADER_LEAF, Manifest, OLDEST_FORMAT, SEALED_FORMAT};
 use crate::error::SnapshotError;
@@ -142,8 +142,8 @@ fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     Ok(())
 }
 
-/// Returns the bytes by which a path is sorted so that all entries of a folder are adjacent, ignoring case. The
-/// separator sorts before every other character.
+/// Returns the bytes that a path is sorted by. All entries of a folder are then adjacent, ignoring case, because
+/// the separator sorts before every other character.
 fn tree_order(path: &str) -> impl Iterator<Item = u8> {
     path.bytes().map(|byte| if byte == b'/' { 0 } else { byte.to_ascii_lowercase() })
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum ReleaseKind {
     /// The seed is in the recipe.
     Open,
-    /// The recipe holds a commitment to the seed, which is revealed later.
+    /// The recipe holds a commitment to the seed, and the seed is revealed later.
     Sealed,
 }
 

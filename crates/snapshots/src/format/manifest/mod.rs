@@ -5,15 +5,15 @@
 //!
 //! - one leaf per item, which is every file of the release except `MANIFEST.json` itself, at its path;
 //! - from format 3 on, one leaf for each list of withheld files instead of leaves for these files;
-//! - one leaf at the reserved path `MANIFEST` ([`HEADER_LEAF`]; no file of that name may exist), whose digest is the
-//!   BLAKE3 of the [canonical JSON](crate::canonical) of the *header*: an object of the manifest's fields `canary`,
-//!   `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe`, `semantics` and, from format 2 on,
-//!   `version`, with `null` for a missing parent or commitment.
+//! - one leaf at the reserved path `MANIFEST` ([`HEADER_LEAF`]), which no file may have. Its digest is the BLAKE3 of
+//!   the [canonical JSON](crate::canonical) of the *header*. The header is an object of the manifest's fields
+//!   `canary`, `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe`, `semantics` and, from format
+//!   2 on, `version`, with `null` for a missing parent or commitment.
 //!
-//! The root does not cover `items` (the tree is built from them), their sizes (a digest fixes the size), `root`
-//! itself and `lockfile`, which is provenance only: two builds with the same semantics mint the same release.
-//! `checksum` protects the sizes and the lock file against accidents. It does not protect against attackers and must
-//! not be relied on.
+//! The root does not cover four fields. `items` and their sizes need no cover, because the tree is built from the
+//! items, and a digest fixes the size. `root` itself cannot be covered. `lockfile` is provenance only, because two
+//! builds with the same semantics mint the same release. `checksum` protects the sizes and the lock file against
+//! accidents, but not against attackers.
 
 mod bounded;
 mod check;
@@ -35,8 +35,8 @@ use std::collections::BTreeSet;
 
 /// The snapshot format of open releases.
 pub const FORMAT: u32 = 2;
-/// The snapshot format of sealed releases, and the newest that this crate reads. It [hides](crate::withhold) the
-/// withheld files, which sealed releases of earlier formats listed.
+/// The snapshot format of sealed releases, which is the newest format that this crate reads. It
+/// [hides](crate::withhold) the withheld files, which sealed releases of earlier formats listed.
 pub const SEALED_FORMAT: u32 = 3;
 /// The oldest snapshot format that this crate reads. Its manifests state no version.
 pub(crate) const OLDEST_FORMAT: u32 = 1;
@@ -63,7 +63,7 @@ pub struct Manifest {
     /// bytes.
     pub generation: u32,
     /// The [version](crate::format::version) that minted the release, such as `0.12.0`. It is the first version of
-    /// its generation, even if a later one was used. `None` in format 1.
+    /// its generation, even if a later version was used. `None` in format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
     /// The root of the previous release; `None` for the first release.
@@ -74,7 +74,7 @@ pub struct Manifest {
     pub commitment: Option<Digest>,
     /// The digest of the minting binary's `Cargo.lock`. It is provenance only and not under the root.
     pub lockfile: Digest,
-    /// The complete recipe.
+    /// The complete recipe of the release.
     #[serde(deserialize_with = "bounded::bounded")]
     pub recipe: Value,
     /// Every file except `MANIFEST.json`, sorted by the bytes of the path. From format 3 on, withheld files are not
@@ -85,8 +85,8 @@ pub struct Manifest {
     pub withheld: Option<Withheld>,
     /// The root of the tree over the items and the header.
     pub root: Digest,
-    /// The BLAKE3 of the digits of `root`, of `lockfile` and of each item's size, with a line feed after each, which
-    /// detects a change of any byte of the manifest.
+    /// A checksum that detects a change of any byte of the manifest. It is the BLAKE3 of the digits of `root`, of
+    /// `lockfile` and of each item's size, with a line feed after each.
     pub checksum: Digest,
 }
 
@@ -123,7 +123,8 @@ impl Manifest {
         self.items.iter().chain(self.disclosed())
     }
 
-    /// Returns the known withheld files: lists, and the files that they list. Empty before format 3.
+    /// Returns the known withheld files, which are the lists and the files that they list. The result is empty before
+    /// format 3.
     pub(crate) fn disclosed(&self) -> &[Item] {
         self.withheld.as_ref().map_or(&[], |withheld| &withheld.disclosed)
     }
@@ -153,7 +154,7 @@ impl Manifest {
         self.withheld.as_ref().is_some_and(|withheld| !withheld.knows(part))
     }
 
-    /// Returns `true` if any files are withheld whose paths are unknown too.
+    /// Returns `true` if any withheld files are hidden, so that not even their paths are known.
     pub fn is_hiding(&self) -> bool {
         HeldPart::ALL.into_iter().any(|part| self.hides(part))
     }
@@ -192,8 +193,8 @@ impl Manifest {
         Ok(leaves)
     }
 
-    /// Sorts the items, and computes the root and the checksum. Call this last, because a later change of any field
-    /// invalidates the root or the checksum.
+    /// Sorts the items, and computes the root and the checksum. Call this function last, because a later change to
+    /// any field invalidates the root or the checksum.
     ///
     /// # Errors
     /// Returns an error if two items have the same path, an item has the path [`HEADER_LEAF`], or the recipe has no
@@ -205,7 +206,8 @@ impl Manifest {
         Ok(())
     }
 
-    /// Computes the checksum from the root, the lock file and the sizes. It may differ from the stated one.
+    /// Computes the checksum from the root, the lock file and the sizes. The result may differ from the stated
+    /// checksum.
     pub(crate) fn computed_checksum(&self) -> Digest {
         let mut text = format!("{}\n{}\n", self.root, self.lockfile);
         for item in &self.items {
@@ -214,7 +216,7 @@ impl Manifest {
         Digest::of(text.as_bytes())
     }
 
-    /// Computes the root from the header and the items. It may differ from the stated one.
+    /// Computes the root from the header and the items. The result may differ from the stated root.
     ///
     /// # Errors
     /// See [`Manifest::seal_root`].
@@ -222,14 +224,18 @@ impl Manifest {
         Ok(merkle::root(&self.leaves()?)?)
     }
 
-    /// Reads a manifest and checks everything that can be checked without the files, except its root.
+    /// Reads a manifest and checks everything that can be checked without the files, except the root.
     /// [`check_integrity`](crate::check_integrity) reports a wrong root together with the problems of the files.
     ///
     /// # Errors
-    /// Returns an error if the manifest is too large, has a different format, or is not JSON of this shape; if its
-    /// items are unsorted, duplicate, reserved, too large, too many, equal except for case, or have unsafe paths; if
-    /// its name or canary is malformed; if a commitment is missing or unexpected; or if its recipe nests too deeply
-    /// or holds too many values.
+    /// Returns an error in each of these cases:
+    ///
+    /// - The manifest is too large, has a different format, or is not JSON of this shape.
+    /// - The items are unsorted, duplicate, reserved, too large, too many, equal except for case, or have unsafe
+    ///   paths.
+    /// - The name or the canary is malformed.
+    /// - A commitment is missing or unexpected.
+    /// - The recipe nests too deeply or holds too many values.
     pub fn parse(bytes: &[u8]) -> Result<Manifest, SnapshotError> {
         if bytes.len() as u64 > MANIFEST_LIMIT {
             return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
@@ -249,8 +255,8 @@ impl Manifest {
     /// manifest.
     ///
     /// # Errors
-    /// Returns an error if `parse` would reject the manifest, or if the root or checksum differs from the computed
-    /// one.
+    /// Returns an error if `parse` would reject the manifest, or if its root or checksum differs from the computed
+    /// value.
     pub fn to_bytes(&self) -> Result<Vec<u8>, SnapshotError> {
         check::check(self)?;
         bounded::bounded(&self.recipe).map_err(|error| check::unsound(error.to_string()))?;
@@ -269,7 +275,8 @@ impl Manifest {
         Ok(bytes)
     }
 
-    /// Returns `true` if these bytes are the text of this manifest in this format, without building a second text.
+    /// Returns `true` if these bytes are the text of this manifest in this format. The comparison does not build a
+    /// second text.
     ///
     /// # Errors
     /// Returns an error if the recipe has no canonical JSON.
@@ -283,8 +290,8 @@ impl Manifest {
     }
 }
 
-/// Returns `true` if a manifest's root matches the format that its fields imply, whatever version it states. The root
-/// covers the version, so no release of a different format has this root.
+/// Returns `true` if a manifest's root matches the format that its fields imply, regardless of the stated version.
+/// The root covers the version, so no release of a different format has this root.
 fn commits_to_known_format(bytes: &[u8]) -> bool {
     let Ok(mut manifest) = serde_json::from_slice::<Manifest>(bytes) else { return false };
     manifest.format = check::shape(&manifest);

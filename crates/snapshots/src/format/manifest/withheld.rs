@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Withheld {
-    /// The digest of the list of wins that can be revealed before the rest.
+    /// The digest of the list of wins that can be revealed before the other withheld files.
     pub solutions: Digest,
     /// The digest of the list of all other withheld files.
     pub rest: Digest,
@@ -71,8 +71,9 @@ impl Withheld {
 /// The part of the withheld files to reveal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reveal {
-    /// All withheld files.
+    /// All withheld files are revealed.
     All,
-    /// The published coin wins. The withheld wins, siblings, reference results and the secret stay withheld.
+    /// The published coin wins are revealed. The withheld wins, siblings, reference results and the secret stay
+    /// withheld.
     Solutions,
 }

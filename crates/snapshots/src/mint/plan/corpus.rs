@@ -1,4 +1,5 @@
-//! The corpus: hand-written games that releases make new levels for, and that commands accept by name.
+//! The corpus of hand-written games. Releases contain new levels for corpus games, and commands accept corpus
+//! games by name.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +15,7 @@ pub struct CorpusCard {
     pub goal: String,
     /// The kind of game.
     pub kind: String,
-    /// `true` if anything moves while the player does not act.
+    /// `true` if anything moves while the player does nothing.
     pub real_time: bool,
     /// The skill that the game requires.
     pub skill: String,
@@ -26,7 +27,7 @@ pub struct CorpusCard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Intent {
-    /// The thing that the level teaches or tests.
+    /// A description of what the level teaches or tests.
     pub intent: String,
 }
 
@@ -39,12 +40,12 @@ pub struct CorpusGame {
     pub source: String,
     /// The contents of `lvl0.txt`, `lvl1.txt` …
     pub levels: Vec<String>,
-    /// The parsed `CARD.toml`.
+    /// The game's card, parsed from `CARD.toml`.
     pub card: CorpusCard,
 }
 
 impl CorpusGame {
-    /// Makes a game of these texts. `card` is the text of its `CARD.toml`.
+    /// Creates a game from these texts. `card` is the text of the game's `CARD.toml`.
     ///
     /// # Errors
     /// Returns a message that names the game if the card is malformed.
@@ -54,7 +55,7 @@ impl CorpusGame {
     }
 }
 
-/// All corpus games.
+/// A collection of all corpus games.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Corpus {
     /// The games, sorted by name.

@@ -1,4 +1,4 @@
-//! The cost of a mint before it begins.
+//! The forecast of a mint's cost.
 
 use super::{Job, Plan};
 use crate::sections::SECTIONS;
@@ -7,7 +7,7 @@ use crate::sections::section::JobCost;
 use validators::{Criteria, Criterion, CriterionSet};
 
 /// The mean cost of a job per requested level, in seconds of one core: without gates or `skill`, with gates (as in
-/// `starter`), and with both (as in `medium` and `2026-12`). Of inventions, only the third cost is measured, on 15
+/// `starter`), and with both (as in `medium` and `2026-12`). For inventions, only the third cost is measured, on 15
 /// games. The first two are guesses.
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
 const INVENTED: [f64; 3] = [8.0, 30.0, 35.0];
@@ -16,23 +16,23 @@ const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
 /// the cost comes from failed searches, whose cost is proportional to their budget in calls.
 const PLAIN: f64 = 2.0;
 const PLAIN_BUDGET: f64 = 3e6;
-/// The fraction of that cost which does not depend on the budget.
+/// The fraction of [`PLAIN`] that does not depend on the budget.
 const FIXED: f64 = 0.2;
-/// The mean cost of measuring the difficulty of a level without gates. With gates, few levels get that far.
+/// The mean cost of measuring the difficulty of a level without gates. With gates, few levels reach this measurement.
 const LADDER: f64 = 0.8;
 /// The spread of a job's cost across seeds: the standard deviation as a multiple of the mean. Without gates, a few
-/// failed searches dominate; with gates, every candidate is searched many times.
+/// failed searches dominate the cost. With gates, every candidate is searched many times.
 const SPREAD_PLAIN: f64 = 1.9;
 const SPREAD_GATED: f64 = 0.7;
 const SPREAD_FIXED_RULES: f64 = 0.8;
-/// The spread that all jobs of a mint share, because these costs were measured with a few recipes on one machine.
+/// The spread that all jobs of a mint share, because their costs were measured with a few recipes on one machine.
 const SPREAD_SHARED: f64 = 0.15;
 /// The standard normal deviate of the 95th percentile.
 const NINETY_FIVE: f64 = 1.645;
 /// The call budget of a search for a win at which the costs with gates were measured.
 const GATED_BUDGET: f64 = 1e6;
 
-/// The expected cost of some jobs, in seconds of one core.
+/// The expected cost of several jobs, in seconds of one core.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forecast {
     /// The median over all seeds.
@@ -42,7 +42,7 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// Returns the forecast for a machine that is slower by this factor.
+    /// Returns the forecast for a machine that is slower by the factor `slowness`.
     pub fn times(self, slowness: f64) -> Forecast {
         Forecast { median: self.median * slowness, tail: self.tail * slowness }
     }

@@ -34,7 +34,7 @@ use validators::{CheckedCriteria, Criteria, Criterion, Effort, Panel};
 /// A recipe with all the data that minting needs.
 #[derive(Debug)]
 pub struct Plan<'a> {
-    /// The recipe.
+    /// The recipe to mint.
     pub recipe: &'a Recipe,
     pub(super) seed: Seed,
     corpus: &'a Corpus,
@@ -50,7 +50,7 @@ pub struct Plan<'a> {
     corpus_criteria: CheckedCriteria,
     /// The rules of new games, divided among the jobs. They are drawn when the first job needs them.
     sets: OnceLock<RuleSets>,
-    /// The reference players.
+    /// The reference players; `None` if they are not set.
     players: Option<&'a dyn MarkPlayers>,
 }
 
@@ -67,8 +67,8 @@ pub enum Job {
     Puzzle(PuzzleKind, u32),
 }
 
-/// The further judges of a game ([`GameEffort::judges`]): fewer than `arcade generate games` has. The candidates of a month are few more
-/// than its games.
+/// The number of additional judges of a game ([`GameEffort::judges`]). It is lower than in `arcade generate games`,
+/// because a month has hardly more candidates than games.
 const JUDGES: u64 = 3;
 
 impl<'a> Plan<'a> {
@@ -144,7 +144,7 @@ impl<'a> Plan<'a> {
         old.into_iter().chain(new).collect()
     }
 
-    /// Returns the name of a job, which is suitable as a file name.
+    /// Returns the name of a job, which can serve as a file name.
     pub fn name(&self, job: Job) -> String {
         match job {
             Job::Constructive(number) => format!("constructive-{number}"),
@@ -166,10 +166,10 @@ impl<'a> Plan<'a> {
     }
 
     /// Returns the digest of everything that determines the results of the jobs. Two plans with the same digest share
-    /// their results, whatever else their recipes request.
+    /// their results, even if their recipes differ in other respects.
     ///
     /// # Errors
-    /// Never fails for a checked recipe.
+    /// Returns no error for a checked recipe.
     pub fn digest(&self) -> Result<Digest, SnapshotError> {
         let Recipe { seed, commitment, corpus, generated, board, criteria, .. } = self.recipe;
         let mut decisive = serde_json::json!({
@@ -196,7 +196,7 @@ impl<'a> Plan<'a> {
         Ok(canonical_digest(&decisive)?)
     }
 
-    /// The candidates for new games of kernels.
+    /// Returns the candidates for new games of kernels.
     fn generated(&self) -> impl Iterator<Item = Job> + use<> {
         let part = &self.recipe.generated;
         (0..candidates(part.games, part.candidates)).map(Job::Constructive)
@@ -295,7 +295,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// A game of a kernel.
+    /// Makes a game of a kernel.
     fn draw(&self, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
         let order = self.order(self.recipe.generated.game_tries);
         let (made, tally) = make_one(&order, self.rule_sets(), &self.forms, seed, number);
@@ -317,7 +317,7 @@ impl<'a> Plan<'a> {
         (made.into_iter().collect(), tally)
     }
 
-    /// The rules of new games: jobs know nothing of each other, so what they make has to differ beforehand.
+    /// Returns the rules of new games. Jobs run independently, so their rules must be made different beforehand.
     pub(super) fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
             let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
@@ -341,7 +341,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Makes a corpus game under a new theme, with new levels like its own.
+    /// Makes a corpus game under a new theme, with new levels that resemble the game's own.
     fn new_levels(&self, at: usize, seed: &SeedPath) -> (Vec<MadeGame>, Tally) {
         let (recipe, known) = (self.recipe, &self.corpus.games[at]);
         let mut tally = Tally::default();
@@ -385,11 +385,11 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The number of attempts at a corpus game whose levels leave a rule unused, after which further levels would hardly
-/// use it.
+/// The maximum number of attempts at a corpus game whose levels leave a rule unused. After that many attempts, further
+/// levels would hardly use the rule.
 const UNUSED: u64 = 3;
 
-/// Returns the number of candidates for a number of games.
+/// Returns the number of candidates for a given number of games.
 fn candidates(games: u32, each: f64) -> u32 {
     // At most 20 times 10,000, so there is no rounding error.
     (f64::from(games) * each).ceil() as u32
@@ -402,7 +402,8 @@ mod tests {
     use crate::mint::tests::{FETCH, corpus, recipe};
     use validators::{CriterionSet, Difficulty};
 
-    /// Published episodes differ from those that a level was accepted or selected for, because those were lucky.
+    /// Published episodes differ from the episodes that a level was accepted or selected for, because those episodes
+    /// were lucky.
     #[test]
     fn the_ladder_plays_again_for_the_card() {
         let corpus = corpus(&[("fetch", FETCH)]);

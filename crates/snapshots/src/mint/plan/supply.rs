@@ -8,16 +8,17 @@ use forge::games::RuleSets;
 use forge::well::left;
 use validators::novelty::GameForm;
 
-/// The number of games for which the first rule sets of all kernels suffice, without counting them.
+/// The number of games up to which the first rule sets of all kernels suffice, so that the rule sets need not be
+/// counted.
 const FEW: usize = 40;
 
-/// The number of rule sets that one invented game takes. Nine of ten have no boards that pass, and near-copies among
-/// the candidates of a month are dropped.
+/// The number of rule sets that one invented game uses up. Nine of ten rule sets have no boards that pass, and
+/// near-copies among the candidates of a month are dropped.
 const SETS_OF_A_GAME: f64 = 16.0;
 
 impl Plan<'_> {
-    /// Checks that there are enough rule sets for the number of games that the recipe requests, whatever its seed. If
-    /// the recipe requests most of the possible new games, returns their maximum number: some candidates fail, so
+    /// Checks that there are enough rule sets for the requested number of games, with any seed. If the recipe
+    /// requests most of the possible new games, returns the maximum number of new games. Some candidates fail, so
     /// fewer games may pass than requested.
     ///
     /// Cost: a fraction of a second if the recipe requests more games than there are kernels.
@@ -105,8 +106,8 @@ impl Plan<'_> {
     }
 }
 
-/// Checks that this number of rule sets suffices for the invented games of a recipe. Returns their maximum number if
-/// the recipe requests most of them.
+/// Checks that the given number of rule sets suffices for the invented games of a recipe. Returns the maximum number
+/// of invented games if the recipe requests most of them.
 fn invented_of(sets: f64, asked: usize, is_later: bool) -> Result<Option<usize>, MintError> {
     let most = (sets / SETS_OF_A_GAME) as usize;
     if most >= asked {

@@ -1,10 +1,10 @@
 //! Papers: documents that accompany a release without being part of it, such as the licence, the citation, the
 //! datasheet, errata, and the publisher's additions.
 //!
-//! They lie in `papers/`, beside the hashed tree and outside the manifest, because a DOI or an erratum comes after
-//! the root is fixed. Nothing in them is therefore proved. They are bounded, and links and unsafe names are rejected
-//! as everywhere else. Entries that other programs leave at the top of a folder (`.git`, `.DS_Store`) are skipped and
-//! reported.
+//! Papers lie in `papers/`, beside the hashed tree and outside the manifest, because a DOI or an erratum comes after
+//! the root is fixed. The root therefore proves nothing about papers. The size of papers is bounded, and links and
+//! unsafe names are rejected as everywhere else. Entries that other programs leave at the top of a folder (`.git`,
+//! `.DS_Store`) are skipped and reported.
 
 mod datasheet;
 
@@ -90,7 +90,7 @@ struct Names {
 }
 
 impl Names {
-    /// Reads the names in a manifest's recipe. If they do not have the expected form, they are left empty.
+    /// Reads the names in a manifest's recipe. Names that do not have the expected form are left empty.
     fn of(manifest: &Manifest) -> Names {
         serde_json::from_value(manifest.recipe.clone()).unwrap_or_default()
     }
@@ -108,7 +108,7 @@ fn quoted(text: &str) -> String {
     for character in text.chars() {
         match character {
             '"' | '\\' => quoted.extend(['\\', character]),
-            // These are line breaks in YAML, or characters that it does not allow.
+            // These characters are line breaks in YAML, or not allowed in YAML.
             '\u{2028}' | '\u{2029}' | '\u{feff}' => quoted += &format!("\\u{:04x}", character as u32),
             _ if character.is_control() => quoted += &format!("\\u{:04x}", character as u32),
             _ => quoted.push(character),

@@ -1,4 +1,4 @@
-//! Checks of reference results against their request, the cards of the games and their own numbers. No episode is
+//! Checks of reference results against the recipe's request, the cards of the games and each other. No episode is
 //! replayed.
 
 use super::{Falls, GameMarks, LevelMarks, Marks, MarksPart, Wins, rates};
@@ -82,7 +82,7 @@ fn of_game(game: &GameMarks, card: &Card, asked: &MarksPart) -> Option<String> {
     numbers_problem(&wins, asked).map(|what| format!("`{}`: {what}", game.id))
 }
 
-/// Returns the fault of the reference results of a game in the result of a job, as a sentence.
+/// Returns a sentence about the fault of a game's reference results in the result of a job; `None` if they are sound.
 pub(super) fn shape_problem(wins: &[Wins], levels: usize, asked: Option<&MarksPart>) -> Option<String> {
     let Some(asked) = asked else {
         return (!wins.is_empty()).then(|| "marks that the recipe does not ask for".to_owned());

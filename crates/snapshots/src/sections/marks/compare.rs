@@ -12,9 +12,9 @@ pub struct MarkDifference {
     /// The tier; `None` for all levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
-    /// The player.
+    /// The reference player.
     pub player: String,
-    /// The commitment.
+    /// The number of actions that the player commits to at each look.
     pub commit: Commitment,
     /// The win rate in the first release.
     pub ours: Clustered,
@@ -27,7 +27,7 @@ pub struct MarkDifference {
 }
 
 /// Returns the differences between the reference results that both releases have, in the order of [`Marks::rates`].
-/// Empty if the episodes of the two releases have different limits, and so cannot be compared.
+/// The result is empty if the episodes of the two releases have different limits, and so cannot be compared.
 pub fn mark_differences(ours: &Marks, theirs: &Marks) -> Vec<MarkDifference> {
     if ours.asked.max_steps != theirs.asked.max_steps {
         return Vec::new();

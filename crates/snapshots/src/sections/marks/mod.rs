@@ -1,4 +1,4 @@
-//! Marks, which are reference results: how players that never change perform on the levels of a release. They are
+//! Marks, which are reference results: the results of players that never change on the levels of a release. They are
 //! kept in the release, to compare other players with.
 //!
 //! The recipe specifies the players, which play each level with each commitment when the release is minted. Their
@@ -33,24 +33,28 @@ pub const MARKS_FILE: &str = "MARKS.json";
 /// The version of the file's format.
 pub const MARKS_FORMAT: u32 = 1;
 
-/// The upper bounds of a request: players, episodes of each player on a level with one commitment, actions per
-/// episode, forward-model calls per decision and per plan.
+/// The maximum number of reference players that a recipe can request.
 const MOST_PLAYERS: usize = 16;
+/// The maximum number of episodes per player, commitment and level.
 const MOST_PLAYS: u64 = 20;
+/// The maximum number of actions per episode that a recipe can request.
 const MOST_STEPS: u64 = 2000;
+/// The maximum number of forward-model calls per decision that a recipe can request.
 const MOST_CALLS: u64 = 2000;
+/// The maximum number of forward-model calls per plan that a recipe can request.
 const MOST_PLAN_CALLS: u64 = 100_000;
 
-/// The fraction of the maximum number of actions that an episode takes on average, and the cost of a forward-model
-/// call and of a prompt with its answer, in seconds.
+/// The fraction of the maximum number of actions that an episode takes on average.
 const PLAYED: f64 = 0.5;
+/// The cost of a forward-model call, in seconds.
 const CALL: f64 = 1e-6;
+/// The cost of a prompt with its answer, in seconds.
 const PROMPT: f64 = 3e-3;
 
-/// The planner that searches for whole plans, and the fraction of its call budget that an action costs. In stochastic
-/// games, a ten-tick plan gets a tenth of the calls; in deterministic games, the planner searches for only a few
-/// plans per episode.
+/// The planner that searches for whole plans.
 const PLANNING: &str = "systematic";
+/// The fraction of the call budget of [`PLANNING`] that an action costs. In stochastic games, a ten-tick plan
+/// gets a tenth of the calls. In deterministic games, the planner searches for only a few plans per episode.
 const PLANNED: f64 = 0.01;
 
 /// The player that ignores the rules and reads no prompts.
@@ -132,10 +136,10 @@ impl MarksPart {
     }
 }
 
-/// The interface for playing the reference players, which are implemented in the evaluation crate that this crate
-/// does not depend on.
+/// The interface for playing the reference players. The evaluation crate implements it, because this crate does not
+/// depend on the evaluation crate.
 pub trait MarkPlayers: Sync + Debug {
-    /// Checks that there is a player of this name.
+    /// Checks that there is a player with this name.
     ///
     /// # Errors
     /// Returns a message if there is no such player.
@@ -198,9 +202,9 @@ pub struct MarkRate {
     /// The tier; `None` for all levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
-    /// The player.
+    /// The reference player.
     pub player: String,
-    /// The commitment.
+    /// The number of actions that the player commits to at each look.
     pub commit: Commitment,
     /// The number of levels.
     pub levels: u64,
@@ -209,7 +213,7 @@ pub struct MarkRate {
 }
 
 impl Marks {
-    /// Combines the reference results of games.
+    /// Combines the reference results of several games.
     pub(crate) fn of(canary: &str, asked: &MarksPart, mut games: Vec<GameMarks>) -> Marks {
         games.sort_by(|one, other| one.id.cmp(&other.id));
         let (rates, falls) = (rates(asked, &games), Falls::of(asked, &games));
@@ -352,7 +356,7 @@ pub(crate) mod tests {
         check(&marks("commits = ['none']"), "`marks.commits` takes distinct values from \"1\", \"2\"");
         check(&marks("commits = ['7']"), "unknown variant `7`");
         check(&marks("games = 3"), "unknown field `games`");
-        // Recipes that request none keep their bytes.
+        // Recipes that request no reference results keep their bytes.
         assert!(serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap().get("marks").is_none());
     }
 }

@@ -11,11 +11,12 @@ use validators::{Commitment, Tier};
 pub struct Falls {
     /// The decreases from each tier to the next existing tier, over all commitments.
     pub tiers: Vec<Fall<Tier>>,
-    /// The decreases from each commitment to the next, over all levels.
+    /// The decreases from each commitment to the next one, over all levels.
     pub commits: Vec<Fall<Commitment>>,
 }
 
-/// The difference of two win rates, paired over games. Each game counts once, and its difficulty cancels.
+/// The difference between two win rates, paired over games. Each game counts once, and the difficulty of a game
+/// cancels out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fall<T> {
@@ -30,9 +31,9 @@ pub struct Fall<T> {
     pub games: u64,
     /// The mean over these games of the win rate on the levels of each kind.
     pub rates: [f64; 2],
-    /// The first rate minus the second.
+    /// The first rate minus the second rate.
     pub fall: f64,
-    /// The 95% interval of the decrease, for such games.
+    /// The 95% interval of the decrease, with such games as the sampling unit.
     pub interval: [f64; 2],
 }
 
@@ -121,8 +122,8 @@ mod tests {
     #[test]
     fn falls_are_paired_over_games() {
         let ids = ["a", "b", "c", "d", "e", "f"];
-        // On tier 1 both players win all episodes. On tier 4 the second player wins half of them, and in every other
-        // game none with `all`.
+        // On tier 1, both players win all episodes. On tier 4, the second player wins half of its episodes, except
+        // that it wins none with `all` in every other game.
         let marks = marks(&ids, |game, tier| match tier {
             Tier::One => vec![vec![2, 2], vec![2, 2]],
             _ => vec![vec![0, 0], vec![1, (game % 2) as u64]],

@@ -65,7 +65,7 @@ fn falls<'a, T: Copy + 'a>(
     }
 }
 
-/// Formats a fraction in whole percent, without a sign of zero.
+/// Formats a fraction in whole percent, without a minus sign for zero.
 fn percent(share: f64) -> String {
     let text = format!("{:.0}", 100.0 * share);
     if text == "-0" { "0".to_owned() } else { text }

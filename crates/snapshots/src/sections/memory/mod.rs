@@ -1,5 +1,6 @@
-//! Coins for tests of memory. Two things are made that only a player who knows the published one can distinguish. A
-//! coin publishes one of them, and the release commits to the other ([the tests](../../../../../docs/how-to/memory.md)).
+//! Coins for tests of memory. Mint makes two things that only a player who knows the published one can distinguish. A
+//! coin publishes one of the two, and the release commits to the other ([the
+//! tests](../../../../../docs/how-to/memory.md)).
 //!
 //! The two things are renamings of a game (siblings), or wins of a level. The coin of a pair is drawn from the
 //! release's secret and the smaller of the two digests, so it depends neither on the order in which the two were made
@@ -20,14 +21,15 @@ use base::{Digest, Seed, SeedStep};
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// The number of actions by which wins are distinguished. Players that know a published win begin like it.
+/// The number of actions by which wins are distinguished. A player that knows a published win begins with the same
+/// actions.
 pub const PREFIX: usize = 10;
 
 /// A sibling of a game, which has the same rules and levels under different names.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sibling {
-    /// The title.
+    /// The title of the sibling.
     pub title: String,
     /// The rules, headed by the title.
     pub text: String,
@@ -39,7 +41,7 @@ pub struct Sibling {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SecondWin {
-    /// The episode.
+    /// The winning episode.
     pub episode: Episode,
     /// The steps from the release's root seed to the episode's seed.
     pub path: Vec<SeedStep>,
@@ -76,11 +78,11 @@ mod tests {
         check(&format!("{GOOD}[memory]\nsibling = true"), "unknown field `sibling`");
         let part = Recipe::to_commit(&format!("{GOOD}[memory]\nsiblings = false")).unwrap().memory;
         assert_eq!(part, Some(MemoryPart { siblings: false, witnesses: true }));
-        // Recipes that request none keep their bytes.
+        // Recipes that request no pairs keep their bytes.
         assert!(serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap().get("memory").is_none());
     }
 
-    /// The coin publishes the same one in either order, and each one half of the time.
+    /// The coin publishes the same member of a pair in either order, and each member half of the time.
     #[test]
     fn coins_are_fair_and_do_not_depend_on_the_order() {
         let of = |text: &str| Digest::of(text.as_bytes());

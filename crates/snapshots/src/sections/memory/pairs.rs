@@ -1,5 +1,5 @@
-//! Checks of pairs after the reveal: the two things differ only in the permitted ways, and the coin published the
-//! right one.
+//! Checks of pairs after the reveal. The two members must differ only in the permitted ways, and the coin must have
+//! published the right one.
 
 use super::toss::differ;
 use super::{SecondWin, Sibling, publishes_sibling, publishes_win};
@@ -21,7 +21,7 @@ pub(crate) struct SecretGame {
 }
 
 impl SecretGame {
-    /// Loads a sibling.
+    /// Loads the texts of a sibling.
     ///
     /// # Errors
     /// Returns a message if the rules or a level do not load.
@@ -36,8 +36,8 @@ impl SecretGame {
         Ok(SecretGame { game, levels })
     }
 
-    /// Returns the fault of a published game's sibling as a sentence: its rules or levels differ, or the coin did not
-    /// withhold it. `root` is the seed of the coins.
+    /// Returns a sentence about the fault of a published game's sibling: its rules or levels differ, or the coin did
+    /// not withhold it. `root` is the seed of the coins.
     pub(crate) fn flaw(&self, published: &Game, levels: &Levels, root: Option<Seed>) -> Option<String> {
         let (one, other) = (published.digest(), self.game.digest());
         if one == other {
@@ -62,7 +62,7 @@ impl SecretGame {
     }
 }
 
-/// Returns the fault of a level's pair of wins as a sentence, apart from the replay of the second win.
+/// Returns a sentence about the fault of a level's pair of wins, apart from the replay of the second win.
 pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Option<Seed>) -> Option<String> {
     let published = published?;
     if !differ(&published.actions, &second.actions) {
@@ -72,7 +72,7 @@ pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Opt
     (!is_tossed).then(|| "its coin publishes it: the other win should be withheld".to_owned())
 }
 
-/// Returns the fault of a game's pairs in the result of a job, as a sentence. `root` is the root seed of the plan.
+/// Returns a sentence about the fault of a game's pairs in the result of a job. `root` is the root seed of the plan.
 pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
     let FrozenGame { levels, witnesses, sibling, seconds, .. } = frozen;
     if !seconds.is_empty() && seconds.len() != levels.len() {

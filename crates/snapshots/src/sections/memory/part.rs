@@ -19,7 +19,7 @@ base::with_defaults! {
 }
 
 impl MemoryPart {
-    /// Checks the values.
+    /// Checks the values of the section.
     ///
     /// # Errors
     /// Returns an error if neither kind of coin is requested, or if the release has no commitment.
@@ -44,7 +44,7 @@ impl MemoryPart {
     }
 }
 
-/// Returns `true` if the published coin wins can be revealed before the rest of a release.
+/// Returns `true` if the published coin wins can be revealed before the other withheld files of a release.
 pub(crate) fn has_second_wins(manifest: &Manifest) -> bool {
     manifest.kind == ReleaseKind::Sealed && MemoryPart::of(manifest).is_some_and(|part| part.witnesses)
 }

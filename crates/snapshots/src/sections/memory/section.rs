@@ -20,7 +20,7 @@ use serde_json::{Map, Value, json};
 /// The fraction that the search for second wins adds to the cost of a job, as measured on twelve games.
 const SECOND_WINS: f64 = 0.2;
 
-/// The section `[memory]`.
+/// The section `[memory]` of a recipe.
 pub(crate) struct MemorySection;
 
 impl Section for MemorySection {

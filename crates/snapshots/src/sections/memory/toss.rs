@@ -15,15 +15,15 @@ use validators::Criteria;
 
 /// The number of attempts at a second win, each with planners first and then with systematic search.
 const TRIES: u64 = 4;
-/// The maximum number of actions in a detour at the start of a deterministic level, after which a win is searched
-/// for.
+/// The maximum number of actions in a detour at the start of a deterministic level. The search for a win begins
+/// after the detour.
 const DETOUR: usize = 6;
-/// The maximum number of pairs of renamings that are made until the two have different themes.
+/// The maximum number of pairs of renamings that are made to find a pair with different themes.
 const THEME_TRIES: u64 = 16;
 
-/// Makes the requested pairs of a game, and publishes the one of each pair that its coin selects. A game without a
-/// second theme has no sibling, and a level without a second win has no pair. `criteria` are those of the game's
-/// judges.
+/// Makes the requested pairs of a game, and publishes the member of each pair that its coin selects. A game
+/// without a second theme has no sibling, and a level without a second win has no pair. `criteria` are those of
+/// the game's judges.
 ///
 /// Cost: up to [`TRIES`] attempts at a second win of each level.
 pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criteria: &Criteria) {
@@ -35,8 +35,8 @@ pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criter
     }
 }
 
-/// Replaces a game by one of two renamings, and keeps the other as its sibling. Both are made in the same way from
-/// the game, so nothing published reveals which one was withheld.
+/// Replaces a game by one of two renamings, and keeps the other as the sibling. Both renamings are made from the
+/// game in the same way, so nothing published reveals which one was withheld.
 fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
     let Ok(game) = Game::from_source(&frozen.text) else { return };
     let seed = root.child(&format!("siblings of {}", game.digest()), 0);
@@ -102,7 +102,7 @@ fn toss_wins(frozen: &mut FrozenGame, root: Seed, criteria: &Criteria) {
     }
 }
 
-/// Returns `true` if two wins begin differently, so that a player cannot begin like both.
+/// Returns `true` if two wins begin differently, so that no player can begin like both wins.
 pub(crate) fn differ(one: &[Action], other: &[Action]) -> bool {
     let common = PREFIX.min(one.len()).min(other.len());
     one[..common] != other[..common]

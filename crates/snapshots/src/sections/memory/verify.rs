@@ -1,4 +1,4 @@
-//! The check of the things that coins withheld: siblings of games and second wins of levels.
+//! The check of the games and wins that coins withheld: siblings of games and second wins of levels.
 
 use super::pairs::{SecretGame, pair_flaw};
 use super::part::MemoryPart;

@@ -11,7 +11,7 @@ use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
 use validators::{CheckedCriteria, Effort, Panel};
 
-/// The maximum number of fictions drawn for a puzzle in the search for one of its theme.
+/// The maximum number of fictions drawn for a puzzle in the search for a fiction of its theme.
 const FICTIONS: u64 = 400;
 
 /// A request for one puzzle.

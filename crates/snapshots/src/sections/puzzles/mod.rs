@@ -16,7 +16,7 @@ use validators::novelty::GameForm;
 /// The minimum side length of a puzzle.
 const LEAST_SIDE: usize = 8;
 
-/// The facts that differ between kinds.
+/// The facts that differ between kinds of puzzles.
 struct Facts {
     /// The name in jobs and in steps of seeds.
     name: &'static str,
@@ -30,9 +30,9 @@ struct Facts {
     rules: usize,
     /// The maximum number of cells of a board.
     cells: usize,
-    /// The maximum number of things to push.
+    /// The maximum number of things to push on a board.
     things: u32,
-    /// The cost in seconds of one core per requested level, measured with `frontier`, up to the highest tiers.
+    /// The cost per requested level, in seconds of one core, as measured with `frontier` up to the highest tiers.
     seconds: f64,
 }
 
@@ -76,13 +76,13 @@ base::with_defaults! {
 /// A kind of puzzle, with its own section in recipes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PuzzleKind {
-    /// Things are pushed.
+    /// Puzzles in which things are pushed.
     Pushing,
-    /// Keys are used up by doors.
+    /// Puzzles in which doors use up keys.
     Locks,
-    /// Parcels are carried between carts.
+    /// Puzzles in which parcels are carried between carts.
     Yards,
-    /// Things are pushed among strays.
+    /// Puzzles in which things are pushed among strays.
     Strays,
 }
 
@@ -136,7 +136,7 @@ impl PuzzleKind {
         }
     }
 
-    /// Returns the name in jobs and in steps of seeds.
+    /// Returns the name of the kind in jobs and in steps of seeds.
     pub(crate) fn name(self) -> &'static str {
         self.facts().name
     }
@@ -156,13 +156,13 @@ impl PuzzleKind {
         self.facts().rules
     }
 
-    /// Returns the cost in seconds of one core per requested level, measured with `frontier`, up to the highest
+    /// Returns the cost per requested level, in seconds of one core, as measured with `frontier` up to the highest
     /// tiers.
     pub(crate) fn seconds(self) -> f64 {
         self.facts().seconds
     }
 
-    /// Returns a rule set without a theme, and its name.
+    /// Returns a rule set without a theme, and the name of the rule set.
     fn plain(self, at: usize) -> (Game, String) {
         match self {
             PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
@@ -251,7 +251,7 @@ mod tests {
         check(&strays.replace("= 2", "= 12"), "`strays.games` is 12; it takes 1 to 10");
         let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
         assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
-        // Recipes that request neither keep their bytes.
+        // Recipes without either section keep their bytes.
         let plain = serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap();
         assert!(["tiers", "puzzles", "locks", "yards", "strays"].iter().all(|key| plain.get(key).is_none()));
     }

@@ -40,7 +40,7 @@ impl Tiers {
     /// Checks that the fractions are valid and add up to 1.
     ///
     /// # Errors
-    /// Returns an error if they are not.
+    /// Returns an error if the fractions are not valid, or do not add up to 1.
     pub(crate) fn check(&self) -> Result<(), RecipeError> {
         let total: f64 = self.shares().iter().sum();
         let are_shares = self.shares().iter().all(|share| (0.0..=1.0).contains(share));
@@ -50,7 +50,7 @@ impl Tiers {
         wrong("tiers", format!("adds up to {total}; it takes shares that add up to 1"))
     }
 
-    /// Divides `levels` among the tiers in these fractions, from tier 1 to tier 4.
+    /// Divides `levels` among the tiers, from tier 1 to tier 4, in proportion to the fractions.
     pub(crate) fn levels(&self, levels: u32) -> impl Iterator<Item = (Tier, u32)> {
         Tier::ALL.into_iter().zip(apportion(levels, &self.shares()))
     }

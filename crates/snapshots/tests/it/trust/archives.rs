@@ -92,7 +92,7 @@ fn packing_round_trips() {
     assert!(verification.problems.is_empty(), "{:?}", verification.problems);
     assert_eq!(verification.witnesses, snapshots::Witnesses::Replayed(1));
 
-    // The times and modes of the folder do not matter; a second archive has the same bytes.
+    // The times and modes of the folder do not matter, so a second archive has the same bytes.
     let other = home.path().join("other");
     release.write(&other);
     let second = pack(&other, &home.path().join("second.tar.zst")).expect("packed");
@@ -124,7 +124,8 @@ fn packing_is_careful() {
     assert!(matches!(pack(&folder, &file), Err(SnapshotError::Taken(_))));
     assert_eq!(fs::read(&file).expect("there"), b"mine");
     fs::remove_file(&file).expect("removed");
-    // Only leftovers of a killed run are replaced: neither an empty file nor one that begins like an archive.
+    // Only leftovers of a killed run are replaced. An empty file and a file that begins like an archive are
+    // not replaced.
     let partial = home.path().join("mole.tar.zst.partial");
     for mine in [&b"mine"[..], b"", &[&b"\x28\xb5\x2f\xfd"[..], &[7; 100_000]].concat()] {
         fs::write(&partial, mine).expect("written");
@@ -324,7 +325,7 @@ fn ends() {
     // Different compressions of the same bytes are not accepted.
     let plain = zstd::encode_all(&tar[..], 3).expect("in memory");
     check_bytes(&file, &plain, "mole.tar.zst", "not as packed");
-    // A file with an archive's name is a damaged archive; with a different name, it is not an archive.
+    // A file with an archive's name is a damaged archive. With a different name, it is not an archive.
     fs::write(&file, "BasicGame").expect("written");
     assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));
     fs::write(&file, "").expect("written");
@@ -358,8 +359,8 @@ fn bombs() {
     check(&|e| e.list[2].0.set_size(1 << 40), "README.md", "wrong size (1099511627776 bytes");
 }
 
-/// Regression test: half a megabyte took three gigabytes, with a manifest of 99,999 items, each in its own 124
-/// folders.
+/// Regression test: half a megabyte used three gigabytes of memory, with a manifest of 99,999 items, each in
+/// its own 124 folders.
 #[test]
 fn manifests_of_deep_paths() {
     let honest = small("mole", None);
@@ -387,7 +388,7 @@ fn manifests_of_deep_paths() {
     let memory = allocation_counter::measure(|| error = verify(&file).err());
     let error = error.expect("too deep").to_string();
     assert!(error.contains("more than 16 components"), "{error}");
-    // The bound allows for the manifest's bytes as they arrive, and for its items once.
+    // The bound allows for the manifest's bytes on arrival, and for one copy of its items.
     assert!(memory.bytes_max < 4 * size, "{memory:?}, for {size} bytes");
 }
 

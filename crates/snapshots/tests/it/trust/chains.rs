@@ -78,7 +78,8 @@ fn archives_are_links_too() {
     check(&third, &[second, archive], &["2027-02", "2027-01", "2026-12"], &[]);
 }
 
-/// Unrelated archives beside the releases are ignored, but an archive of a release is not, however damaged.
+/// Unrelated archives beside the releases are ignored, but an archive of a release is never ignored, however
+/// damaged.
 #[test]
 fn other_archives_are_left_alone() {
     let home = home();
@@ -167,7 +168,7 @@ fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
     release.seal();
 }
 
-/// A release must list the content of its parent, and repeat none of it.
+/// A release must list the content of its parent, and repeat no part of that content.
 #[test]
 fn known_content_equals_the_parents() {
     let first = small("2026-12", None);
@@ -198,7 +199,7 @@ fn known_content_equals_the_parents() {
     check(&copy, &[home.path().to_path_buf()], &["2027-01", "2026-12"], &[words]);
 }
 
-/// Archives are read one at a time and not kept, so the memory is that for one file of one archive.
+/// Archives are read one at a time and not kept, so the memory in use is that for one file of one archive.
 #[test]
 fn archives_of_a_chain_are_not_kept() {
     let home = home();

@@ -45,7 +45,7 @@ fn format_2_is_read() {
     }
 }
 
-/// The witness has the hashes of different semantics, so replaying it here would fail.
+/// The witness has hashes under different semantics, so replaying it under the current semantics would fail.
 #[test]
 fn witnesses_of_other_semantics_are_not_replayed() {
     let verification = verify(&stored("other-semantics")).expect("readable");
@@ -73,7 +73,7 @@ fn the_chain_crosses_versions() {
     assert_eq!(names, ["other-semantics", "other-generation", "format-1"]);
 }
 
-/// Old releases are checked like new ones, except for the replay.
+/// Releases of earlier versions are checked like current releases, except for the replay.
 #[test]
 fn tampered_old_releases_are_detected() {
     let home = super::small::home();

@@ -136,7 +136,7 @@ fn secrets_must_match_games_and_recipe() {
         },
         &["held/secret.json: it does not specify a recipe"],
     );
-    // The release is sealed in the way of earlier generations.
+    // The release is sealed like releases of earlier generations.
     check(
         |release| {
             seal_with(release, &pair, &secret(8));
@@ -179,7 +179,7 @@ fn a_sealed_release_commits_to_a_witness_of_every_level() {
     );
 }
 
-/// Problems of the whole release are detected before the reveal: the two parts are merged only if they belong
+/// Problems of the whole release are detected before the reveal. The two parts are merged only if they belong
 /// together.
 #[test]
 fn mismatched_parts_are_not_joined() {
@@ -225,7 +225,7 @@ fn verified(release: &mut Small, bounds: &Bounds) -> Verification {
     verify_within(&release.write_in(&home()), bounds).expect("readable")
 }
 
-/// Expects at least these problems, whatever else follows from them.
+/// Expects at least these problems, and ignores any others that follow from them.
 #[track_caller]
 fn complains(alter: impl FnOnce(&mut Small), words: &[&str]) {
     let mut release = small("2026-12", None);
@@ -256,7 +256,7 @@ fn impossible_semantics_are_problems() {
     let number = snapshots::version::CURRENT.number;
     let expect = format!("is minted by version {number}, not 0.1.0");
     check(|release| release.manifest.version = Some("0.1.0".to_owned()), &[&expect]);
-    // A later and an earlier version: both are possible, and their witnesses are not replayed here.
+    // Later and earlier versions are both possible, and their witnesses are not replayed here.
     let later = (engine::SEMANTICS + 1, generators::GENERATION + 1, "0.99.0");
     for (semantics, generation, version) in [later, (2, 8, "0.8.0")] {
         let mut release = small("2026-12", None);
@@ -422,7 +422,7 @@ fn replays_are_bounded() {
     assert_eq!(Bounds::RELEASE.of(600), (1 << 31) + 600 * (1 << 21));
 }
 
-/// Overlong witnesses are rejected before the first tick.
+/// Witnesses that are too long are rejected before the first tick.
 #[test]
 fn no_witness_is_longer_than_an_episode_can_be() {
     let lengthen = |release: &mut Small, times: usize| {
@@ -492,7 +492,8 @@ fn sealed_releases_export_no_solutions() {
     assert!(error.contains("`2026-12` is sealed") && error.contains("--reveal"), "{error}");
 }
 
-/// Texts that follow from the rules are compared with them: texts of a different game, or of no game, are problems.
+/// Texts that follow from the rules are compared with the rules. Texts of a different game, or of no game, are
+/// problems.
 #[test]
 fn cards_say_of_the_rules_what_the_game_says() {
     let html = "<script>alert(1)</script>";

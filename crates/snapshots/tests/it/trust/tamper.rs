@@ -1,4 +1,4 @@
-//! Tests of tampering: `verify` detects every mutation of a release, and states the file.
+//! Tests of tampering: `verify` detects every mutation of a release, and reports the affected file.
 //!
 //! The sweep is seeded, so that failures can be reproduced. It needs Unix for links and sockets.
 
@@ -14,10 +14,14 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// The numbers of mutations in `cargo xtask sweep` (otherwise a quarter): of the folder, of the archive's bytes, and
-/// of the bytes inside the archive.
+/// The number of mutations of the folder in `cargo xtask sweep`. Other runs make a quarter of these
+/// mutations.
 const FOLDERS: u64 = 1400;
+/// The number of mutations of the archive's bytes in `cargo xtask sweep`. Other runs make a quarter of these
+/// mutations.
 const ARCHIVES: u64 = 600;
+/// The number of mutations of the bytes inside the archive in `cargo xtask sweep`. Other runs make a quarter
+/// of these mutations.
 const INSIDES: u64 = 600;
 
 /// The files of a release by path, including the manifest.
@@ -73,7 +77,7 @@ fn heal(home: &TempDir, folder: &Path, files: &Files) {
     }
 }
 
-/// Returns the objections of `verify` to the release at `place`; empty if there are none.
+/// Returns the objections of `verify` to the release at `place`; empty if the release is sound.
 fn complaint(place: &Path) -> String {
     match verify(place) {
         Ok(verification) => verification.problems.join("\n"),
@@ -209,7 +213,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
             fs::write(folder.join(name), &content).expect("written");
             return vec![name.escape_debug().to_string()];
         }
-        // The file is large without filling the disk, so that reading it would be noticed.
+        // The file is large without filling the disk, so that a test would notice a read of the file.
         "huge" => {
             let file = fs::File::options().write(true).open(&path).expect("there");
             file.set_len((65 << 20) + sampler.below(1 << 30) as u64).expect("sparse");
@@ -225,7 +229,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
             std::os::unix::fs::symlink("../games", folder.join("games")).expect("linked");
             return vec!["games".into()];
         }
-        // A hard link to the same content is harmless; a link to different content counts as a different file.
+        // A hard link to the same content is harmless. A link to different content counts as a different file.
         "hard link" => {
             fs::remove_file(&path).expect("removed");
             fs::hard_link(folder.join(&other.0), &path).expect("linked");

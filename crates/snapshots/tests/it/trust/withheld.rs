@@ -64,7 +64,7 @@ fn problems(release: &Small, wanted: impl Fn(&str) -> bool) -> Vec<String> {
     verify(&parts(release, &home(), wanted)).unwrap().problems
 }
 
-/// Nothing public shows whether a guess of a withheld text is correct, nor that such a text exists.
+/// Nothing public shows whether a guessed withheld text is correct, or whether such a text exists.
 #[test]
 fn guesses_cannot_be_checked() {
     let guess: &[u8] = b"BasicGame\n    # one of a million renamings\n";
@@ -73,7 +73,7 @@ fn guesses_cannot_be_checked() {
     let manifest = |release: &Small| String::from_utf8(release.manifest.to_bytes().unwrap()).unwrap();
     let (one, other) = (manifest(&release), manifest(&with_sibling));
     assert_ne!(one, other);
-    // Apart from digests, the two are the same, including the paths, the sizes and the number of files.
+    // Apart from digests, the two manifests are the same, including the paths, the sizes and the number of files.
     let masked = |text: &str| {
         let mut value: Value = serde_json::from_str(text).unwrap();
         for key in ["root", "checksum"] {
@@ -159,7 +159,7 @@ fn the_parts_are_joined_and_packed() {
     assert!(error.contains("prove `held/REST.json`"), "{error}");
 }
 
-/// A file of a list cannot be changed, removed, added or moved, and neither can a list.
+/// Neither a list nor a file of a list can be changed, removed, added or moved.
 #[test]
 fn lists_bind_what_was_withheld() {
     let check = |release: &Small, wanted: &dyn Fn(&str) -> bool, words: &str| {
@@ -181,7 +181,7 @@ fn lists_bind_what_was_withheld() {
     for path in [SECRET_FILE, LISTS[0], LISTS[1]] {
         check(&altered(path), &|_| true, &format!("{path}: altered"));
     }
-    // Forgeries with their own root.
+    // Forgeries with their own root are made here.
     let forged = |change: &dyn Fn(&mut Files)| {
         let mut forged = release.clone();
         change(&mut forged.files);
@@ -196,7 +196,7 @@ fn lists_bind_what_was_withheld() {
     let mut salted = release.clone();
     hide(&mut salted, &Secret { nonce: Digest::of(b"other"), ..secret.clone() });
     check(&salted, &|_| true, "held/REST.json: its salt does not follow from the release's secret");
-    // Files that were committed to, but are not lists.
+    // These files were committed to, but are not lists.
     let listed = |change: &dyn Fn(&mut Value)| {
         let mut release = release.clone();
         let (_, content) = release.files.iter_mut().find(|(path, _)| path == LISTS[0]).unwrap();

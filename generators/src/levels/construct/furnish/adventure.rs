@@ -59,7 +59,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Places one sprite, first by the strict rules for its role, then by relaxed ones. Returns the cell.
+    /// Places one sprite, first by the strict rules for its role, and then by relaxed rules. Returns the cell.
     pub(crate) fn place(&mut self, stype: SpriteType, role: Role) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
@@ -95,7 +95,8 @@ impl Builder<'_> {
         })
     }
 
-    /// Returns the weight of the footing. If avatars fall, most things stand on the ground; goods may hang in the air.
+    /// Returns the weight of the footing. If avatars fall, most things stand on the ground, but goods may hang in the
+    /// air.
     fn ground(&self, cell: usize, role: Role) -> u32 {
         match role {
             _ if !self.avatar_falls() => 1,
@@ -106,7 +107,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the suitability of a cell for a sprite; 0 means unsuitable.
+    /// Returns the suitability of a cell for a sprite. A suitability of 0 means unsuitable.
     fn weigh(&self, cell: usize, stype: SpriteType, role: Role, steps: &[u32], radius: u32) -> u32 {
         let zone = self.board.zone[cell];
         let reached = steps[cell] != FAR;
@@ -119,7 +120,8 @@ impl Builder<'_> {
         let walls = self.board.walls_around(cell) as u32;
         match role {
             Role::Exit => {
-                // Behind the first gate if there is one; otherwise far away, and farther at higher difficulty.
+                // The cell is behind the first gate if there is a gate. Otherwise it is far away, and farther at higher
+                // difficulty.
                 let wanted = u8::from(self.board.zone.contains(&1));
                 let far = share >= 55 + (30.0 * self.difficulty()) as u32;
                 if zone != wanted || !(far || zone > 0) { 0 } else { (1 + walls) * share / 10 }
@@ -136,7 +138,7 @@ impl Builder<'_> {
             Role::Prey => own_kind * (2 + share / 20),
             Role::Spawner => self.weigh_spawner(cell, stype, walls),
             Role::Hazard if from_start < 3 || self.apart_from(cell, Role::Exit) < 2 => 0,
-            // Deadly things that spawn deadly things keep their distance.
+            // Deadly things that spawn deadly things keep a distance from each other.
             Role::Hazard
                 if self.target.is_some()
                     && self.analysis.makes_harm(stype)
@@ -167,7 +169,7 @@ impl Builder<'_> {
                 if from_start < 3 || pair < 5 { 0 } else { share }
             }
             Role::Key => {
-                // Not on the way to the exit, and not next to the start.
+                // The cell is not on the way to the exit, and not next to the start.
                 let apart = self.apart_from(cell, Role::Exit).min(8) as u32;
                 if from_start < 3 { 0 } else { own_kind * apart * (1 + share) / 16 }
             }
@@ -185,7 +187,7 @@ impl Builder<'_> {
         if self.target.is_some() { ((grid.columns + grid.rows) / 5).max(4) } else { 4 }
     }
 
-    /// Returns `true` if the cell is close to something other than the avatar that the type chases: the player needs
+    /// Returns `true` if the cell is close to something other than the avatar that the type chases. The player needs
     /// time to step in.
     fn is_on_prey(&self, cell: usize, stype: SpriteType) -> bool {
         let Motion::Chasing(target) = self.analysis.facts(stype).motion else { return false };
@@ -195,7 +197,8 @@ impl Builder<'_> {
         self.apart(cell, hunted) < self.min_distance(stype).max(4)
     }
 
-    /// Returns the weight of a cell for a mover, which needs room to move and must not move straight at the avatar.
+    /// Returns the weight of a cell for a mover. The mover needs room to move, and must not move straight at the
+    /// avatar.
     fn weigh_mover(&self, cell: usize, stype: SpriteType, share: u32) -> u32 {
         let others = self.apart_from(cell, Role::Enemy).min(6) as u32;
         let spread = 1 + others + share / 20;
@@ -213,8 +216,8 @@ impl Builder<'_> {
         if lane { 0 } else { spread * room.min(12) as u32 }
     }
 
-    /// Returns the weight of a cell for a spawner: at a wall or the edge, with a free line of fire that does not meet
-    /// the avatar.
+    /// Returns the weight of a cell for a spawner. Suitable cells are at a wall or the edge, with a free line of fire
+    /// that does not meet the avatar.
     fn weigh_spawner(&self, cell: usize, stype: SpriteType, walls: u32) -> u32 {
         let from_start = self.board.grid.manhattan(cell, self.board.start);
         let others = self.apart_from(cell, Role::Spawner).min(8) as u32;
@@ -232,8 +235,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the minimum distance between a spawner and the avatar's start, so that spawned sprites do not reach the
-    /// avatar at once.
+    /// Returns the minimum distance between a spawner and the avatar's start. The distance ensures that spawned sprites
+    /// do not reach the avatar at once.
     fn min_spawn_distance(&self, stype: SpriteType) -> usize {
         let made = self.analysis.facts(stype).makes.iter().map(|&made| self.min_distance(made));
         made.max().unwrap_or(2).max(4)
@@ -245,7 +248,8 @@ impl Builder<'_> {
         around.filter(|&next| self.log.contains(&(next, stype))).count()
     }
 
-    /// Chooses the avatar's start: near an end of the longest path, or in the middle if the aim is to survive.
+    /// Chooses the avatar's start. The start is near an end of the longest path, or in the middle if the aim is to
+    /// survive.
     fn choose_start(&mut self) -> usize {
         let grid = self.board.grid;
         let cells: Vec<usize> = self.board.free().collect();
@@ -269,7 +273,8 @@ impl Builder<'_> {
             let far = cells.iter().copied().max_by_key(|&cell| (steps[cell], cell));
             far.unwrap_or(some)
         };
-        // The start is near the end of the path, not always exactly there. If avatars fall, it is on the ground.
+        // The start is near the end of the path, but not always exactly at the end. If avatars fall, the start is on
+        // the ground.
         let grounded = |cell: &usize| !self.avatar_falls() || self.has_footing(*cell);
         let near = |cell: &usize| grid.manhattan(*cell, target) <= 1;
         let close: Vec<usize> = cells.iter().copied().filter(|cell| near(cell) && grounded(cell)).collect();
@@ -286,7 +291,7 @@ impl Builder<'_> {
         let placed = self.log.iter().map(|(_, stype)| *stype);
         let exits: Vec<SpriteType> = placed.filter(|&stype| self.role(stype) == Role::Exit).collect();
         let keyed = plan::furnishable(self.analysis, self.palette, Role::Key);
-        // Keys that are themselves locked, and things that are opened from afar, count as locked things too.
+        // Keys that are themselves locked, and things that are opened from afar, also count as locked things.
         let chained: Vec<SpriteType> = self
             .analysis
             .locks()
@@ -341,7 +346,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places a key in front of the gates that it opens: in zone 0, or behind a gate of another kind. Returns the cell.
+    /// Places a key in front of the gates that it opens, either in zone 0 or behind a gate of a different kind. Returns
+    /// the cell.
     fn place_key(&mut self, giver: SpriteType) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
@@ -353,7 +359,8 @@ impl Builder<'_> {
         let first = own.min().unwrap_or(u8::MAX);
         self.put_where(giver, |builder, cell| {
             let zone = builder.board.zone[cell];
-            // The key of a gate may lie behind a gate that was placed later, never the other way round.
+            // The key of a gate may lie behind a gate that was placed later, but not behind one that was placed
+            // earlier.
             let before = zone == 0 || (zone > first && first != u8::MAX);
             let weight = builder.weigh(cell, giver, Role::Key, &steps, radius);
             if !before {

@@ -7,8 +7,8 @@ use engine::analysis::{Role, Steering};
 
 impl Builder<'_> {
     /// Adds walls (or more things, on boards without walls) until enough cells are covered, or removes some until few
-    /// enough are. Everything that the game needs stays, and nothing is cut off, so the requested cover is not always
-    /// reached.
+    /// enough are covered. Everything that the game needs stays, and nothing is cut off, so the requested cover is not
+    /// always reached.
     pub(crate) fn adjust_cover(&mut self) {
         let Some((low, high)) = self.config.cover else { return };
         if is_cover(self.analysis, self.palette.base) {
@@ -38,7 +38,7 @@ impl Builder<'_> {
         (0..self.board.grid.len()).filter(covered).count()
     }
 
-    /// Adds a wall or a thing; returns `true` if there was room.
+    /// Adds a wall or a thing. Returns `true` if there was room.
     fn add_cover(&mut self) -> bool {
         // Add walls while there are fewer than in the examples, then other things, then walls again.
         let missing = self.target.as_ref().is_none_or(|target| self.inner_walls() < target.walls);
@@ -52,7 +52,7 @@ impl Builder<'_> {
         inner().filter(|&cell| self.board.wall[cell]).count() as f64 / inner().count().max(1) as f64
     }
 
-    /// Adds a wall that cuts off nothing; returns `true` if there was room.
+    /// Adds a wall that cuts off nothing. Returns `true` if there was room.
     fn add_wall(&mut self) -> bool {
         let grid = self.board.grid;
         let bare = self.target.as_ref().is_some_and(|target| target.walls <= 0.0);
@@ -82,7 +82,7 @@ impl Builder<'_> {
         false
     }
 
-    /// Returns `true` if a cell is on the avatar's line of movement, which is wider for a large avatar.
+    /// Returns `true` if a cell is on the avatar's line of movement. The line is wider for a large avatar.
     fn is_on_line(&self, cell: usize) -> bool {
         let Some(avatar) = self.analysis.start_avatar() else { return false };
         let grid = self.board.grid;
@@ -95,7 +95,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds a thing of a type that is already on the board; returns `true` if there was room.
+    /// Adds a thing of a type that is already on the board. Returns `true` if there was room.
     fn add_thing(&mut self) -> bool {
         let lying = |stype: &engine::SpriteType| {
             matches!(
@@ -113,7 +113,7 @@ impl Builder<'_> {
         self.place(stype, self.role(stype)).is_some()
     }
 
-    /// Removes a wall or a thing; returns `true` if there was one to spare.
+    /// Removes a wall or a thing. Returns `true` if there was a wall or a thing to spare.
     fn remove_cover(&mut self) -> bool {
         let grid = self.board.grid;
         let spare = |&(cell, stype): &(usize, engine::SpriteType)| {
@@ -143,8 +143,8 @@ impl Builder<'_> {
                 grid.beside(cell).any(|next| !self.board.wall[next] && self.board.placed[next].is_none())
             })
             .collect();
-        // In games with gates, walls stay, since openings could bypass the gates. Elsewhere only the ends of walls are
-        // removed.
+        // In games with gates, walls stay, because openings could bypass the gates. In other games, only the ends of
+        // walls are removed.
         let open_up = !walls.is_empty() && (things.is_empty() || self.sampler.ratio(2, 3));
         if open_up && !self.board.zone.iter().any(|&zone| zone > 0) {
             let cell = *self.sampler.choose(&walls);

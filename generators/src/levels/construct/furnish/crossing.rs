@@ -1,5 +1,5 @@
-//! Furnishing of crossings: the avatar starts at the bottom, its goal lies at the top, and in between, traffic runs in
-//! lanes from edge to edge.
+//! Furnishing of crossings: the avatar starts at the bottom, its goal lies at the top, and traffic runs in lanes from
+//! edge to edge in between.
 
 use crate::levels::construct::builder::{Builder, way};
 use crate::levels::construct::plan;
@@ -11,7 +11,7 @@ use engine::{Analysis, SpriteType};
 /// The use of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Row {
-    /// Walls.
+    /// A row of walls.
     Border,
     /// Safe ground without traffic.
     Verge,
@@ -23,12 +23,12 @@ pub(crate) enum Row {
 #[derive(Clone, Debug)]
 pub(crate) struct Traffic {
     pub(crate) types: Vec<SpriteType>,
-    /// `true` if the traffic wraps around to the other side; otherwise it turns at the walls.
+    /// `true` if the traffic wraps around to the other side, and `false` if it turns at the walls.
     pub(crate) wraps: bool,
 }
 
-/// Returns the enemies that drive left or right, if they make the game a crossing: either they wrap around to the other
-/// side, or, in a game with an exit, they turn at walls and some go left and some right.
+/// Returns the enemies that drive left or right, if they make the game a crossing. This is the case if they wrap around
+/// to the other side. It is also the case in a game with an exit if they turn at walls and some go left and some right.
 pub(crate) fn traffic(analysis: &Analysis, palette: &Palette) -> Option<Traffic> {
     let enemies = plan::furnishable(analysis, palette, Role::Enemy);
     let sideways = |stype: &SpriteType| match analysis.facts(*stype).motion {
@@ -73,7 +73,8 @@ impl Builder<'_> {
         rows
     }
 
-    /// Returns the walls above and below, at the sides of verges, and at the sides of lanes whose traffic turns there.
+    /// Returns the walls above and below the board, at the sides of verges, and at the sides of lanes whose traffic
+    /// turns there.
     pub(crate) fn lane_walls(grid: Grid, rows: &[Row], ring: bool, traffic: &Traffic) -> Vec<bool> {
         let side = |cell: usize| grid.x(cell) == 0 || grid.x(cell) + 1 == grid.columns;
         let wall = |cell: usize| match rows[grid.y(cell)] {
@@ -84,7 +85,7 @@ impl Builder<'_> {
         (0..grid.len()).map(wall).collect()
     }
 
-    /// Furnishes the rows.
+    /// Furnishes the rows of a crossing.
     pub(crate) fn crossing(&mut self, rows: &[Row], traffic: &Traffic) {
         let grid = self.board.grid;
         let verges: Vec<usize> = (0..grid.rows).filter(|&row| rows[row] == Row::Verge).collect();
@@ -94,7 +95,7 @@ impl Builder<'_> {
         self.put_avatar(start);
         let in_row = |row: usize| (0..grid.columns).map(move |x| grid.at(x, row));
         for exit in plan::furnishable(self.analysis, self.palette, Role::Exit) {
-            // Preferably not straight ahead of the start.
+            // The exit is preferably not straight ahead of the start.
             self.put_where(exit, |builder, cell| {
                 let aside = grid.x(cell).abs_diff(grid.x(builder.board.start)) as u32;
                 if in_row(top).any(|other| other == cell) { 1 + aside * aside } else { 0 }
@@ -105,7 +106,7 @@ impl Builder<'_> {
                 self.drive(row, stype);
             }
         }
-        // Other things lie on verges and, if they are collectables, on lanes; other traffic is left out.
+        // Other things lie on verges. Collectables also lie on lanes. Other traffic is left out.
         let lanes: Vec<usize> =
             (0..grid.len()).filter(|&cell| matches!(rows[grid.y(cell)], Row::Lane(_))).collect();
         for &cell in &lanes {

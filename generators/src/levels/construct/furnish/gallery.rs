@@ -6,8 +6,8 @@ use crate::levels::construct::plan::Wish;
 use engine::SpriteType;
 use engine::analysis::{Motion, Role, Steering};
 
-/// A field from the avatar's point of view: `along` is the position on its line of movement, `deep` the row counted
-/// from the far side.
+/// A field from the avatar's point of view. `along` is the position on its line of movement, and `deep` is the row
+/// counted from the far side.
 struct Field {
     upright: bool,
     edge: usize,
@@ -52,7 +52,7 @@ impl Builder<'_> {
         let field = Field { upright, edge, length };
         let wishes = self.wishes();
         let wards = wishes.iter().any(|wish| wish.role == Role::Ward && self.is_still(wish.stype));
-        // Things to protect stand behind the avatar, if there is room.
+        // Things to protect stand behind the avatar if there is room.
         let home = if wards && depth >= 6 { depth - 2 } else { depth - 1 };
         let middle = length / 2;
         let along = (middle + self.sampler.below(3)).saturating_sub(1).min(length - 1);
@@ -101,8 +101,8 @@ impl Builder<'_> {
         let mut offset = self.sampler.below(pitch);
         let thick = if left > field.length { 2 } else { 1 };
         if self.target.is_some() {
-            // From the middle to both sides, with a base or a gap in the middle, so that the bases are never all on one
-            // side.
+            // Bases are placed from the middle to both sides, with a base or a gap in the middle, so that the bases are
+            // never all on one side.
             let middle = if self.sampler.ratio(1, 2) { width / 2 } else { (width + pitch) / 2 };
             offset = (middle + pitch * field.length - (field.length - 1) / 2) % pitch;
         }
@@ -176,7 +176,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Places other sprites: still things to touch on the avatar's line, the rest in between.
+    /// Places all other sprites. Still things to touch go on the avatar's line, and the rest in between.
     fn somewhere(&mut self, field: &Field, wish: Wish, home: usize) {
         let touched = matches!(
             wish.role,

@@ -1,5 +1,5 @@
-//! Levels with things to push, constructed backwards: from the solved state, the avatar pulls the things out of their
-//! places, so that pushing them back is a solution.
+//! Levels with things to push, constructed backwards. From the solved state, the avatar pulls the things away from
+//! their destinations, so that pushing them back is a solution.
 
 use crate::levels::construct::jobs::{Job, Jobs};
 use crate::levels::grid::{FAR, Grid, WAYS};
@@ -19,13 +19,13 @@ pub(crate) struct Push {
 pub(crate) struct Pulls {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
-    /// The pushable thing in each cell, if any.
+    /// The pushable thing in each cell; `None` if the cell has none.
     pub(crate) things: Vec<Option<SpriteType>>,
-    /// The partner of a job in each cell, with `true` if the avatar can walk into the cell now.
+    /// The partner of a job in each cell, with `true` if the avatar can currently walk into the cell.
     pub(crate) partners: Vec<Option<(SpriteType, bool)>>,
     /// For each cell, `true` if nothing may be pushed into it.
     pub(crate) barred: Vec<bool>,
-    /// For each cell, `true` if the avatar cannot walk into it either.
+    /// For each cell, `true` if the avatar cannot walk into the cell either.
     pub(crate) closed: Vec<bool>,
     /// The avatar's cell; `None` if it may be anywhere.
     pub(crate) avatar: Option<usize>,
@@ -33,14 +33,14 @@ pub(crate) struct Pulls {
     pub(crate) pushes: Vec<Push>,
 }
 
-/// The state right after a pull: the cells of the thing and of the avatar.
+/// The state right after a pull, given by the cells of the thing and of the avatar.
 #[derive(Clone, Copy)]
 struct Node {
     thing: usize,
     avatar: usize,
     /// The number of pulls so far.
     depth: usize,
-    /// The node before the pull.
+    /// The index of the node before the pull.
     before: usize,
     /// The number of cells that the avatar can reach.
     room: usize,
@@ -73,7 +73,8 @@ impl Pulls {
         free && self.things[cell].is_none() && self.partners[cell].is_none()
     }
 
-    /// Returns the distances in steps of all cells from the avatar; [`FAR`] for cells that it cannot reach.
+    /// Returns the distances in steps of all cells from the avatar. Cells that the avatar cannot reach have the
+    /// distance [`FAR`].
     pub(crate) fn reachable(&self) -> Vec<u32> {
         match self.avatar {
             Some(cell) => self.grid.flood(&[cell], |next| self.stands(next)),
@@ -88,7 +89,7 @@ impl Pulls {
         let options: Vec<((i32, i32), usize, usize)> = WAYS
             .into_iter()
             .filter_map(|way| {
-                // The avatar pushed the thing here from `near`, standing at `far`.
+                // The avatar pushed the thing to this cell from `near`, standing at `far`.
                 let near = self.grid.shift(cell, (-way.0, -way.1))?;
                 let far = self.grid.shift(near, (-way.0, -way.1))?;
                 (self.lies(near) && self.stands(near) && reaches(near) && self.stands(far))
@@ -140,7 +141,8 @@ impl Pulls {
             self.things[thing] = None;
             self.things[from] = Some(stype);
         }
-        // Avoid states in which the avatar is locked in: there may be more to pull, and levels start in the open.
+        // Avoid states in which the avatar is locked in, because there may be more to pull, and levels start in the
+        // open.
         let widest = nodes.iter().map(|node| node.room).max().unwrap_or(0);
         let wide = |node: &Node| node.room * 2 >= widest;
         let deepest = nodes.iter().filter(|node| wide(node)).map(|node| node.depth).max().unwrap_or(0);
@@ -180,8 +182,8 @@ impl Pulls {
         }
     }
 
-    /// Returns the avatar's steps for the pushes, beginning at `start`, and then to each of the cells `visits` in turn;
-    /// `None` if the pushes do not work.
+    /// Returns the avatar's steps for the pushes, beginning at `start`, and then for the visits to the cells in
+    /// `visits` in turn. Returns `None` if the pushes do not work.
     pub(crate) fn solution(
         &self,
         plan: &Jobs,

@@ -48,13 +48,13 @@ impl Builder<'_> {
             sockets.push(cell);
             if !job.merges {
                 pulls.barred[cell] = true;
-                // Filled partners are gone at the end; partners that stay are obstacles.
+                // Filled partners are gone at the end, while partners that stay are obstacles.
                 let walkable = job.walkable && !job.stays;
                 pulls.partners[cell] =
                     if job.fills && !job.stays { None } else { Some((job.partner, walkable)) };
             }
         }
-        // In reverse, the avatar comes from its first visit after the last push, or from anywhere if the door is closed
+        // In reverse, the avatar comes from its first visit after the last push, or from any cell if the door is closed
         // again.
         pulls.avatar = if plan.door.is_some() { None } else { visits.first().copied() };
         self.scatter(plan, &sockets, &mut pulls);
@@ -103,7 +103,8 @@ impl Builder<'_> {
         Some(visits)
     }
 
-    /// Draws a cell to push something to: with enough room on at least one side, and near the other such cells.
+    /// Draws a cell to push something onto, with enough room on at least one side, and near the other cells of this
+    /// kind.
     fn choose_socket(
         &mut self,
         pulls: &Pulls,
@@ -184,7 +185,7 @@ impl Builder<'_> {
             let free = pulls.partners[cell].is_none() && self.board.placed[cell].is_none() && !behind(cell);
             match reachable[cell] {
                 steps if steps == FAR || !free => 0,
-                // Positions as in the examples, preferably far from the last pull and from the exit.
+                // The start is at a position as in the examples, preferably far from the last pull and from the exit.
                 steps if self.target.is_some() => {
                     let exit = self.apart_from(cell, Role::Exit).min(12) as u32;
                     let far = (1 + steps * steps).saturating_mul(1 + exit * exit);
@@ -253,7 +254,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds the game's other things after the puzzle, without obstructing its solution.
+    /// Adds the game's other things after the puzzle without obstructing the puzzle's solution.
     pub(crate) fn furnish_rest(&mut self, plan: &Jobs) {
         self.board.pushing = true;
         if plan.gate.is_none() {

@@ -59,7 +59,7 @@ pub(super) fn pillars(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut 
     let keep = sampler.between(6, 10);
     let mirror = Mirror::draw(sampler);
     let centre = |size: usize, gap: usize| {
-        // The remaining width is split between both sides.
+        // Both sides share the remaining width.
         let inner = size.saturating_sub(2 * margin);
         margin + (inner.saturating_sub(1) % gap) / 2
     };

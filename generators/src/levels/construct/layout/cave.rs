@@ -7,7 +7,7 @@ use base::Sampler;
 /// The number of smoothing rounds.
 const ROUNDS: usize = 3;
 
-/// Draws increasingly open caves, until one region holds most of the inside.
+/// Draws caves that are more and more open, until one region holds most of the inside.
 pub(super) fn cave(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let border: Vec<bool> = wall.to_vec();
     let inside = border.iter().filter(|&&wall| !wall).count();

@@ -13,7 +13,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
     let has = |wall: &[bool]| inner.iter().filter(|&&cell| wall[cell]).count();
     let mut now = has(wall);
     let grow = now < wanted;
-    // Both directions reach the target to within the one or two cells of a symmetric pair.
+    // Growing and shrinking both reach the target to within the one or two cells of a symmetric pair.
     while if grow { now < wanted } else { now > wanted } {
         let walls =
             |cell: usize| grid.around(cell).into_iter().filter(|next| next.is_none_or(|next| wall[next]));
@@ -22,7 +22,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
             if wall[cell] == grow {
                 0
             } else if grow {
-                // Nooks first, then cells along existing walls.
+                // Nooks are changed first, then cells along existing walls.
                 match (beside(cell), walls(cell).count()) {
                     (3.., _) => 60,
                     (2, 5..) => 30,
@@ -39,7 +39,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
             }
         };
         let weights: Vec<u32> = inner.iter().map(|&cell| weight(cell)).collect();
-        // A change that would cut off cells is excluded, and a different one is drawn.
+        // If a change would cut off cells, it is excluded and a different change is drawn.
         let mut weights = weights;
         let changed = loop {
             let Some(at) = sampler.weighted(&weights) else { return };

@@ -1,8 +1,8 @@
-//! Walls learnt from examples: every window of three by three cells in the result occurs in some example.
+//! Walls learnt from examples. Every window of three by three cells in the result occurs in some example.
 //!
 //! This is the overlapping model of wave function collapse: Karth and Smith 2017, "WaveFunctionCollapse is Constraint
-//! Solving in the Wild". Here, border cells have classes of their own, so that windows learnt at an edge stay there,
-//! and the last decisions are undone before a board is restarted.
+//! Solving in the Wild". In this implementation, border cells have their own classes, so that windows learnt at an edge
+//! stay there. The last decisions are undone before a board is restarted.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
@@ -12,7 +12,8 @@ use std::collections::{BTreeMap, VecDeque};
 const SIDE: usize = 3;
 /// The number of cells in a window.
 const CELLS: usize = SIDE * SIDE;
-/// The maximum number of different windows; the most frequent ones are kept. Time and memory grow with its square.
+/// The maximum number of different windows. The most frequent windows are kept. Time and memory grow with the square of
+/// this number.
 const MOST: usize = 320;
 /// The maximum number of boards to start.
 const RESTARTS: usize = 2;
@@ -21,7 +22,8 @@ const WORK: usize = 1_500_000;
 /// The number of decisions on one board that can be undone.
 const MEMORY: usize = 24;
 
-/// The classes of a window's cells: 0 is open, 1 is wall, and 2 and 3 are the same on the border.
+/// The classes of a window's cells. Classes 0 and 2 are open, and 1 and 3 are walls. Classes 2 and 3 are cells on the
+/// border.
 type Window = [u8; CELLS];
 
 /// The windows of the examples.
@@ -38,7 +40,7 @@ fn class(grid: Grid, cell: usize, wall: bool) -> u8 {
 }
 
 impl Patterns {
-    /// Adds the windows of a board and of its left-to-right reflection, since walls mean the same either way.
+    /// Adds the windows of a board and of its left-to-right reflection, because walls mean the same in both.
     pub(crate) fn learn(&mut self, grid: Grid, wall: &[bool]) {
         for mirrored in [false, true] {
             for y in 0..(grid.rows + 1).saturating_sub(SIDE) {
@@ -54,12 +56,13 @@ impl Patterns {
         }
     }
 
-    /// Returns `true` if there is a structure to learn: a variety of windows with inner walls.
+    /// Returns `true` if there is a structure to learn, which requires a variety of windows with inner walls.
     pub(crate) fn has_structure(&self) -> bool {
         self.seen.keys().filter(|window| window.contains(&1)).count() >= 8
     }
 
-    /// Computes which windows may overlap; called after the last board. Cost: the square of [`MOST`].
+    /// Computes which windows may overlap. This function must be called after the last board. Cost: the square of
+    /// [`MOST`].
     pub(crate) fn conclude(&mut self) {
         let mut windows: Vec<(u32, Window)> =
             self.seen.iter().map(|(window, &count)| (count, *window)).collect();
@@ -128,11 +131,11 @@ impl Model {
     }
 }
 
-/// A partly decided board with the windows that are still possible at each position.
+/// A partly decided board, with the windows that are still possible at each position.
 #[derive(Clone)]
 struct Wave<'a> {
     model: &'a Model,
-    /// The board.
+    /// The size of the board.
     grid: Grid,
     /// The positions of windows, by their upper left cells.
     places: Grid,
@@ -156,7 +159,7 @@ fn size(set: &[u64]) -> u32 {
 
 impl<'a> Wave<'a> {
     /// Creates a wave in which all windows are possible, except that border cells must match the board. Returns `None`
-    /// if that leaves a position without any window.
+    /// if a position is then left without a window.
     fn new(model: &'a Model, grid: Grid) -> Option<Wave<'a>> {
         let places = Grid { columns: grid.columns + 1 - SIDE, rows: grid.rows + 1 - SIDE };
         let suits = |place: usize, window: &Window| {
@@ -227,8 +230,8 @@ impl<'a> Wave<'a> {
         &self.possible[place * self.words..][..self.words]
     }
 
-    /// Returns the entropy of a position: Shannon's entropy of the frequencies, in thousandths of a nat, plus one; 0 if
-    /// there is no choice.
+    /// Returns the entropy of a position. The entropy is Shannon's entropy of the frequencies, in thousandths of a nat,
+    /// plus one; 0 if there is no choice.
     fn measure(&self, place: usize) -> u64 {
         let (mut sum, mut logs, mut options) = (0.0, 0.0, 0);
         for at in members(self.set(place)) {
@@ -239,8 +242,8 @@ impl<'a> Wave<'a> {
         if options < 2 { 0 } else { ((libm::log(sum) - logs / sum) * 1000.0) as u64 + 1 }
     }
 
-    /// Rules out all windows that no neighbour allows, starting from the changed positions. Returns `None` if a
-    /// position is left without a window.
+    /// Rules out all windows that no neighbouring window allows, starting from the changed positions. Returns `None` if
+    /// a position is left without a window.
     fn propagate(&mut self, mut changed: Vec<usize>) -> Option<()> {
         let mut waiting = vec![false; self.places.len()];
         for &place in &changed {
@@ -260,7 +263,7 @@ impl<'a> Wave<'a> {
                         *word |= fit;
                         missing |= possible & !*word;
                     }
-                    // In most cases, a few windows allow everything that is possible.
+                    // In most cases, a few windows allow all possible windows.
                     if missing == 0 {
                         break;
                     }

@@ -1,9 +1,9 @@
-//! Mazes: depth-first corridors on every second cell, with some dead ends opened.
+//! Mazes, which are depth-first corridors on every second cell, with some dead ends opened.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::Sampler;
 
-/// Draws a maze; on a board of even width or height, the last column or row joins the border.
+/// Draws a maze. On a board of even width or height, the last column or row joins the border.
 pub(super) fn maze(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     let first = usize::from(ring);
     let node = |cell: usize| {

@@ -18,7 +18,7 @@ use base::Sampler;
 /// A way to lay out walls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Family {
-    /// Only the border.
+    /// Only the border consists of walls.
     Field,
     /// Open ground with a few short walls, often symmetric.
     Arena,
@@ -26,15 +26,15 @@ pub(crate) enum Family {
     Pillars,
     /// Rooms with one door in each wall between them, or two in a few walls.
     Rooms,
-    /// A cave.
+    /// A cave made by cellular automata.
     Cave,
     /// Ledges to stand on, one above the other.
     Platforms,
-    /// Corridors of width 1 with a few loops; for boards of at least 7 by 7 cells.
+    /// Corridors of width 1 with a few loops, for boards of at least 7 by 7 cells.
     Maze,
 }
 
-/// Draws walls. If `ring` is `true`, the border consists of walls; `loops` is the amount of alternative routes, from
+/// Draws walls. If `ring` is `true`, the border consists of walls. `loops` is the amount of alternative routes, from
 /// 0.0 to 1.0. All cells without walls are connected.
 pub(crate) fn walls(family: Family, grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler) -> Vec<bool> {
     let mut wall: Vec<bool> = (0..grid.len()).map(|cell| ring && grid.on_border(cell)).collect();
@@ -71,7 +71,7 @@ pub(crate) fn mirror(grid: Grid, wall: &mut [bool]) {
     keep_largest(grid, wall);
 }
 
-/// The minimum number of cells of a region to connect; smaller regions are filled.
+/// The minimum number of cells of a region to connect. Smaller regions are filled.
 const ROOM: usize = 4;
 
 /// Opens the shortest path through the walls from the largest region to every other region that is large enough.
@@ -85,7 +85,7 @@ fn join(grid: Grid, wall: &mut [bool]) {
         let steps = grid.flood(&region, inside);
         let Some(&nearest) = main.iter().min_by_key(|&&cell| (steps[cell], cell)) else { continue };
         let Some(way) = grid.way(nearest, region[0], inside) else { continue };
-        // The path continues inside the region, where nothing has to be opened.
+        // The path continues inside the region, where no wall needs opening.
         for cell in way {
             wall[cell] = false;
             if region.contains(&cell) {

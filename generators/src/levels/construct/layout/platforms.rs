@@ -6,8 +6,8 @@ use base::Sampler;
 /// The number of rows from one ledge up to the next.
 const RISE: usize = 3;
 
-/// Draws ledges of three to seven cells every three rows, from the floor up, with gaps between them; every storey has at
-/// least one gap to climb through.
+/// Draws ledges of three to seven cells every three rows, from the floor up, with gaps between them. Every storey has
+/// at least one gap to climb through.
 pub(super) fn platforms(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let edge = usize::from(ring);
     let (left, right) = (edge, grid.columns - edge);
@@ -26,7 +26,7 @@ pub(super) fn platforms(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mu
             }
             x = end + sampler.between(2, 4);
         }
-        // At least one way up.
+        // There must be at least one way up.
         let gap = sampler.between(left, right - 1);
         for x in gap..(gap + 2).min(right) {
             wall[grid.at(x, y)] = false;

@@ -1,9 +1,9 @@
-//! Rooms: walls with doors divide the inside recursively.
+//! Rooms, made by walls with doors that divide the inside recursively.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
 
-/// A rectangle of open cells: a corner (x, y), a width and a height.
+/// A rectangle of open cells, given by a corner (x, y), a width and a height.
 #[derive(Clone, Copy)]
 struct Room {
     x: usize,
@@ -15,7 +15,7 @@ struct Room {
 /// The minimum side length of a room.
 const SHORTEST: usize = 2;
 
-/// Divides the inside until the rooms are small; `loops` is the probability that a wall gets a second door.
+/// Divides the inside until the rooms are small. `loops` is the probability that a wall gets a second door.
 pub(super) fn rooms(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     let edge = usize::from(ring);
     let whole = Room { x: edge, y: edge, width: grid.columns - 2 * edge, height: grid.rows - 2 * edge };
@@ -31,7 +31,7 @@ pub(super) fn rooms(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, w
     }
 }
 
-/// Puts a wall across a room in a position where it blocks no door; returns the two halves.
+/// Puts a wall across a room in a position where it blocks no door. Returns the two halves of the room.
 fn divide(
     grid: Grid,
     room: Room,
@@ -41,7 +41,7 @@ fn divide(
     wall: &mut [bool],
 ) -> Option<[Room; 2]> {
     let tall = room.height > room.width || (room.height == room.width && sampler.ratio(1, 2));
-    // The wall runs along `length`; the room is `depth` deep across the wall.
+    // The wall runs along `length`, and the room is `depth` deep across the wall.
     let (length, depth) = if tall { (room.width, room.height) } else { (room.height, room.width) };
     let cell = |along: usize, across: usize| {
         if tall { grid.at(room.x + along, room.y + across) } else { grid.at(room.x + across, room.y + along) }

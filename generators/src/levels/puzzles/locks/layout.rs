@@ -1,4 +1,4 @@
-//! Layouts of lock puzzles, and their changes.
+//! Layouts of lock puzzles, and changes to layouts.
 
 use crate::Variation;
 use crate::levels::grid::Grid;
@@ -11,11 +11,11 @@ pub(super) enum Tile {
     Wall,
     /// Floor that carries the avatar only once.
     Plank,
-    /// A key of a kind.
+    /// A key of the given kind.
     Key(usize),
-    /// A door of a kind.
+    /// A door of the given kind.
     Door(usize),
-    /// The exit, or a gem.
+    /// The exit or a gem.
     Goal,
 }
 
@@ -32,7 +32,7 @@ pub(super) struct Layout {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Furniture {
     pub(super) kinds: usize,
-    /// The number of keys, and of doors, of each kind.
+    /// The number of keys, which equals the number of doors, of each kind.
     pub(super) locks: usize,
     pub(super) planks: usize,
     pub(super) goals: usize,
@@ -52,7 +52,8 @@ impl Layouts {
         (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
     }
 
-    /// Digs corridors: first floor that joins no two cells that are already connected, then a few more cells.
+    /// Digs corridors, first through cells that join no two connected floor cells, and then through a few more
+    /// cells.
     fn dig(&self, sampler: &mut Sampler) -> Vec<Tile> {
         let mut tiles = vec![Tile::Wall; self.grid.len()];
         let mut inner = self.inner();
@@ -88,7 +89,8 @@ impl Layouts {
     }
 }
 
-/// Returns `true` if a cell is part of a corridor: two opposite neighbours are floor, and the other two are walls.
+/// Returns `true` if a cell is part of a corridor, which means that two opposite neighbours are floor, and the
+/// other two are walls.
 fn is_corridor(grid: Grid, tiles: &[Tile], cell: usize) -> bool {
     let is_wall = |way| grid.shift(cell, way).is_none_or(|next| tiles[next] == Tile::Wall);
     let [up, left, down, right] = [(0, -1), (-1, 0), (0, 1), (1, 0)].map(is_wall);

@@ -21,7 +21,8 @@ base::with_defaults! {
         pub rows: (usize, usize) = (10, 11),
         /// The minimum number of actions in a shortest win.
         pub decisions: usize = 60,
-        /// The minimum fraction of states one step off the shortest win from which no win exists.
+        /// The minimum fraction of dead ends among the states one step off the shortest win. No win exists from
+        /// a dead end.
         pub dead_ends: f64 = 0.05,
         /// The maximum number of layouts to examine for a level.
         pub layouts: usize = 20_000,
@@ -30,9 +31,9 @@ base::with_defaults! {
 
 /// The maximum number of states of a layout, so that a level can be searched completely.
 const MOST_STATES: usize = 15_000;
-/// The number of layouts to request at once; they are rated one after the other.
+/// The number of layouts to request at once. They are rated one after the other.
 const BATCH: usize = 8;
-/// The number of inner cells of a board with the numbers of things in [`furniture`].
+/// The number of inner cells of a board for which [`furniture`] gives the usual numbers of things.
 const USUAL: f64 = 64.0;
 
 /// A lock puzzle in the characters of [`LockRules::game`], with actions that win it.
@@ -45,8 +46,8 @@ pub struct LockLevel {
 }
 
 impl LockConfig {
-    /// Generates the level for a seed: anneals layouts until an exhaustive search of one shows that it meets the
-    /// target; returns `None` if no layout does. Cost: about a millisecond per layout.
+    /// Generates the level for a seed. Layouts are annealed until an exhaustive search of one shows that it
+    /// meets the target. Returns `None` if no layout meets the target. Cost: about a millisecond per layout.
     pub fn level(&self, rules: LockRules, seed: Seed) -> Option<LockLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
@@ -77,7 +78,7 @@ impl LockConfig {
         }
     }
 
-    /// Rates a layout; 1 means that it meets the target.
+    /// Rates a layout. A rating of 1 means that the layout meets the target.
     fn rate(&self, layout: &Layout) -> Evaluation {
         let Some(walk) = Walk::of(layout, MOST_STATES) else {
             return Evaluation { feasibility: 0.5, objective: 0.0, measures: Vec::new() };

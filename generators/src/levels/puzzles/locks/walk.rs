@@ -10,7 +10,7 @@ pub(super) struct Walk {
     pub(super) ways: Vec<usize>,
     /// The number of states one step off the win.
     pub(super) beside: usize,
-    /// The number of these states from which no win exists.
+    /// The number of states in `beside` from which no win exists.
     pub(super) dead: usize,
     /// The number of all reachable states.
     pub(super) states: usize,
@@ -21,16 +21,18 @@ type Packed = u128;
 
 /// The number of bits for the cell.
 const CELL: u32 = 8;
-/// The index that stands for no state.
+/// The index for the absence of a state.
 const NONE: u32 = u32::MAX;
 
 struct Space<'a> {
     layout: &'a Layout,
-    /// For each cell, the bit of its thing, if it has one that can be taken, opened or worn out.
+    /// For each cell, the bit of its thing; `None` if the cell has no thing that can be taken, opened or worn out.
     bits: Vec<Option<u32>>,
-    /// The bits of keys, by kind, then of doors and of goals.
+    /// The bits of keys, by kind.
     keys: [Packed; 2],
+    /// The bits of doors, by kind.
     doors: [Packed; 2],
+    /// The bits of goals.
     goals: Packed,
 }
 
@@ -73,7 +75,7 @@ impl Space<'_> {
             Tile::Plank if state & own != 0 => None,
             Tile::Door(kind) if state & own == 0 => {
                 let held = (state & self.keys[kind]).count_ones() - (state & self.doors[kind]).count_ones();
-                // The avatar is pushed back by a door that it opens, and enters in the next tick.
+                // A door that opens pushes the avatar back, and the avatar enters in the next tick.
                 (held > 0).then_some(state | own)
             }
             _ => Some(moved | own),
@@ -81,7 +83,8 @@ impl Space<'_> {
     }
 }
 
-/// States by number, found by content with open addressing in a table at least twice as large as the number of states.
+/// States by number. A state is found by its content with open addressing, in a table at least twice as large as the
+/// number of states.
 struct Table {
     slots: Vec<u32>,
     states: Vec<Packed>,
@@ -103,7 +106,7 @@ impl Table {
         slot
     }
 
-    /// Returns the number of a state, and whether the state is new.
+    /// Returns the number of a state, and `true` if the state is new.
     fn number(&mut self, state: Packed) -> (u32, bool) {
         let mut slot = self.slot(state);
         if self.slots[slot] != NONE {
@@ -125,13 +128,13 @@ impl Table {
 }
 
 impl Walk {
-    /// Searches all states, up to `most`; `None` if there are more, or if there is no win. Cost: about a tenth of a
-    /// microsecond per state.
+    /// Searches all states, up to `most` states. Returns `None` if there are more states, or if there is no win. Cost:
+    /// about a tenth of a microsecond per state.
     pub(super) fn of(layout: &Layout, most: usize) -> Option<Walk> {
         let space = Space::of(layout)?;
         let mut table = Table::new();
         table.number(layout.start as Packed);
-        // For each state, the states after each step, and the state from which it was found first.
+        // For each state, the states after each step, and the state from which it was first found.
         let mut after: Vec<[u32; 4]> = Vec::new();
         let mut before: Vec<u32> = vec![NONE];
         let mut won = NONE;
@@ -184,7 +187,7 @@ impl Walk {
     }
 }
 
-/// Returns, for each state, whether a win can be reached from it.
+/// Returns, for each state, `true` if a win can be reached from it.
 fn alive(space: &Space<'_>, states: &[Packed], after: &[[u32; 4]]) -> Vec<bool> {
     let mut first = vec![0_u32; states.len() + 1];
     let edges =

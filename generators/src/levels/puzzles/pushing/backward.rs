@@ -1,5 +1,4 @@
-//! Breadth-first search backwards from all solved positions, which computes the distance of each position from a
-//! solution.
+//! Breadth-first search backwards from all solved positions. It computes the distance of each position from a solution.
 
 use super::floor_plan::{Position, Pushing, bit, each};
 use crate::levels::grid::WAYS;
@@ -12,7 +11,7 @@ const NONE: u32 = u32::MAX;
 pub(crate) struct SearchedPositions {
     positions: Vec<Position>,
     distances: Vec<u16>,
-    /// The hash table with open addressing: indices of positions; its size is a power of two.
+    /// The hash table with open addressing, which holds indices of positions. Its size is a power of two.
     slots: Vec<u32>,
     /// `true` if all reachable positions have been found.
     pub(crate) complete: bool,
@@ -82,8 +81,8 @@ fn hash(position: &Position) -> u64 {
 
 impl Pushing<'_> {
     /// Computes the minimum number of pushes to solve each position. Positions that differ only by a walk of the avatar
-    /// count as one, with the avatar in the first cell that it can walk to. The search stops after about `most`
-    /// positions; the farthest ones are then missing.
+    /// count as one position, with the avatar in the first cell that it can walk to. The search stops after about
+    /// `most` positions, and the farthest positions are then missing.
     ///
     /// Cost: O(positions × things), about a microsecond per position.
     pub(crate) fn by_pushes(&self, most: usize) -> SearchedPositions {
@@ -151,7 +150,7 @@ impl Pushing<'_> {
     }
 
     /// Returns the avatar's steps that solve a position with the minimum number of pushes, with a short walk before
-    /// each push. `pushes` comes from [`Pushing::by_pushes`]; returns `None` if it does not contain the position.
+    /// each push. `pushes` comes from [`Pushing::by_pushes`]. Returns `None` if `pushes` does not contain the position.
     pub(crate) fn solution(&self, pushes: &SearchedPositions, start: Position) -> Option<Vec<(i32, i32)>> {
         let grid = self.floor_plan.grid;
         let distance = |position: &Position| {

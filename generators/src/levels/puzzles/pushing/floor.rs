@@ -1,4 +1,4 @@
-//! Floor plans for puzzles: they are drawn, varied, and rated by the distance of their farthest position from a
+//! Floor plans for puzzles. They are drawn, varied, and rated by the distance of their farthest position from a
 //! solution.
 
 use super::floor_plan::{Cells, FloorPlan, Position, Pushing, bit, each};
@@ -41,15 +41,15 @@ impl FloorPlans<'_> {
         if has_targets { self.counts[kind] } else { 0 }
     }
 
-    /// Returns the minimum number of open cells: enough room for all things, and more than a small closet in a block of
-    /// walls.
+    /// Returns the minimum number of open cells. It leaves enough room for all things, and more than a small closet in
+    /// a block of walls.
     fn least(&self) -> usize {
         let things: usize = self.counts.iter().sum();
         let share = (self.grid.columns - 2) * (self.grid.rows - 2) * 2 / 5;
         (3 * things + 5).max(share.min(self.most()))
     }
 
-    /// Returns the initial maximum number of open cells: if things may meet anywhere, a large yard has too many
+    /// Returns the initial maximum number of open cells. If things may meet anywhere, a large yard has too many
     /// positions.
     fn most(&self) -> usize {
         if self.rules.in_pairs() { 22 } else { usize::MAX }
@@ -64,7 +64,7 @@ impl FloorPlans<'_> {
             if open.count_ones() as usize >= wanted {
                 break;
             }
-            // Corridors are one cell wide, rooms are two or three.
+            // Corridors are one cell wide, and rooms are two or three cells wide.
             let (long, wide) = if sampler.ratio(1, 2) { (5, 1) } else { (4, 3) };
             let (long, wide) = (sampler.between(2, long), sampler.between(wide.min(2), wide));
             let (width, height) = if sampler.ratio(1, 2) { (long, wide) } else { (wide, long) };
@@ -123,7 +123,7 @@ impl FloorPlans<'_> {
             && pushing.flood(first, open) == open
     }
 
-    /// Makes a small change: removes, adds or moves a wall, moves one target or all of them, or adds or removes a sill.
+    /// Makes a small change: removes, adds or moves a wall, moves one or all targets, or adds or removes a sill.
     fn change(&self, floor_plan: &FloorPlan, sampler: &mut Sampler) -> Option<FloorPlan> {
         let mut next = floor_plan.clone();
         let inner = self.inner();
@@ -192,7 +192,7 @@ impl FloorPlans<'_> {
         Pushing { floor_plan, rules: self.rules }.by_pushes(self.most_positions).len()
     }
 
-    /// Rates a yard by the number of pushes that it takes, with a penalty for halls and isolated wall blocks.
+    /// Rates a yard by the number of pushes that its solution takes, with a penalty for halls and isolated wall blocks.
     pub(crate) fn rate(&self, floor_plan: &FloorPlan) -> Evaluation {
         let depth = self.depth(floor_plan);
         let objective = (depth as f64 - self.tidiness_penalty(floor_plan)).max(0.0) / PERFECT;
@@ -248,7 +248,7 @@ impl FloorPlans<'_> {
         best
     }
 
-    /// Returns the number of things of each kind; the numbers are equal if things are pushed onto each other in pairs.
+    /// Returns the number of things of each kind. The numbers are equal if things are pushed onto each other in pairs.
     pub(crate) fn counts_of(rules: &Rules, things: usize) -> [usize; KINDS] {
         match rules.kinds.len() {
             1 => [things, 0],

@@ -3,7 +3,7 @@
 use super::rules::{Destination, KINDS, Rules};
 use crate::levels::grid::{Grid, WAYS};
 
-/// The maximum number of cells of a board; the cells are bits of one number.
+/// The maximum number of cells of a board, because the cells are bits of one number.
 pub(crate) const MAX_CELLS: usize = 128;
 
 /// A set of cells.
@@ -50,7 +50,7 @@ pub(crate) struct Position {
     pub(crate) things: [Cells; KINDS],
     /// The remaining targets, by kind.
     pub(crate) targets: [Cells; KINDS],
-    /// The avatar's cell, or the first cell that it can walk to.
+    /// The avatar's cell, or the first cell that the avatar can walk to.
     pub(crate) avatar: u8,
 }
 
@@ -144,7 +144,7 @@ impl Pushing<'_> {
         all
     }
 
-    /// Returns `true` if all things are present and no thing is in its place yet.
+    /// Returns `true` if all things are present and no thing is at its destination yet.
     pub(crate) fn is_start(&self, position: &Position) -> bool {
         let counted =
             |kind: usize| position.things[kind].count_ones() as usize == self.floor_plan.counts[kind];
@@ -170,9 +170,9 @@ impl Pushing<'_> {
         self.rules.destinations.iter().enumerate().map(gone).fold(after.taken(), |ends, more| ends | more)
     }
 
-    /// Finds the positions before the push that left the avatar at `near`, coming from `near` plus `stride`: the push
-    /// moved the thing from `near` to `near` minus `stride`. In these positions, the avatar is in the cell that it
-    /// pushed from.
+    /// Finds the positions before the push that left the avatar at `near`, coming from `near` plus `stride`. The push
+    /// moved the thing from `near` to `near` minus `stride`. In the returned positions, the avatar is in the cell that
+    /// it pushed from.
     pub(crate) fn before(
         &self,
         after: &Position,

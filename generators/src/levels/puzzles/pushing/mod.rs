@@ -1,5 +1,5 @@
-//! Pushing puzzles, constructed backwards: all positions from which a floor plan can be solved are searched, and the
-//! farthest one becomes the level.
+//! Pushing puzzles, constructed backwards. All positions from which a floor plan can be solved are searched, and the
+//! farthest position becomes the level.
 
 pub(crate) mod backward;
 pub(crate) mod floor;

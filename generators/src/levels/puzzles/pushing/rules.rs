@@ -11,37 +11,38 @@ pub(crate) const KINDS: usize = 2;
 /// The destination of a pushed thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Destination {
-    /// A target on which the thing vanishes; the target remains.
+    /// A target on which the thing vanishes, while the target remains.
     Sink,
-    /// A target on which the thing vanishes together with the target.
+    /// A target that vanishes together with the thing.
     Hole,
     /// A target from which the thing can be pushed off again.
     Place,
-    /// A thing of the other kind; both vanish.
+    /// A thing of the other kind. Both things vanish.
     Partner,
 }
 
 /// The rules of pushing.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
-    /// The pushed types: one kind, or two kinds, which either have their own targets or are pushed onto each other.
+    /// The pushed types. There is one kind, or there are two kinds, which have their own targets or are pushed onto
+    /// each other.
     pub(crate) kinds: Vec<SpriteType>,
     /// The destination of each kind.
     pub(crate) destinations: Vec<Destination>,
-    /// The type of the targets of each kind; `None` if things are pushed onto things.
+    /// The type of the targets of each kind; `None` if things are pushed onto other things.
     pub(crate) targets: Vec<Option<SpriteType>>,
-    /// `true` for each kind on whose targets the avatar can stand.
+    /// For each kind, `true` if the avatar can stand on its targets.
     pub(crate) walkable: [bool; KINDS],
     /// `crosses[a][b]` is `true` if a thing of kind a can lie on a target of kind b and be pushed further.
     pub(crate) crosses: [[bool; KINDS]; KINDS],
-    /// Ground that the avatar walks on and things cannot be pushed onto, if the rules have such a type.
+    /// Ground that the avatar can walk on and things cannot be pushed onto; `None` if the rules have no such type.
     pub(crate) sill: Option<SpriteType>,
-    /// `merges[a][b]` is `true` if pushing a thing of kind a onto one of kind b removes both.
+    /// `merges[a][b]` is `true` if pushing a thing of kind a onto a thing of kind b removes both.
     pub(crate) merges: [[bool; KINDS]; KINDS],
 }
 
 impl Rules {
-    /// Returns `true` if things of one kind are pushed onto things of the other.
+    /// Returns `true` if things of one kind are pushed onto things of the other kind.
     pub(crate) fn in_pairs(&self) -> bool {
         self.destinations.contains(&Destination::Partner)
     }

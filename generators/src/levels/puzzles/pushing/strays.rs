@@ -1,5 +1,5 @@
-//! Pushing puzzles on open boards among strays, which wander at random: the player has to plan the pushes ahead, and to
-//! look before it walks.
+//! Pushing puzzles on open boards among strays, which wander at random. The player must plan the pushes ahead, and look
+//! before walking.
 
 use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
 use super::rules::{Destination, KINDS, Rules};
@@ -21,9 +21,9 @@ base::with_defaults! {
         /// The minimum and maximum number of rows, including the row of the fuse. Without that row, a board has at most
         /// 128 cells.
         pub rows: (usize, usize) = (11, 12),
-        /// The range of the number of actions in a win without strays; the upper end is exclusive.
+        /// The range of the number of actions in a win without strays. The upper end is exclusive.
         pub decisions: (usize, usize) = (50, 120),
-        /// The minimum and maximum number of strays; a level has the largest number with which it is fair.
+        /// The minimum and maximum number of strays. A level has the largest number of strays with which it is fair.
         pub strays: (usize, usize) = (3, 10),
         /// The minimum fraction of episodes that a careful player wins with a look before every action.
         pub fairness: f64 = 0.4,
@@ -36,8 +36,9 @@ base::with_defaults! {
 
 /// The minimum side length of a board.
 const LEAST_SIDE: usize = 7;
-/// The fractions of inner cells that are walls, and sills if the rules have them.
+/// The fraction of inner cells that are walls.
 const WALLS: f64 = 0.08;
+/// The fraction of inner cells that are sills, for rules with sills.
 const SILLS: f64 = 0.05;
 /// The approximate number of actions per thing.
 const ACTIONS_EACH: usize = 15;
@@ -71,9 +72,9 @@ pub struct StrayLevel {
 
 /// A generator of levels for the rules in [`PushRules::AMONG_STRAYS`].
 ///
-/// Boards are open, so that nobody is cornered for long. The solution pushes one thing after the other, always the one
-/// that takes the fewest steps. Strays pass over everything except walls. The win rate of a careful player that keeps
-/// to these pushes shows how often looking wins.
+/// Boards are open, so that the avatar is not cornered for long. The solution pushes one thing after the other, always
+/// the thing that takes the fewest steps. Strays pass over everything except walls. The win rate of a careful player
+/// that keeps to these pushes shows how often looking wins.
 pub struct StrayLevels {
     /// The game without strays.
     calm: Game,
@@ -85,7 +86,7 @@ impl StrayLevels {
     /// Creates a generator for rules with strays.
     ///
     /// # Panics
-    /// Never: without strays, all rules are rules of pushing puzzles, as a test checks.
+    /// This function never panics: without strays, all rules are rules of pushing puzzles, as a test checks.
     pub fn new(rules: PushRules, config: StrayConfig) -> StrayLevels {
         let calm = rules.without_strays().game();
         let analysis = Analysis::of(&calm);
@@ -94,9 +95,9 @@ impl StrayLevels {
         StrayLevels { calm, rules, config }
     }
 
-    /// Generates the level for a seed: draws boards until one meets the target. Returns `None` if all drawn boards miss
-    /// the target, or if no board of the drawn size is possible. Cost: a millisecond per board, and up to a second for
-    /// each board that meets the rest of the target.
+    /// Generates the level for a seed, by drawing boards until one meets the target. Returns `None` if all drawn boards
+    /// miss the target, or if no board of the drawn size is possible. Cost: a millisecond per board, and up to a second
+    /// for each board that meets the rest of the target.
     pub fn level(&self, seed: Seed) -> Option<StrayLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
@@ -176,8 +177,8 @@ impl StrayLevels {
         Some((floor_plan, start))
     }
 
-    /// Wins a level made by this generator, in any theme, as the careful player does. `stray` is the type of the
-    /// strays, and `seed` determines their moves. Returns `None` if the player loses with every degree of patience.
+    /// Wins a level made by this generator, in any theme, by playing like the careful player. `stray` is the type of
+    /// the strays, and `seed` determines their moves. Returns `None` if the player loses with every degree of patience.
     pub fn win(
         &self,
         made: &StrayLevel,
@@ -208,9 +209,9 @@ impl StrayLevels {
     }
 }
 
-/// Returns the steps, as indices into [`WAYS`], that push one thing after the other to its destination, always the one
-/// that takes the fewest steps; `None` if some thing cannot reach its destination in this order. Cost: O(things² ·
-/// cells²).
+/// Returns the steps, as indices into [`WAYS`], that push one thing after the other to its destination. The next thing
+/// is always the one that takes the fewest steps. Returns `None` if a thing cannot reach its destination in this order.
+/// Cost: O(things² · cells²).
 fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
     let (mut position, mut ways) = (start, Vec::new());
     loop {
@@ -230,8 +231,8 @@ fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
     }
 }
 
-/// Returns the shortest list of steps that push one thing to its destination while the others stay in place, and the
-/// position after these steps.
+/// Returns the shortest list of steps that push one thing to its destination while all other things stay in place, and
+/// the position after these steps.
 fn errand(
     pushing: &Pushing<'_>,
     start: Position,
@@ -310,7 +311,7 @@ mod tests {
     use super::*;
 
     /// Levels are won if no stray is in the way, and the careful player wins as many episodes in the game as in the
-    /// generator. This tests one set of rules, or two in a sweep (`cargo xtask sweep`).
+    /// generator. This test checks one set of rules, or two in a sweep (`cargo xtask sweep`).
     #[test]
     fn plays_among_strays_agree_with_the_game() {
         const PLAYS: u64 = 40;

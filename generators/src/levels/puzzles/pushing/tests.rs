@@ -1,4 +1,4 @@
-//! Comparison of the puzzle rules for every kind of destination, and of the backward search, with plain forward search.
+//! Comparison of the puzzle rules and of the backward search with plain forward search, for every kind of destination.
 
 #[path = "../../../../tests/it/levels/puzzles/crates.rs"]
 mod crates;
@@ -19,7 +19,8 @@ fn rules_of(game: &Game) -> Rules {
     Rules::of(&analysis, &Palette::of(&analysis).unwrap()).unwrap()
 }
 
-/// A corpus game with two kinds of things, one of which vanishes where it meets the other.
+/// Returns a corpus game with two kinds of things, in which things of one kind vanish when they meet things of the
+/// other.
 fn jars() -> Game {
     Game::from_source(include_str!("../../../../../corpora/quiet-jars/game.vgdl")).unwrap()
 }
@@ -33,7 +34,7 @@ fn rules_are_recognised() {
     assert_eq!(rules_of(&jars()).destinations, [Destination::Partner; 2]);
 }
 
-/// Returns the number of pushes from a position to the nearest solved one, by forward search.
+/// Returns the number of pushes from a position to the nearest solved position, by forward search.
 fn forward(pushing: &Pushing<'_>, start: Position) -> Option<usize> {
     let key = |position: &Position| (position.things, position.targets, position.avatar);
     let solved = pushing.solved();

@@ -1,4 +1,4 @@
-//! The trail of a win among pushed things: the avatar may rest and walk about between the pushes of the win.
+//! The trail of a win among pushed things. The avatar may rest and walk about between the pushes of the win.
 
 use crate::games::PushRules;
 use crate::levels::grid::{Grid, WAYS};
@@ -6,19 +6,19 @@ use crate::levels::puzzles::lookout::{ACTIONS, Moves};
 use base::Seed;
 use engine::{Action, Game, Level, Outcome, SpriteType, State};
 
-/// The pushes of a win, in order. A state is the number of pushes so far, and the avatar's cell.
+/// The pushes of a win, in order. A state consists of the number of pushes so far and the avatar's cell.
 pub(crate) struct Trail {
     grid: Grid,
     start: usize,
-    /// For each number of pushes and each cell, whether the avatar can walk there.
+    /// For each number of pushes and each cell, `true` if the avatar can walk into the cell.
     is_open: Vec<Vec<bool>>,
     /// The avatar's cell and the direction of each push.
     pushes: Vec<(usize, usize)>,
 }
 
 impl Trail {
-    /// Plays a win in a level of [`PushRules`] without strays; `None` if the actions do not win. Cost: that of the
-    /// episode.
+    /// Plays a win in a level of [`PushRules`] without strays. Returns `None` if the actions do not win. Cost:
+    /// that of the episode.
     pub(crate) fn of(game: &Game, level: &Level, win: &[Action]) -> Option<Trail> {
         let named = |is_one: fn(&str) -> bool| -> Vec<SpriteType> {
             game.sprite_types().filter(|stype| is_one(game.name(*stype))).collect()

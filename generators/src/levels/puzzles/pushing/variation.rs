@@ -15,34 +15,34 @@ use engine::{Game, Level, SpriteType};
 
 /// The maximum number of positions to search for the level of a floor plan.
 const MAX_POSITIONS: usize = 400_000;
-/// The maximum number of positions, distinguished by the avatar's cell, to search for the longest path; beyond it, any
-/// position will do.
+/// The maximum number of positions to search for the longest path, if positions are distinguished by the avatar's cell.
+/// With more positions, any position is used.
 const MAX_STEPS: usize = 250_000;
-/// The approximate total number of positions to search for a level: if floor plans have many positions, fewer plans are
+/// The approximate total number of positions to search for a level. If floor plans have many positions, fewer plans are
 /// rated.
 const POSITIONS: usize = 1_200_000;
-/// The number of floor plans to request at once; they are rated one after the other.
+/// The number of floor plans to request at once. They are rated one after the other.
 const BATCH: usize = 8;
-/// The number of attempts to turn floor plans into a level before the seed is given up.
+/// The number of attempts to turn floor plans into a level, after which generation with the seed fails.
 const ATTEMPTS: u64 = 4;
-/// The number of changes to a floor plan, of which a mutation keeps the best.
+/// The number of changes to a floor plan, from which a mutation keeps the best.
 const CHANGES: usize = 6;
 
 base::with_defaults! {
     /// The configuration of pushing puzzles.
     #[derive(Clone, Debug, PartialEq)]
     pub struct PuzzleConfig {
-        /// The number of things to push; `None` takes it from [`LevelConfig::counts`], or else chooses at least two,
+        /// The number of things to push. If `None`, it comes from [`LevelConfig::counts`], or else is at least two,
         /// depending on difficulty and room. With a target and more than three things, a floor plan takes up to some
         /// seconds and 500 MB.
         pub things: Option<usize> = None,
         /// The maximum number of floor plans to examine for a level.
         pub floor_plans: usize = 600,
-        /// The range of the level's distance from its solution, as a fraction of the longest distance; the draw favours
-        /// the lower end. `None` derives the range from [`LevelConfig::difficulty`].
+        /// The range of the level's distance from its solution, as a fraction of the longest distance. The draw favours
+        /// the lower end. If `None`, the range is derived from [`LevelConfig::difficulty`].
         pub way: Option<(f64, f64)> = None,
-        /// The minimum demand of a level: floor plans are searched until one meets it, with more positions for each
-        /// plan.
+        /// The minimum demand of a level. Floor plans are searched until one meets the demand, with more positions for
+        /// each plan.
         pub target: Option<PuzzleTarget> = None,
     }
 }
@@ -52,30 +52,35 @@ base::with_defaults! {
 pub struct PuzzleTarget {
     /// The minimum number of pushes in any win.
     pub pushes: usize,
-    /// The minimum number of actions in the solution, which uses that number of pushes.
+    /// The minimum number of actions in the solution with the minimum number of pushes.
     pub decisions: usize,
 }
 
-/// The limits of a search with a target: the number of positions per floor plan, and in total. The larger limits are
-/// for more things.
+/// The maximum number of positions per floor plan, in a search with a target for up to [`DEEP_THINGS`]
+/// things.
 const DEEP_POSITIONS: usize = 150_000;
+/// The maximum total number of positions, in a search with a target for up to [`DEEP_THINGS`] things.
 const DEEP_SEARCH: usize = 150_000_000;
+/// The maximum number of positions per floor plan, in a search with a target for more than [`DEEP_THINGS`]
+/// things.
 const VAST_POSITIONS: usize = 3_000_000;
+/// The maximum total number of positions, in a search with a target for more than [`DEEP_THINGS`] things.
 const VAST_SEARCH: usize = 1_500_000_000;
 /// The default number of things of a puzzle with a target, and the maximum for the lower limits.
 const DEEP_THINGS: usize = 3;
-/// The number of additional pushes required of the next floor plan, after one with enough pushes but too few actions.
+/// The number of additional pushes required of the next floor plan, after a floor plan with enough pushes but too few
+/// actions.
 const RAISE: usize = 3;
 
-/// Levels of games that are won by pushing things to their places (Sokoban and its relatives).
+/// Levels of games that are won by pushing things to their destinations (Sokoban and its relatives).
 ///
-/// Simulated annealing optimises the floor plan for the number of pushes from its farthest position; that number is
-/// exact, because all positions are searched backwards from all solved ones (Taylor and Parberry 2011, "Procedural
-/// generation of Sokoban levels"). Among the farthest positions, the level is the one that takes the most steps of the
-/// avatar. Each level has been won in the game itself.
+/// Simulated annealing optimises the floor plan for the number of pushes from its farthest position. That number is
+/// exact, because all positions are searched backwards from all solved positions (Taylor and Parberry 2011, "Procedural
+/// generation of Sokoban levels"). Among the farthest positions, the level is the one that takes the avatar the most
+/// steps. Each level has been won in the game itself.
 ///
-/// Cost: about a tenth of a millisecond per floor plan of 8 by 8 cells with three things; at most about a second per
-/// level, because the number of positions to search is limited.
+/// Cost: about a tenth of a millisecond per floor plan of 8 by 8 cells with three things. A level takes at most about a
+/// second, because the number of positions to search is limited.
 pub struct PuzzleVariation<'a> {
     levels: ConstructiveLevels<'a>,
     rules: Rules,
@@ -88,7 +93,7 @@ impl<'a> PuzzleVariation<'a> {
     ///
     /// # Errors
     /// Returns [`GenerateError::Unsuitable`] with the reason if the game is not won by pushing alone, or if no board of
-    /// the requested size is small enough to be searched; also returns the errors of [`ConstructiveLevels::new`].
+    /// the requested size is small enough to be searched. Also returns the errors of [`ConstructiveLevels::new`].
     pub fn new(
         game: &'a Game,
         config: LevelConfig,
@@ -123,8 +128,8 @@ impl<'a> PuzzleVariation<'a> {
         &self.levels
     }
 
-    /// Generates the level for a seed with actions that win it, which use the minimum number of pushes, but not always
-    /// the minimum number of actions. Returns `None` if no level is found or, with a target, if no level meets it.
+    /// Generates the level for a seed with actions that win it. The actions use the minimum number of pushes, but not
+    /// always the minimum number of actions. Returns `None` if no level is found, or if no level meets the target.
     pub fn create_solved(&self, seed: Seed) -> Option<Solved> {
         if self.puzzle.target.is_some() {
             return self.made(seed, self.puzzle.floor_plans, self.puzzle.target);
@@ -228,13 +233,14 @@ impl<'a> PuzzleVariation<'a> {
             let clear = if clear == 0 { region } else { clear };
             each(clear).map(|avatar| Position { avatar: avatar as u8, ..*position })
         });
-        // If the search for steps was cut short, any position will do.
+        // If the search for steps was cut short, any position is used.
         let start = stands.max_by_key(|start| (steps.distance(start), std::cmp::Reverse(start.avatar)))?;
         let ways = pushing.solution(&searched, start)?;
         self.furnish(floor_plan, &start, &ways, seed)
     }
 
-    /// Puts a position on a board and furnishes it with the game's other things, if it can still be won afterwards.
+    /// Puts a position on a board and furnishes the board with the game's other things, if the level can still be won
+    /// afterwards.
     fn furnish(
         &self,
         floor_plan: &FloorPlan,
@@ -281,7 +287,7 @@ impl<'a> PuzzleVariation<'a> {
         Some(solved(&builder.board).unwrap_or(bare))
     }
 
-    /// Returns the floor plan of a level, if the level is a puzzle of this kind.
+    /// Returns the floor plan of a level; `None` if the level is not a puzzle of this kind.
     fn floor_plan_of(&self, level: &Level) -> Option<FloorPlan> {
         let grid = Grid { columns: level.columns(), rows: level.rows() };
         if grid.len() > MAX_CELLS {
@@ -309,7 +315,7 @@ impl<'a> PuzzleVariation<'a> {
         (floor_plan.wall & border == border && floor_plan.counts[0] > 0).then_some(floor_plan)
     }
 
-    /// Rates a few floor plans and makes a level from the best one.
+    /// Rates a few floor plans and makes a level from the best plan.
     fn best(
         &self,
         parent: &FloorPlan,
@@ -319,7 +325,7 @@ impl<'a> PuzzleVariation<'a> {
         let floors = self.floors(parent.grid, parent.counts);
         let plans = (0..CHANGES).map(|_| plan(&floors, sampler)).filter(|plan| plan != parent);
         let rated: Vec<(f64, FloorPlan)> = plans.map(|plan| (floors.rate(&plan).objective, plan)).collect();
-        // Among equals, the first one wins.
+        // Among equally good plans, the first is used.
         let best = rated.into_iter().reduce(|best, next| if next.0 > best.0 { next } else { best })?;
         let seed = Seed::from_text("mutation").child("draw", sampler.bits());
         self.level_of(&best.1, seed).map(|solved| solved.level)
@@ -333,7 +339,7 @@ impl Variation for PuzzleVariation<'_> {
         self.create_solved(seed).map(|solved| solved.level)
     }
 
-    /// Makes a level from the best of a few changes to the parent's floor plan; returns the parent itself if that
+    /// Makes a level from the best of a few changes to the parent's floor plan. Returns the parent itself if that
     /// fails.
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
         let varied = self.floor_plan_of(parent).and_then(|floor_plan| {
@@ -344,8 +350,8 @@ impl Variation for PuzzleVariation<'_> {
         varied.unwrap_or_else(|| parent.clone())
     }
 
-    /// Makes a level from half of one floor plan and half of the other, with a small change; mutates the first level if
-    /// the two do not fit together.
+    /// Makes a level from half of one floor plan and half of the other, with a small change. Mutates the first level if
+    /// the two halves do not fit together.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.floor_plan_of(one), self.floor_plan_of(two));
         let fit = first

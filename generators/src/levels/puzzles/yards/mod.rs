@@ -1,4 +1,4 @@
-//! Yards that meet a target: the player carries parcels past carts whose course it has to foresee, with hardly any time
+//! Yards that meet a target. The player carries parcels past carts whose course must be foreseen, with hardly any time
 //! to spare.
 
 mod timetable;
@@ -21,11 +21,11 @@ base::with_defaults! {
         pub columns: (usize, usize) = (11, 12),
         /// The minimum and maximum number of rows, including the row of the fuse.
         pub rows: (usize, usize) = (11, 12),
-        /// The range of the number of keys pressed in a fastest win; the upper end is exclusive.
+        /// The range of the number of keys pressed in a fastest win. The upper end is exclusive.
         pub decisions: (usize, usize) = (50, 120),
         /// The number of carts on a board of the usual size.
         pub carts: usize = 4,
-        /// The minimum and maximum number of strays; a level has the largest number with which it is fair.
+        /// The minimum and maximum number of strays. A level has the largest number of strays with which it is fair.
         pub strays: (usize, usize) = (4, 10),
         /// The minimum fraction of ticks of the win at which it would be deadly to stay for ten ticks.
         pub exposure: f64 = 0.2,
@@ -38,7 +38,7 @@ base::with_defaults! {
     }
 }
 
-/// The minimum side length of a board, including the row of the fuse; smaller boards have no room for tracks.
+/// The minimum side length of a board, including the row of the fuse. Smaller boards have no room for tracks.
 const LEAST_SIDE: usize = 6;
 /// The number of inner cells of a board that has the configured number of carts.
 const USUAL: f64 = 80.0;
@@ -46,9 +46,9 @@ const USUAL: f64 = 80.0;
 const WAIT: usize = 10;
 /// The number of ticks of the fastest win per spare tick.
 const DETOURS: usize = 6;
-/// The maximum number of carts; prompts list the directions of up to this many sprites of a type.
+/// The maximum number of carts. Prompts list the directions of up to this many sprites of a type.
 const CARTS: usize = 8;
-/// The maximum number of parcels; each one doubles the time of the search for the win.
+/// The maximum number of parcels. Each parcel doubles the time of the search for the win.
 const PARCELS: usize = 6;
 /// The number of episodes of the careful player per test of fairness.
 const PLAYS: usize = 40;
@@ -71,9 +71,9 @@ pub struct YardLevel {
 }
 
 impl YardConfig {
-    /// Generates the level for a seed: draws yards until one meets the target. Returns `None` if all drawn yards miss
-    /// it, or if a side has fewer than 6 cells. Cost: a hundredth of a second for a yard whose carts do not obstruct
-    /// each other, and up to a second more for each yard that meets the rest of the target.
+    /// Generates the level for a seed, by drawing yards until one meets the target. Returns `None` if all drawn yards
+    /// miss the target, or if a side has fewer than 6 cells. Cost: a hundredth of a second for a yard whose carts do
+    /// not obstruct each other, and up to a second more for each yard that meets the rest of the target.
     pub fn level(&self, rules: YardRules, seed: Seed) -> Option<YardLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
@@ -126,7 +126,7 @@ impl YardConfig {
     fn furniture(&self, rules: YardRules, grid: Grid) -> Furniture {
         let inner = (grid.columns - 2) * (grid.rows - 2);
         let carts = (self.carts as f64 * inner as f64 / USUAL).round().max(1.0) as usize;
-        // With more kinds of depots, fewer steps are made without a load.
+        // With more kinds of depots, the avatar makes fewer steps without a load.
         let steps = self.decisions.0.max(8) * (2 + rules.kinds()) / 3;
         // The distance of parcels from their depots is about half of the board's perimeter.
         let way = grid.columns + grid.rows - 6;

@@ -10,9 +10,9 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Timetable {
     cells: usize,
-    /// For each tick and cell, `true` if a cart is there after the tick.
+    /// For each tick and cell, `true` if a cart is in the cell after the tick.
     is_busy: Vec<bool>,
-    /// For each cell, the number of ticks after which a cart is there.
+    /// For each cell, the number of ticks after which a cart is in the cell.
     pub(super) visits: Vec<u32>,
 }
 
@@ -22,8 +22,8 @@ const EMPTY: usize = 0;
 const APART: f64 = 0.75;
 
 impl Timetable {
-    /// Runs the carts for a number of ticks. Returns `None` if two of them enter the same points at once, in which case
-    /// the order of rules would decide, or if too many of them end up running together. Cost: O(ticks · carts²).
+    /// Runs the carts for a number of ticks. Returns `None` if two carts enter the same points at once, because the
+    /// order of rules would then decide, or if too many carts end up running together. Cost: O(ticks · carts²).
     pub(super) fn of(yard: &Yard, ticks: usize) -> Option<Timetable> {
         let cells = yard.grid.len();
         let mut signs = yard.signs.clone();
@@ -31,7 +31,7 @@ impl Timetable {
         let mut timetable = Timetable { cells, is_busy: vec![false; ticks * cells], visits: vec![0; cells] };
         for tick in 0..ticks {
             for ((cell, way), cart) in carts.iter_mut().zip(&yard.carts) {
-                // Carts rest in the first tick; wagons move in every second tick.
+                // Carts rest in the first tick, and wagons move in every second tick.
                 if tick > 0 && (!cart.is_wagon || tick % 2 == 1) {
                     *cell = yard.grid.shift(*cell, WAYS[*way])?;
                 }
@@ -67,8 +67,8 @@ impl Timetable {
         self.is_busy[tick * self.cells + cell]
     }
 
-    /// Returns the fraction of ticks of a walk (the cell after each tick) at which it would be deadly to stay for the
-    /// next `wait` ticks.
+    /// Returns the fraction of ticks of a walk at which it would be deadly to stay for the next `wait` ticks. The walk
+    /// is given by the cell after each tick.
     pub(super) fn exposure(&self, way: &[usize], wait: usize) -> f64 {
         let ends = |tick: usize| (tick + 1 + wait).min(self.ticks());
         let deadly =
@@ -76,9 +76,9 @@ impl Timetable {
         way.iter().enumerate().filter(|&at| deadly(at)).count() as f64 / way.len().max(1) as f64
     }
 
-    /// Returns the steps of a fastest win within the first `most` ticks of the timetable, as indices into [`WAYS`] with
-    /// `None` for a tick of rest, and the cells after each tick. Cost: O(ticks · cells · 2^parcels), much less if
-    /// hardly any walk is fast enough.
+    /// Returns the steps of a fastest win within the first `most` ticks of the timetable, and the cells after each
+    /// tick. Steps are indices into [`WAYS`], with `None` for a tick of rest. Cost: O(ticks · cells · 2^parcels), much
+    /// less if hardly any walk is fast enough.
     pub(super) fn fastest(&self, yard: &Yard, most: usize) -> Option<(Vec<Option<usize>>, Vec<usize>)> {
         let most = most.min(self.ticks());
         let remaining = Remaining::of(yard);
@@ -111,11 +111,11 @@ impl Timetable {
 }
 
 /// The moves of a yard's avatar, and their results. A state consists of the avatar's cell, its load, and the set of
-/// parcels that it has taken.
+/// parcels already taken.
 pub(super) struct Errands<'a> {
     yard: &'a Yard,
     timetable: &'a Timetable,
-    /// For each cell, the number and kind of its parcel.
+    /// For each cell, the number and kind of its parcel; `None` if it has no parcel.
     parcels: Vec<Option<(usize, usize)>>,
 }
 
@@ -128,7 +128,7 @@ impl<'a> Errands<'a> {
         Errands { yard, timetable, parcels }
     }
 
-    /// Returns the number of possible loads: none, or a parcel of one of the kinds.
+    /// Returns the number of possible loads, which are no load or a parcel of one of the kinds.
     fn loads(&self) -> usize {
         self.yard.depots.len() + 1
     }
@@ -161,7 +161,7 @@ impl Moves for Errands<'_> {
         state % self.timetable.cells
     }
 
-    /// A state wins if all parcels are at their depots.
+    /// Returns `true` if a state wins, which means that all parcels are at their depots.
     fn is_won(&self, state: usize) -> bool {
         let (_, load, taken) = self.unpack(state);
         taken == self.all() && load == EMPTY
@@ -171,7 +171,7 @@ impl Moves for Errands<'_> {
         self.timetable.is_busy(tick, cell)
     }
 
-    /// The steps ignore carts.
+    /// Returns the steps from a state, ignoring carts.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
         let (cell, load, taken) = self.unpack(state);
         (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {
@@ -196,10 +196,10 @@ impl Moves for Errands<'_> {
     }
 }
 
-/// A lower bound of the remaining steps.
+/// A lower bound on the remaining steps.
 struct Remaining {
-    /// For each set of taken parcels, the total length of the walks from the other parcels to their depots, and from
-    /// the nearest depots to these parcels.
+    /// For each set of taken parcels, the total length of two kinds of walks: from the remaining parcels to their
+    /// depots, and from the nearest depots to these parcels.
     tours: Vec<usize>,
     /// For each depot, the number of steps from each cell.
     steps: Vec<Vec<u32>>,
@@ -219,7 +219,7 @@ impl Remaining {
         Remaining { tours, steps }
     }
 
-    /// Returns the lower bound for a state. The first walk to a parcel begins at the avatar instead of a depot; by the
+    /// Returns the lower bound for a state. The first walk to a parcel begins at the avatar instead of a depot. By the
     /// triangle inequality, that saves at most the distance between the avatar and the nearest depot.
     fn least(&self, taken: usize, load: usize, cell: usize) -> usize {
         let tours = self.tours[taken];

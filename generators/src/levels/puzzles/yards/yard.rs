@@ -9,7 +9,7 @@ pub(super) const RIGHT: usize = 3;
 /// The fraction of inner cells that are walls.
 const WALLS: f64 = 0.14;
 
-/// The minimum number of visits by carts for a cell to count as one that carts frequent.
+/// The minimum number of visits by carts at which a cell counts as frequented by carts.
 const OFTEN: u32 = 6;
 
 /// The minimum distance between strays and the avatar.
@@ -18,7 +18,7 @@ const AWAY: usize = 5;
 /// A sign that turns the carts that enter its cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sign {
-    /// Turns carts in one direction: an index into [`WAYS`].
+    /// Turns carts in one direction, which is an index into [`WAYS`].
     Fixed(usize),
     /// Turns the first cart in one direction, the next in the opposite direction, and so on.
     Points(usize),
@@ -65,7 +65,7 @@ pub(super) struct Yard {
     pub(super) is_floor: Vec<bool>,
     pub(super) signs: Vec<Option<Sign>>,
     pub(super) carts: Vec<Cart>,
-    /// The avatar's cell.
+    /// The cell where the avatar starts.
     pub(super) start: usize,
     /// The cells and kinds of parcels.
     pub(super) parcels: Vec<(usize, usize)>,
@@ -76,7 +76,7 @@ pub(super) struct Yard {
 }
 
 impl Yard {
-    /// Draws a yard with nothing but carts in it, which never run into a wall; `None` if the draw fails.
+    /// Draws a yard that contains only carts, which never run into a wall; `None` if the draw fails.
     pub(super) fn draw(rules: YardRules, grid: Grid, carts: usize, sampler: &mut Sampler) -> Option<Yard> {
         let mut yard = Yard {
             grid,
@@ -181,7 +181,7 @@ impl Yard {
         sampler.shuffle(&mut free);
         free.sort_by_key(|&cell| visits[cell] < OFTEN);
         for _ in 0..rules.kinds() {
-            // Among a few drawn cells, use the one farthest from the middle.
+            // Among a few drawn cells, use the cell farthest from the middle.
             let middle = self.grid.at(self.grid.columns / 2, self.grid.rows / 2);
             let far = (0..free.len().min(4)).max_by_key(|&at| self.grid.manhattan(middle, free[at]))?;
             self.depots.push(free.remove(far));
@@ -191,7 +191,7 @@ impl Yard {
         for number in 0..furniture.parcels {
             let kind = number % rules.kinds();
             let steps = self.grid.flood(&[self.depots[kind]], |cell| self.is_floor[cell]);
-            // The mean of the missing steps, or slightly more.
+            // The target is the mean of the missing steps, or slightly more.
             let mean = missing.div_ceil(2 * (furniture.parcels - number)) as u32;
             let fits = |cell: &usize| (mean..mean + 3).contains(&steps[*cell]);
             let at = free.iter().position(fits)?;

@@ -1,8 +1,10 @@
-//! Games in which crates are pushed, one for each kind of destination, which unit tests of the crate also use.
+//! Games in which crates are pushed, one for each kind of destination. Unit tests of the crate also use these
+//! games.
 
 use engine::Game;
 
-/// Returns a game in which crates are pushed; `sprites`, `mapping` and `rules` define their destination.
+/// Returns a game in which crates are pushed. `sprites`, `mapping` and `rules` define the destination of the
+/// crates.
 fn crates(sprites: &str, mapping: &str, rules: &str) -> Game {
     let source = format!(
         "BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n{sprites}    porter > MovingAvatar\n  \

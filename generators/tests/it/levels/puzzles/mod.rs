@@ -1,5 +1,5 @@
-//! Tests of puzzles with every kind of destination, which are compared with the game itself and with the agents'
-//! searches.
+//! Tests of puzzles with every kind of destination. The puzzles are compared with the game itself and with the
+//! agents' searches.
 
 mod crates;
 mod strays;
@@ -57,8 +57,8 @@ fn solutions_win_and_levels_vary() {
     }
 }
 
-/// Closer to the solution, there is less to push. The sum is tested because a floor plan that cannot be furnished is
-/// replaced by a different one.
+/// The closer the start is to the solution, the less there is to push. The sum is tested because a floor plan that
+/// cannot be furnished is replaced by a different one.
 #[test]
 fn a_level_starts_at_the_requested_part_of_the_solution() {
     let game = sink();
@@ -90,7 +90,7 @@ fn proved(analysis: &Analysis, level: &Level) -> (usize, usize) {
     (actions.len(), pushes_among(analysis, level, &actions))
 }
 
-/// Returns the number of the actions that push something.
+/// Returns the number of actions that push something.
 fn pushes_among(analysis: &Analysis, level: &Level, actions: &[Action]) -> usize {
     let game = analysis.game();
     let mut state = game.start(level, Seed::from_text("proof"));
@@ -107,7 +107,7 @@ fn pushes_among(analysis: &Analysis, level: &Level, actions: &[Action]) -> usize
     count
 }
 
-/// The model allows no more than the game: no win has fewer pushes than the backward search found.
+/// The model allows no more than the game, so no win has fewer pushes than the backward search found.
 #[test]
 fn puzzles_of_all_rules_meet_their_target_and_agree_with_the_game() {
     let target = PuzzleTarget { pushes: 9, decisions: 16 };

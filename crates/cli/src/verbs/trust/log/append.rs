@@ -177,8 +177,8 @@ fn keys(file: &Path) -> Result<Entry, Failure> {
     }
 }
 
-/// Rejects a set of keys that its readers do not follow yet. If the set were made again with different keys, the log could accept
-/// no further set.
+/// Rejects a set of keys that does not yet follow from the sets that its readers know. If such a set were made again
+/// with different keys, the log could accept no further set.
 fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let found = Signatures::read(folder)?;
@@ -195,8 +195,8 @@ fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     )
 }
 
-/// Rejects a commitment that follows a release which is not in the log, because the root of the committed release could not be
-/// appended later.
+/// Rejects a commitment that follows a release which is not in the log, because the root of the committed release could
+/// not be appended later.
 fn reachable(all: &[Entry], new: &[Entry]) -> Result<(), Failure> {
     for entry in new {
         let Entry::Commitment { release, parent: Some(parent), .. } = entry else { continue };
@@ -210,8 +210,8 @@ fn reachable(all: &[Entry], new: &[Entry]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the entry of a commitment. A commitment cannot be withdrawn, and the root appended later must match its parent, recipe
-/// and name. So everything that can be checked is checked here.
+/// Returns the entry of a commitment. A commitment cannot be withdrawn, and the root appended later must match its
+/// parent, recipe and name. Everything that can be checked is therefore checked here.
 fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> Result<Entry, Failure> {
     let mut recipe = find_recipe(file, Recipe::from_toml)?;
     if let Some(parent) = &args.parent {

@@ -84,7 +84,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         Ok(None) => return Err(absent(folder)),
         log => log?.expect("there is one"),
     };
-    // The checkpoint that was seen last may be replaced by the new one.
+    // The checkpoint that was seen last may be replaced by the new checkpoint.
     if let Some(file) = &args.save {
         whole_file::check(file, &[folder, &args.key])?;
     }
@@ -148,7 +148,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(sound)
 }
 
-/// Answers that nobody can read the log.
+/// Reports that nobody can read the log.
 fn damaged(error: &TrustError, console: &Console) -> Answer {
     console.document(&json!({ "problems": [error.to_string()] }))?;
     console.say(error);
@@ -224,8 +224,8 @@ struct Replayed {
     note: Option<String>,
 }
 
-/// Returns the differences between the row in the log and the row recomputed from the episodes, played on the games of the
-/// release.
+/// Returns the differences between the row in the log and the row recomputed from the episodes. The episodes are played
+/// on the games of the release.
 fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Replayed, Failure> {
     let shown = folder.in_message();
     let only = |problem: String| Ok(Replayed { problems: vec![format!("`{shown}`: {problem}")], note: None });
@@ -239,7 +239,7 @@ fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Rep
             "no row of the log has its digest, {digest}: it was altered later, or never appended"
         ));
     };
-    // If an episode does not replay, the row is wrong. That is an answer and not a failure.
+    // If an episode does not replay, the row is wrong. This is an answer and not a failure.
     let again = match row::of(folder, entries) {
         Ok(again) => again,
         Err(Failure::Malformed(error)) => return only(format!("{error:#}")),

@@ -1,4 +1,4 @@
-//! `arcade trust log`: a public log from which nothing can be removed.
+//! `arcade trust log`: keeps a public log from which nothing can be removed.
 
 mod append;
 mod check;
@@ -89,7 +89,7 @@ fn public_key(file: &Path) -> Result<PublicKey, Failure> {
     }
 }
 
-/// Reads a checkpoint.
+/// Reads a checkpoint of a log.
 fn checkpoint(file: &Path) -> Result<Checkpoint, Failure> {
     let text = read_text(file, MAX_CHECKPOINT)?;
     Ok(Checkpoint::parse(&text, &file.in_message().to_string())?)
@@ -104,7 +104,7 @@ fn rules(entries: &[Entry]) -> Vec<String> {
     problems(entries, &commitment_of)
 }
 
-/// Computes the commitment to a revealed secret, as releases do.
+/// Computes the commitment to a revealed secret in the same way as releases.
 fn commitment_of(revealed: &Revealed) -> Digest {
     let Revealed { release, seed, nonce, recipe, .. } = revealed.clone();
     Secret { name: release, seed, nonce, recipe: Some(recipe) }.commitment()

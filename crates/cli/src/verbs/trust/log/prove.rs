@@ -1,4 +1,5 @@
-//! `arcade trust log prove`: small files that prove a fact about a log to people who do not have it.
+//! `arcade trust log prove`: writes small files that prove a fact about a log to people who do not have the
+//! log.
 
 use super::{checkpoint, open};
 use crate::console::Console;

@@ -12,7 +12,7 @@ use std::fs;
 use std::path::Path;
 use trust::log::{Entry, ResultRow};
 
-/// Computes the row for a results folder whose release is in the log. Replays every episode.
+/// Computes the row for a results folder whose release is in the log. Every episode is replayed.
 pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure> {
     let evaluation = Evaluation::open(folder)?;
     let settings = &evaluation.settings;
@@ -38,7 +38,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
         track: settings.track.clone(),
         horizon: settings.commit.to_string(),
         episodes: row.scores.episodes,
-        // Episodes without a log count as open, so that nobody can omit the episodes that they lost.
+        // Episodes without a log count as open, so that nobody can omit lost episodes.
         open: (evaluation.tasks().len() as u64).saturating_sub(row.scores.episodes),
         wins: row.scores.wins,
         rate: rate.value,
@@ -47,7 +47,8 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
     })
 }
 
-/// Returns the games and levels in the results that are not files of their release. Empty if all are.
+/// Returns the games and levels in the results that are not files of their release. The list is empty if all of them
+/// are.
 pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, Failure> {
     let mut problems = Vec::new();
     for Leaf { path, digest } in leaves(folder)? {
@@ -62,7 +63,8 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
     Ok(problems)
 }
 
-/// Returns the digest of a results folder: the root of a tree like a release's, over all its files except hidden ones.
+/// Returns the digest of a results folder. It is the root of a tree like a release's, over all files in the folder
+/// that are not hidden.
 pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
     merkle::root(&leaves(folder)?).map_err(|error| malformed!("`{}`: {error}", folder.in_message()))
 }
