@@ -1,4 +1,5 @@
-//! Writes the game of a kernel file and levels of its course, in a scene or with the kernel's type names:
+//! Writes the game of a kernel file, in a scene or with the kernel's type names, and a composed board for each demand.
+//! Nobody has won these boards yet:
 //! `cargo run -p infinite-arcade-generators --example kernel -- FILE.toml FOLDER [SEED] [--variants] [--form=NAME]
 //! [--scene=NAME]`.
 

@@ -1,8 +1,8 @@
-//! Games composed around a dilemma: kernels in scenes, with levels that form a course.
+//! Games composed around a dilemma: kernels in scenes.
 //!
-//! A kernel (`file/kernel.rs`, the files of `generators/kernels/`) has the rules for one dilemma and the maps of its
-//! levels. A scene (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both,
-//! `compose.rs` makes the rules and the words, and `course/` builds levels from maps.
+//! A kernel (`file/kernel.rs`, the files of `generators/kernels/`) has the rules for one dilemma. A scene
+//! (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both, and `compose.rs`
+//! makes the rules and the words.
 
 mod compose;
 pub(crate) mod file;

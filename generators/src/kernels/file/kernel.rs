@@ -1,8 +1,7 @@
 //! A kernel: a small set of coupled rules around one dilemma.
 //!
 //! A kernel is a file in `generators/kernels/`. It contains VGDL rules with names that do not depend on a scene, and
-//! the role of every type. For each of five slots, it also contains the maps that pose the dilemma.
-//! `docs/reference/kernels.md` is the manual.
+//! the role of every type. `docs/reference/kernels.md` is the manual.
 
 use super::form::Form;
 use super::template::{Numbers, Template};
@@ -150,7 +149,7 @@ impl Kernel {
     /// Reads a kernel file.
     ///
     /// # Errors
-    /// Returns the first error, such as an error in the format, in a number or in a map, or a slot without a level.
+    /// Returns the first error, such as an error in the format, in a number, or in the types that levels place.
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
         let file: File = toml::from_str(text)
             .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
