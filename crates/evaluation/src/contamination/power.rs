@@ -10,8 +10,9 @@ use statistics::{Memoriser, Spread, coin_power};
 pub const ALPHA: f64 = 0.01;
 /// The assumed fractions of levels that a player knows.
 pub const SHARES: [f64; 5] = [0.1, 0.2, 0.3, 0.5, 1.0];
-/// The assumed win rates of a player on the levels that it knows (`KNOWN`) and on all other levels (`CLEAN`).
+/// The assumed win rate of a player on the levels that it knows.
 const KNOWN: f64 = 0.9;
+/// The assumed win rate of a player on the levels that it does not know.
 const CLEAN: f64 = 0.27;
 /// The fraction of episodes that begin like a win by chance. The value is that of `reflex`, which was the
 /// highest among the measured players.

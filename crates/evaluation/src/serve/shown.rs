@@ -43,7 +43,7 @@ pub(super) struct Shown<'a> {
 /// The position and type of the player.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct You<'a> {
-    /// The player's type, or an empty text if the prompt does not state it.
+    /// The player's type as stated in the prompt, or else the name of the player in the legend.
     pub(super) name: &'a str,
     pub(super) cell: usize,
     pub(super) facing: Option<Action>,

@@ -127,8 +127,8 @@ pub(super) fn horizons(study: &Study) -> Vec<HorizonRow> {
     rows
 }
 
-/// Returns the number of ticks in the shortest known win of each level, by game and level: the proved one, or the
-/// shortest win of any player in the study.
+/// Returns the length of the shortest known win in ticks, by game and level. The shortest known win is a proved
+/// one, or else the shortest win of any player in the study.
 fn shortest_wins(study: &Study) -> BTreeMap<(usize, usize), u64> {
     let mut shortest = BTreeMap::new();
     let wins = study.episodes.iter().filter(|episode| episode.metrics.won());

@@ -17,6 +17,7 @@ use std::time::Duration;
 /// The number of tries to lock a mailbox. A [`Desk`](super::Desk) holds the lock briefly while it tests
 /// whether an evaluation holds it.
 const TRIES: u32 = 20;
+/// The pause between two tries to lock a mailbox.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// A function that shows notices to the user who started the evaluation.

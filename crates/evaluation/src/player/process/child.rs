@@ -31,6 +31,7 @@ const DRAIN_TIME: Duration = Duration::from_millis(500);
 /// The number of polls in which a guard must kill its program and exit. With the pauses between polls, the
 /// time adds up to at most ten seconds.
 const POLLS: u32 = 2000;
+/// The pause between two polls for a guard.
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The environment variables that every process inherits if they are set. They contain the locations of

@@ -11,6 +11,7 @@ static RUNNING: Mutex<Running> = Mutex::new(Running { is_over: false, players: B
 /// The maximum number of polls until all players are gone. With the pauses between polls, the time adds up to
 /// at most three seconds.
 const POLLS: u32 = 600;
+/// The pause between two polls for running players.
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The registry of running players.
