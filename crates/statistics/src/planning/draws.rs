@@ -1,4 +1,4 @@
-//! Random numbers for simulations from ChaCha8, which are the same on every machine.
+//! Random numbers for simulations. They come from ChaCha8, and are the same on every machine.
 
 use libm::{log, sqrt};
 use rand_chacha::ChaCha8Rng;
@@ -29,7 +29,8 @@ impl Draws {
         }
     }
 
-    /// Draws the number of successes in `trials` trials that each succeed with probability `chance`.
+    /// Draws the number of successes in `trials` independent trials, each of which succeeds with probability
+    /// `chance`.
     pub(crate) fn successes(&mut self, chance: f64, trials: u64) -> u64 {
         (0..trials).filter(|_| self.uniform() < chance).count() as u64
     }
