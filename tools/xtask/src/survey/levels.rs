@@ -78,7 +78,7 @@ const SHARES: [(&str, &str, &str); 7] = [
     ("copies", "novelty", "copies"),
 ];
 
-/// The measures in which new levels should stay within the range of the game's own levels.
+/// The measures in which new levels should be within the range of the game's own levels.
 const FIT: [&str; 3] = ["columns", "rows", "cover"];
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
