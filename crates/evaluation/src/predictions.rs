@@ -135,8 +135,8 @@ pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Gr
     grade
 }
 
-/// Reads the answer to the question about sprite types. The last line for each fact counts, such as `KILLS:
-/// t1, t4` or `STOPS: none`. `names` maps the names in the question to the game's own names.
+/// Reads the answer to the question about sprite types. The last line for each fact counts, such as
+/// `KILLS: t1, t4` or `STOPS: none`. `names` maps the names in the question to the game's own names.
 ///
 /// Emphasis, list markers, unknown types and text outside the lines are ignored. A semicolon also ends a
 /// line.

@@ -452,8 +452,8 @@ impl Lanes {
         }))
     }
 
-    /// Plays steps without observations, to measure the speed without them. Draws the same actions as `cargo
-    /// xtask bench --batch`. Returns the number of episodes that ended.
+    /// Plays steps without observations, to measure the speed without them. Draws the same actions as
+    /// `cargo xtask bench --batch`. Returns the number of episodes that ended.
     fn step_blindly(
         &mut self,
         py: Python<'_>,

@@ -38,8 +38,8 @@ base::named_enum! {
         Json = "json",
         /// A tag around an action: `<answer>left</answer>`.
         Tag = "tag",
-        /// A word such as "action" or "final answer", directly followed by an action, such as `**Action:**
-        /// left` or `action 2`.
+        /// A word such as "action" or "final answer", directly followed by an action, such as
+        /// `**Action:** left` or `action 2`.
         Marker = "marker",
         /// A word such as "action", followed by other words and an action, such as `Action: I move left`.
         Line = "line",

@@ -29,9 +29,9 @@ fn symbol(legend: &Legend, names: &[&str]) -> char {
     names.last().and_then(|name| legend.entry(name)).map_or(EMPTY, |entry| entry.symbol)
 }
 
-/// Lists the piles of sprites that one character per cell cannot show, such as `frost over snow: (3,4)
-/// (5,4)`. Each combination of several sprites has one line, in the order of the board. Cost: O(cells ×
-/// piles).
+/// Lists the piles of sprites that one character per cell cannot show, such as
+/// `frost over snow: (3,4) (5,4)`. Each combination of several sprites has one line, in the order of the
+/// board. Cost: O(cells × piles).
 pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     // Each pile consists of its names, from the lowest to the uppermost, and its cells.

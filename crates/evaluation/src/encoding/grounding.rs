@@ -40,9 +40,9 @@ pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     lines
 }
 
-/// Lists the sprites that move straight ahead by their directions, as in `drifter: right (7,1) (2,2), left
-/// (10,3)`. Up to `NEAREST` sprites are listed per type, nearest first. Types that always move in the
-/// direction given by the rules are omitted. Cost: O(movers × types).
+/// Lists the sprites that move straight ahead by their directions, as in
+/// `drifter: right (7,1) (2,2), left (10,3)`. Up to `NEAREST` sprites are listed per type, nearest first.
+/// Types that always move in the direction given by the rules are omitted. Cost: O(movers × types).
 pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
     let avatar = Scene::of(observation, legend).avatar;
     let line = |entry: &Entry| {

@@ -118,9 +118,9 @@ impl Ending {
         }
     }
 
-    /// Formats the sprites that caused the ending, to follow its kind, as in `of touching dragonfly`, `flower
-    /// to arrow` or `weed`. Returns `None` if the sprites are unknown, or if no sprite causes this kind of
-    /// ending.
+    /// Formats the sprites that caused the ending, to follow its kind, as in `of touching dragonfly`,
+    /// `flower to arrow` or `weed`. Returns `None` if the sprites are unknown, or if no sprite causes this
+    /// kind of ending.
     pub fn particulars(&self) -> Option<String> {
         let sprite = || self.sprite.as_deref().unwrap_or("a sprite");
         match (self.kind, &self.by) {

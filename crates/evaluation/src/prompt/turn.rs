@@ -96,8 +96,8 @@ impl View<'_> {
         }))
     }
 
-    /// Describes the result of each action since the last decision, as in `right (4,2)`, `use as nil (4,2),
-    /// score +1` or `up: you died`.
+    /// Describes the result of each action since the last decision, as in `right (4,2)`,
+    /// `use as nil (4,2), score +1` or `up: you died`.
     fn played(&self) -> Vec<String> {
         let told = |played: &Played| {
             let nil = if played.is_unavailable { " as nil" } else { "" };

@@ -129,8 +129,8 @@ pub struct LevelEntry {
 }
 
 impl Settings {
-    /// Returns a warning if some levels have no known win within the step limit, such as `38 of 54 levels
-    /// have no known win within 40 steps`.
+    /// Returns a warning if some levels have no known win within the step limit, such as
+    /// `38 of 54 levels have no known win within 40 steps`.
     pub fn out_of_reach(&self) -> Option<String> {
         let of_level = |game: &SubjectEntry, number: usize| game.facts.known_wins.get(&number).copied();
         let levels = self.games.iter().flat_map(|game| game.levels.iter().map(move |level| (game, level)));

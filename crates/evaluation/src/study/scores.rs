@@ -63,8 +63,8 @@ pub struct StudyEpisode {
     pub player: usize,
     /// The index of the game in the study.
     pub game: usize,
-    /// The score relative to the range of all players' scores on this level, `(r − min) / (max − min +
-    /// 1e-8)`. `None` if the range is empty or the episode was aborted.
+    /// The score relative to the range of all players' scores on this level,
+    /// `(r − min) / (max − min + 1e-8)`. `None` if the range is empty or the episode was aborted.
     pub normalised_reward: Option<f64>,
     /// The maximum number of steps in any player's episode on this level.
     pub most_steps: u64,
@@ -106,8 +106,8 @@ pub struct Scores {
     /// The overall score of the paper, which is the mean of the meaningful step ratio, the fraction of unused
     /// steps, the normalised reward and the win rate. `None` if one of the four values is missing.
     pub overall: Option<f64>,
-    /// The step efficiency, which is averaged over the levels with wins. On a level, it is `1 − mean steps of
-    /// wins / most steps of any episode`.
+    /// The step efficiency, which is averaged over the levels with wins. On a level, it is
+    /// `1 − mean steps of wins / most steps of any episode`.
     pub efficiency: Option<f64>,
     /// The mean of `optimal ticks / steps` over the wins on levels whose shortest win is proved to be
     /// optimal.

@@ -76,8 +76,8 @@ impl Fact {
         }
     }
 
-    /// Returns a fact about a fraction, such as `95 %`, with its interval `76 to 99 %` and its sample `19 of
-    /// 20`. If the sample is empty, the value is a dash.
+    /// Returns a fact about a fraction, such as `95 %`, with its interval `76 to 99 %` and its sample
+    /// `19 of 20`. If the sample is empty, the value is a dash.
     fn share(name: &str, share: &Share) -> Fact {
         let of = format!("{} of {}", share.count, share.of);
         if share.of == 0 {

@@ -153,8 +153,8 @@ fn double(value: &Value) -> Option<f64> {
     }
 }
 
-/// A recorded sprite in the form `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`. An object `{"res": …,
-/// "rot": …}` may follow.
+/// A recorded sprite in the form `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`. An object
+/// `{"res": …, "rot": …}` may follow.
 #[derive(Deserialize)]
 struct Record(u32, u16, i32, i32, i32, i32, Value, Value, Value, i32, u16, #[serde(default)] Extra);
 
