@@ -56,8 +56,8 @@ impl Simulation {
         Simulation { draws: Draws::new(seed), design, spread }
     }
 
-    /// Returns the coverage of the intervals for a player with the given win rate. Cost: O(trials · (episodes
-    /// + games · resamples)).
+    /// Returns the coverage of the intervals for a player with the given win rate.
+    /// Cost: O(trials · (episodes + games · resamples)).
     pub fn coverage(&mut self, rate: f64, trials: u64) -> Coverage {
         let ability = self.spread.ability(rate);
         let mut covered = [0u64; 3];

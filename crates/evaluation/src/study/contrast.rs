@@ -51,7 +51,7 @@ pub struct Comparison {
 /// A comparison of two players on all levels that both played.
 ///
 /// The difference, its interval, h, p and q are computed from the same two rates. Each rate is a mean over
-/// games of means over the levels of a game. The results apply to games like these.
+/// games of means over the levels of a game. The results apply to similar games.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverallComparison {
     /// The indices of the two players in the study.
@@ -80,7 +80,7 @@ pub struct OverallComparison {
     pub q: Option<f64>,
     /// Cohen's h, computed from the two players' rates.
     pub h: f64,
-    /// The exact test within levels, which applies to exactly these levels rather than to other games.
+    /// The exact test within levels, which applies to exactly the played levels rather than to other games.
     pub within_levels: WithinLevels,
 }
 

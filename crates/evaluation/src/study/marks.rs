@@ -26,7 +26,7 @@ pub struct MarkRow {
     pub episodes: u64,
     /// The number of won episodes.
     pub wins: u64,
-    /// The win rate. Its interval applies to games like these, or to exactly these levels if there is only
+    /// The win rate. Its interval applies to similar games, or to exactly the played levels if there is only
     /// one game.
     pub rate: Option<Estimate>,
 }

@@ -26,7 +26,7 @@ impl Estimate {
     }
 
     /// Returns the win rate of ended episodes, or `None` if there are no episodes. For several games, the
-    /// interval applies to games like these ([`rate_over_games`]). For one game, the interval is Wilson's and
+    /// interval applies to similar games ([`rate_over_games`]). For one game, the interval is Wilson's and
     /// applies to exactly its levels.
     ///
     /// Identical episodes of a player on a level are one observation. The rate counts all of them, but the
@@ -87,8 +87,8 @@ pub struct Scores {
     pub timeouts: u64,
     /// The number of observations. Identical episodes of a player on a level are one observation.
     pub observations: u64,
-    /// The number of wins divided by the number of episodes. The interval applies to games like these, or to
-    /// exactly these levels if they belong to one game.
+    /// The number of wins divided by the number of episodes. The interval applies to similar games, or to
+    /// exactly the played levels if they belong to one game.
     pub win_rate: Option<Estimate>,
     /// The mean meaningful step ratio.
     pub meaningful: Option<f64>,

@@ -2,8 +2,8 @@
 //!
 //! Episodes of the same game are similar, so twenty-five of them are not twenty-five independent observations
 //! of a player. Therefore, whole games are resampled with all their episodes (A. C. Davison and D. V.
-//! Hinkley, *Bootstrap Methods and their Application*, 1997, §3.8). The result applies to games like these,
-//! not only to the games played.
+//! Hinkley, *Bootstrap Methods and their Application*, 1997, §3.8). The result applies to similar games, not
+//! only to the games played.
 //!
 //! With fewer than about thirty games, the interval is too narrow. If all games agree, the interval has no
 //! width. For win rates, [`rate_over_games`](crate::rate_over_games) is better.

@@ -1,6 +1,6 @@
-//! Intervals for win rates and their differences that apply to games like the played games. Games are the
-//! sampling unit, because episodes of the same game are similar, and players differ in which games suit them.
-//! Both intervals keep their coverage with six or more games (`cargo xtask simulate`).
+//! Intervals for win rates and their differences that apply to games similar to the played games. Games are
+//! the sampling unit, because episodes of the same game are similar, and players differ in which games suit
+//! them. Both intervals keep their coverage with six or more games (`cargo xtask simulate`).
 
 use super::wilson::{Interval, score_interval};
 use crate::student::{student_p, student_quantile};
@@ -19,8 +19,8 @@ pub struct RateOverGames {
     pub interval: Interval,
 }
 
-/// Returns the rate of all successes among all trials, with a confidence interval that applies to games like
-/// these. `games` holds the numbers of successes and trials of each game. Games without trials are ignored.
+/// Returns the rate of all successes among all trials, with a confidence interval that applies to similar
+/// games. `games` holds the numbers of successes and trials of each game. Games without trials are ignored.
 ///
 /// The method is that of E. L. Korn and B. I. Graubard ("Confidence intervals for proportions with small
 /// expected number of positive counts estimated from survey data", 1998), but with Wilson's interval instead
@@ -46,7 +46,7 @@ pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames
     share_over_games(&games, level)
 }
 
-/// Returns the mean of many fractions, with a confidence interval that applies to games like these. The
+/// Returns the mean of many fractions, with a confidence interval that applies to similar games. The
 /// fractions can be the win rates of equally weighted levels, for example. The method is that of
 /// [`rate_over_games`]. `games` holds the sum and the number of the fractions of each game.
 ///

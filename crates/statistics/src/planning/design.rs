@@ -194,8 +194,8 @@ pub(crate) fn logistic(x: f64) -> f64 {
 /// mean `shift`, divided by √(χ²/`df`) for an independent χ² with `df` degrees of freedom, exceeds
 /// `quantile`.
 ///
-/// Means of skewed values are correlated with their standard errors. Therefore, the root is multiplied by √(1
-/// + `skewness` · z), where z is the deviation of the normal variable.
+/// Means of skewed values are correlated with their standard errors. Therefore, the root is multiplied by
+/// √(1 + `skewness` · z), where z is the deviation of the normal variable.
 fn shifted_tail(quantile: f64, df: f64, shift: f64, skewness: f64) -> f64 {
     // The integral is over s = √(χ²/df), whose density is 2 (df/2)^(df/2) / Γ(df/2) · s^(df−1) · exp(−df
     // s²/2).
