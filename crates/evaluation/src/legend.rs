@@ -20,8 +20,8 @@ const SPARE: &str = "+*%&$=~^?!:;|/abcdefghijklmnopqrstuvwxyz0123456789";
 /// The options for assigning characters to sprite types.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LegendOptions {
-    /// `true` if each state of the avatar has its own character instead of [`AVATAR`], so that the board
-    /// shows which state the avatar is in.
+    /// `true` if each state of the avatar has its own character instead of [`AVATAR`], so that the player must
+    /// keep track of the avatar's current character.
     pub tracking: bool,
     /// The number of the table of random letters and digits that replace the characters, so that no character
     /// carries a meaning by itself. `None` keeps the original characters.
@@ -221,7 +221,7 @@ fn separate_cases(entries: &mut [Entry]) {
     }
 }
 
-/// Replaces the characters by random ones. Entries that shared a character share one again.
+/// Replaces the characters with random characters. Entries that shared a character share one again.
 fn shuffle(entries: &mut [Entry], number: u64) {
     let mut pool: Vec<char> = POOL.chars().collect();
     Seed::from_text("shuffled symbols").child("symbols", number).sampler().shuffle(&mut pool);

@@ -17,7 +17,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 /// The number of lanes in one task of a thread.
 const LANES_OF_A_TASK: usize = 64;
 
-/// The mode of starting new episodes when an episode has ended.
+/// The rule for starting a new episode in a lane whose episode has ended.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Autoreset {
     /// The next step starts a new episode and ignores its action.

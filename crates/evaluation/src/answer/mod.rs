@@ -1,4 +1,4 @@
-//! Reading actions from the answers of players.
+//! Reads actions from the answers of players.
 //!
 //! The requested format is strict. This module defines the format for a single action, and `plan.rs` defines
 //! the format for several actions. The rules in `decisions.rs` read an answer in any other format, and the

@@ -1,4 +1,4 @@
-//! Reading plans, which consist of several actions, from the answers of players.
+//! Reads plans, which consist of several actions, from the answers of players.
 
 use super::decisions::{MAX_SCANNED, line_before};
 use super::phrase::{self, Context};

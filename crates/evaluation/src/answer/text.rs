@@ -1,5 +1,5 @@
-//! Normalises the text of an answer: removes its reasoning, and replaces variants of each sign by one
-//! spelling.
+//! Normalises the text of an answer. The normalisation removes the reasoning, and replaces all variants of a
+//! sign with the same spelling.
 
 use super::pattern;
 use regex::Regex;

@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(cache.get(Digest::of(b"other")), None, "an answer to another question");
     }
 
-    /// Anyone who shares the folder can replace an entry by arbitrary content.
+    /// Anyone who shares the folder can replace an entry with arbitrary content.
     #[cfg(unix)]
     #[test]
     fn only_plain_files_of_a_bounded_size_are_read() {

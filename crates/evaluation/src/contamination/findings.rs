@@ -27,7 +27,7 @@ pub struct PlayerMemory {
     pub player: String,
     /// The power of the design, for several assumed fractions of levels that the player knows.
     pub power: Vec<Power>,
-    /// The test of whether the player's episodes begin like published wins rather than withheld ones.
+    /// The test of whether the player's episodes begin like published wins rather than withheld wins.
     pub solutions: Option<SideTest>,
     /// The test of whether the player wins published games more often than their withheld siblings.
     pub games: Option<SideTest>,

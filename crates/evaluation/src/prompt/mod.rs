@@ -122,7 +122,7 @@ pub struct Prompt {
     pub messages: Vec<ChatMessage>,
     /// The text of the newest turn, which must be passed to [`Past::new`] when the turn is over.
     pub shown: String,
-    /// The number of turns that were dropped, which are the oldest ones.
+    /// The number of oldest turns that were dropped.
     pub left_out: usize,
     /// The numbers of tokens in the prompt.
     pub tokens: PromptTokens,

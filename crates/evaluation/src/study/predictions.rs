@@ -8,9 +8,9 @@ use serde::Serialize;
 /// The results of a player's predictions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PredictionRow {
-    /// The player who made the predictions.
+    /// The player that made the predictions.
     pub player: Player,
-    /// The number of answers, including unusable ones.
+    /// The number of answers, including unusable answers.
     pub answers: u64,
     /// The number of correct predictions.
     pub right: u64,

@@ -145,7 +145,7 @@ impl Study {
         Some(format!("By kind of game, it won most in {most}; least in {least}."))
     }
 
-    /// Describes how a player's episodes ended that it did not win.
+    /// Describes the endings of the episodes that a player did not win.
     fn failures_of(&self, row: &LeaderRow) -> Option<String> {
         let summary = self.ending_summaries.iter().find(|summary| summary.player == row.player)?;
         let causes = || summary.causes.iter().map(|&at| &self.endings[at]);

@@ -102,7 +102,7 @@ fn prompts_to_read() {
     show("reference_contextual.txt", "first-ice", &PromptSettings { mode: Mode::Contextual, ..reference }, 2);
 }
 
-/// The last tick is the last tick in the rules, unless the prompt has no rules.
+/// The last tick stated in a turn equals the last tick in the rules, unless the prompt has no rules.
 #[test]
 fn the_last_tick_matches_the_rules() {
     let subject = game("first-ice");

@@ -205,7 +205,7 @@ fn results_folders_are_locked_and_checked() {
     assert!(refusal(Evaluation::open(&folder)).contains("not the settings of an evaluation"));
 }
 
-/// A log whose replay differs from it is not resumed.
+/// An episode is not resumed if its log does not replay, or is not a log.
 #[test]
 fn damaged_logs_are_reported() {
     let home = tempfile::tempdir().unwrap();

@@ -37,7 +37,7 @@ fn prompter(subject: &Subject, track: Track) -> Prompter {
 fn series(subject: &Subject, steps: usize) -> Vec<ChatMessage> {
     let prompter = prompter(subject, Track::Discover);
     let (mut past, mut previous, mut messages) = (Vec::new(), None::<LevelEnd>, Vec::new());
-    // The question is about some sprite types of the game, by its own names.
+    // The question asks about sprite types under the game's own names.
     let first = Walk::new(subject, 0);
     let own = |name: &String| first.now.avatar.as_ref().is_some_and(|avatar| avatar.name == *name);
     let kinds: BTreeSet<String> =

@@ -1,11 +1,13 @@
-//! Exact tests of memory.
+//! Exact tests of memory, which detect players that have memorised published content.
 //!
-//! A coin has decided which of two things is published: two renamings of a game, or two winning episodes of a
-//! level. Only a player who knows the published thing can distinguish the two. For given results of a player
-//! on both sides, either side was equally likely to be the published side, whatever the player's skills.
+//! A coin has decided which of two items is published. The items are two renamings of a game, or two winning
+//! episodes of a level. Only a player that knows the published item can distinguish the two items. For given
+//! results of a player on both sides, either side was equally likely to be the published side, whatever the
+//! player's skills.
+//!
 //! Therefore, the distribution of the sum of the differences is known without any assumption about players or
-//! games (R. A. Fisher, *The Design of Experiments*, 1935, §21; for differences of 1, Q. McNemar, "Note on
-//! the sampling error of the difference between correlated proportions", 1947).
+//! games (R. A. Fisher, *The Design of Experiments*, 1935, §21). For differences of 1, the test is that of Q.
+//! McNemar ("Note on the sampling error of the difference between correlated proportions", 1947).
 
 use crate::planning::design::{Spread, logistic};
 

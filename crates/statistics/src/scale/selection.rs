@@ -172,7 +172,7 @@ mod tests {
         vec![PlayedGame { common: 0.2, levels: [-3.0, 0.0, 3.0].map(level).to_vec() }; count]
     }
 
-    /// A player far below the scale gets easy levels. One level of each game comes first.
+    /// A player far below the scale gets easy levels. The first choices are one level of each game.
     #[test]
     fn choices_go_where_the_player_is() {
         let mut selection = Selection::new(&games(20), 1.0, 1);

@@ -54,7 +54,7 @@ impl SimulatedMonth {
 pub struct Simulator {
     draws: Draws,
     plan: Plan,
-    /// The examinees who play the months.
+    /// The examinees that play the months.
     pub examinees: Vec<Examinee>,
     /// The true abilities of the examinees.
     pub abilities: Vec<f64>,

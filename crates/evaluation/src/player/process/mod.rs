@@ -62,7 +62,7 @@ const MAX_STALE: usize = 1 << 20;
 pub struct ProcessConfig {
     /// The time limit for an answer. The first answer's limit includes the start of the process.
     pub timeout: Duration,
-    /// The names of environment variables that the process inherits in addition to the default ones.
+    /// The names of environment variables that the process inherits in addition to the default variables.
     pub inherited: Vec<String>,
     /// The command of a guard, which is a program that calls [`guard`](guard()) with its remaining arguments.
     /// These arguments are the folder, `--`, and the words of the command. If the guard command is empty, the

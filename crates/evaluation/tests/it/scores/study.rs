@@ -128,9 +128,9 @@ fn heat_maps() {
     let modes = &study.modes.overall[0];
     assert_eq!((modes.wins, modes.episodes, modes.levels), ([1, 4], [4, 4], 2));
     close(modes.difference, -0.75);
-    // On level 0, one of two episodes is compared with two wins, and on level 1, no win with two wins. Among
-    // the tables with these totals, the observed table has probability (1/2) · (1/6). Its mirror image has
-    // the same probability.
+    // On level 0, one win in two episodes is compared with two wins. On level 1, no win is compared with two
+    // wins. Among the tables with these totals, the observed table has probability (1/2) · (1/6). Its mirror
+    // image has the same probability.
     close(modes.within_levels.p, 1.0 / 6.0);
     assert_eq!((modes.p, modes.over_games), (None, None), "one game says nothing about others");
     assert_eq!(study.pairs.overall.len(), 2);
