@@ -17,8 +17,8 @@ impl Draws {
         (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Draws a standard normal number (G. Marsaglia and T. A. Bray, "A convenient method for generating normal variables",
-    /// 1964).
+    /// Draws a standard normal number (G. Marsaglia and T. A. Bray, "A convenient method for generating
+    /// normal variables", 1964).
     pub(crate) fn normal(&mut self) -> f64 {
         loop {
             let [x, y] = [0, 1].map(|_| 2.0 * self.uniform() - 1.0);

@@ -79,8 +79,8 @@ pub(crate) fn heat_map(map: &HeatMap<'_>) -> String {
     canvas.finish()
 }
 
-/// Returns the width in pixels of a group of columns, including the gap after it. The group is as wide as its columns or its
-/// title, whichever is wider.
+/// Returns the width in pixels of a group of columns, including the gap after it. The group is as wide
+/// as its columns or its title, whichever is wider.
 pub(crate) fn group_width(title: &str, columns: usize) -> f64 {
     let lines = title_lines(title, columns);
     let longest = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0);
