@@ -1,12 +1,14 @@
-"""Steps per second of a vector environment beside the native batch, game by game, in one run.
+"""Compares the steps per second of a vector environment with the native batch, game by game, in one run.
 
-All play level 0 with uniform actions on one thread; rates are steps per second of CPU time, once episodes have drifted apart: a board early in
-an episode may cost a third of a later one.
+All variants play level 0 with uniform actions on one thread. Rates are steps per second of CPU time, measured once
+episodes have diverged. A board early in an episode may cost a third of a later board.
 
 - batch: `cargo xtask bench --batch`, 4,096 states that are stepped one tick at a time, without observations;
-- loop: the same states in the process of the environments, stepped in one loop, without observations, rewards, flags or limits;
-- environments: 4,096 boards of planes, rewards and flags, written into one array, which is returned itself or as a copy;
-- in C: a box-pushing puzzle that is a program of its own, `boxes.c`, with planes, rewards and flags.
+- loop: the same states in the process of the environments, stepped in one loop, without observations, rewards, flags
+  or limits;
+- environments: 4,096 boards of planes, rewards and flags, written into one array, which is returned directly or as a
+  copy;
+- in C: a box-pushing puzzle that is a separate program, `boxes.c`, with planes, rewards and flags.
 
 Example: python tools/bench/steps.py --games corpora hailglass heath-fire
 """
@@ -30,12 +32,12 @@ import infinite_arcade.gymnasium
 
 ROOT = Path(__file__).parents[2]
 COUNT = 4096
-#: Ticks before the measurement, as many as `cargo xtask bench --batch` plays.
+#: The number of ticks before the measurement, which is the same as in `cargo xtask bench --batch`.
 APART = 512
 
 
 def rates(game: ia.Game, turns: int) -> list[float]:
-    """The rates of the loop, of environments, and of environments with copies."""
+    """Returns the rates of the loop, of environments without copies, and of environments with copies."""
     make = lambda copy: gymnasium.make_vec(
         infinite_arcade.gymnasium.ENV_ID,
         num_envs=COUNT,
@@ -65,14 +67,14 @@ def rates(game: ia.Game, turns: int) -> list[float]:
         for at, player in enumerate(players):
             started = time.process_time()
             player()
-            # The first turn lets buffers grow.
+            # The first turn lets the buffers grow.
             if turn:
                 spent[at] += time.process_time() - started
     return [turns * len(flat) / seconds for seconds in spent]
 
 
 def native(games: Path, name: str) -> float:
-    """Ticks per second of the native batch."""
+    """Returns the ticks per second of the native batch."""
     command = ["cargo", "xtask", "bench", "--games", str(games), "--game", name, "--batch", "--seconds", "0.2"]
     said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     [row] = csv.DictReader(io.StringIO("\n".join(said.splitlines()[:2])))
@@ -80,7 +82,7 @@ def native(games: Path, name: str) -> float:
 
 
 def in_c(turns: int) -> float:
-    """The rate of `boxes.c`."""
+    """Returns the rate of `boxes.c`."""
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "boxes"
         source = Path(__file__).with_name("boxes.c")

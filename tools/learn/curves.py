@@ -1,8 +1,9 @@
-"""The learning curves of `all.sh` as a picture: wins and scores of the last 200 episodes against the steps, a column a game.
+"""Draws the learning curves of `all.sh` as an image, with one column per game. The curves show wins and scores of the
+last 200 episodes by the number of steps.
 
 Example: python tools/learn/curves.py checkpoints tools/learn/curves.svg
 
-Needs matplotlib.
+Requires matplotlib.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from matplotlib import pyplot
 
 from table import GAMES
 
-#: Algorithms, each with a colour that the colour-blind tell apart.
+#: The algorithms, with colours that colour-blind readers can distinguish.
 COLOURS = {"dqn": "#0072b2", "ppo": "#d55e00"}
 
 
@@ -26,7 +27,7 @@ def main() -> None:
     if len(sys.argv) != 3 or not any(Path(sys.argv[1]).glob("*-*.csv")):
         raise SystemExit("usage: curves.py FOLDER OUT.svg; FOLDER holds the GAME-ALGORITHM.csv of trainings")
     folder, out = Path(sys.argv[1]), Path(sys.argv[2])
-    # The same file from the same curves.
+    # The same curves give the same file.
     pyplot.rcParams |= {"svg.hashsalt": "curves", "svg.fonttype": "none", "font.size": 8, "axes.spines.top": False, "axes.spines.right": False}
     figure, axes = pyplot.subplots(2, len(GAMES), figsize=(11, 3.6), sharex=True, layout="constrained")
     for column, game in enumerate(GAMES):

@@ -1,7 +1,8 @@
-"""The network of the learning agents: a perceptron on planes, trained by JAX and played by NumPy.
+"""The network of the learning agents, a perceptron on planes, which is trained by JAX and played by NumPy.
 
-JAX rather than PyTorch, whose wheel brings the libraries of graphics cards. A perceptron rather than a convolution, because a step of
-training costs less on two cores; the two were not compared.
+JAX is used instead of PyTorch, because the wheel of PyTorch contains the libraries of graphics cards. A perceptron is
+used instead of a convolutional network, because a training step costs less on two cores. The performance of the two
+was not compared.
 """
 
 from __future__ import annotations
@@ -17,13 +18,15 @@ from numpy.typing import NDArray
 #: The widths of the hidden layers.
 HIDDEN = (256, 128)
 
-#: Weights and biases, by layer.
+#: The weights and biases of each layer.
 Parameters = list[tuple[Any, Any]]
 
 
 @dataclass(frozen=True)
 class Shape:
-    """What a network reads and says: names of the planes, size of the board, names of the actions."""
+    """The inputs and outputs of a network: the names of the planes, the size of the board, and the names of the
+    actions.
+    """
 
     planes: tuple[str, ...]
     rows: int
@@ -37,7 +40,7 @@ class Shape:
 
 
 def fresh(draws: np.random.Generator, inputs: int, outputs: int) -> Parameters:
-    """Random parameters by He's rule; the last layer is small."""
+    """Returns random parameters by He's rule. The last layer has small weights."""
     widths, layers = [inputs, *HIDDEN, outputs], []
     for at, (before, after) in enumerate(zip(widths, widths[1:], strict=False)):
         scale = 0.01 if at == len(HIDDEN) else np.sqrt(2 / before)
@@ -47,7 +50,9 @@ def fresh(draws: np.random.Generator, inputs: int, outputs: int) -> Parameters:
 
 
 def forward(parameters: Parameters, inputs: Any, maximum: Any = np.maximum) -> Any:
-    """The outputs; ``inputs`` is ``[batch][inputs]``. ``maximum`` is that of NumPy or of JAX."""
+    """Returns the outputs of the network. ``inputs`` is ``[batch][inputs]``, and ``maximum`` is the function of NumPy
+    or of JAX.
+    """
     for weights, biases in parameters[:-1]:
         inputs = maximum(inputs @ weights + biases, 0)
     weights, biases = parameters[-1]
@@ -55,14 +60,14 @@ def forward(parameters: Parameters, inputs: Any, maximum: Any = np.maximum) -> A
 
 
 def save(path: Path, shape: Shape, parameters: Parameters) -> None:
-    """Writes a checkpoint."""
+    """Writes a checkpoint to a file."""
     arrays = {f"w{at}": np.asarray(weights) for at, (weights, _) in enumerate(parameters)}
     arrays |= {f"b{at}": np.asarray(biases) for at, (_, biases) in enumerate(parameters)}
     np.savez_compressed(path, shape=np.array(json.dumps(asdict(shape))), **arrays)
 
 
 def load(path: Path) -> tuple[Shape, Parameters]:
-    """Reads a checkpoint."""
+    """Reads a checkpoint from a file."""
     with np.load(path) as file:
         said = json.loads(str(file["shape"]))
         shape = Shape(tuple(said["planes"]), said["rows"], said["columns"], tuple(said["actions"]))
@@ -71,7 +76,7 @@ def load(path: Path) -> tuple[Shape, Parameters]:
 
 
 def greedy(shape: Shape, parameters: Parameters, board: NDArray[np.uint8], offered: list[str]) -> str:
-    """The best of the offered actions."""
+    """Returns the best of the offered actions."""
     outputs = forward(parameters, board.reshape(1, -1).astype(np.float32))[0][: len(shape.actions)]
     known = [at for at, action in enumerate(shape.actions) if action in offered]
     return shape.actions[max(known, key=lambda at: outputs[at])] if known else "nil"

@@ -1,4 +1,4 @@
-"""A checkpoint as a player of `arcade evaluate`: --player "cmd:python tools/learn/player.py CHECKPOINT"."""
+"""Plays a checkpoint in `arcade evaluate`: --player "cmd:python tools/learn/player.py CHECKPOINT"."""
 
 from __future__ import annotations
 

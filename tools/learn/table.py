@@ -1,4 +1,5 @@
-"""The table of win rates: results folders of `all.sh` beside the seed table's rows, in percent of 25 episodes a game.
+"""Prints the table of win rates. The results folders of `all.sh` are compared with the rows of the seed table, in
+percent of 25 episodes per game.
 
 Example: python tools/learn/table.py checkpoints/results
 """
@@ -12,7 +13,8 @@ from infinite_arcade.doors import read_logs
 
 GAMES = ("aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda")
 
-#: Published (docs/reference/spec/04-agents.md, 10), and measured of the reference's planners at 1000 calls (10.2).
+#: Win rates that were published (docs/reference/spec/04-agents.md, 10), and win rates measured with the reference's
+#: planners at 1000 calls (10.2).
 KNOWN = {
     "DQN, paper": (56, 0, 16, 0, 0, 0),
     "PPO, paper": (64, 0, 12, 0, 12, 8),

@@ -1,12 +1,14 @@
-"""Trains DQN or PPO on all levels of a game: one network a game, the same settings for all games.
+"""Trains DQN or PPO on all levels of a game, with one network per game and the same settings for all games.
 
 Example: python tools/learn/train.py ppo /path/to/games/aliens --steps 2000000 --out checkpoints
 
-Writes GAME-ALGORITHM.npz, which `player.py` plays, and GAME-ALGORITHM.csv, the learning curve. The settings are those of the seed table
-(docs/reference/spec/04-agents.md, 11) where it states them: learning rate 3e-4, batches of 256, discount 0.99; PPO with λ 0.95 and entropy 0.01; DQN
-with exploration from 1 to 0.02 over the first tenth. The same arguments give the same draws; the floats of JAX may differ between machines.
+Writes GAME-ALGORITHM.npz, which `player.py` plays, and GAME-ALGORITHM.csv, the learning curve. The settings are those
+of the seed table (docs/reference/spec/04-agents.md, 11) as far as it states them: learning rate 3e-4, batches of 256,
+discount 0.99. PPO has λ 0.95 and entropy 0.01. DQN has exploration from 1 to 0.02 over the first tenth. The same
+arguments give the same random draws, but the floats of JAX may differ between machines.
 
-The reward is the change of the score, cut to ±1, and ±1 more for a win or a loss: scores of some games say little about winning.
+The reward is the change in score, clipped to ±1, and ±1 in addition for a win or a loss. The outcome is included
+because the scores of some games say little about winning.
 """
 
 from __future__ import annotations
@@ -33,7 +35,7 @@ GAMMA, RATE, BATCH = 0.99, 3e-4, 256
 
 
 class Episodes:
-    """A vector of environments, with what the curve tells: wins and scores of the last 200 episodes."""
+    """A vector of environments, with the wins and scores of the last 200 episodes for the learning curve."""
 
     def __init__(self, game: ia.Game, count: int, max_steps: int, seed: int, curve: Path) -> None:
         mode = gymnasium.vector.AutoresetMode.SAME_STEP
@@ -49,7 +51,9 @@ class Episodes:
         self.curve.writerow(["steps", "episodes", "wins", "score", "seconds"])
 
     def step(self, actions: Any) -> tuple[Any, Any, Any]:
-        """Plays a step: rewards, ends, and the boards that it led to (of episodes that ended: their last)."""
+        """Plays a step. Returns the rewards, the ends of episodes, and the boards reached by the step. For an episode
+        that ended, the board is its last board.
+        """
         boards, rewards, terminated, truncated, info = self.envs.step(np.asarray(actions))
         rewards = np.clip(rewards, -1, 1)
         reached = self.boards = boards.reshape(len(boards), -1)
@@ -67,7 +71,7 @@ class Episodes:
         return rewards.astype(np.float32), over, reached
 
     def note(self) -> None:
-        """Adds a point to the curve every ten seconds."""
+        """Adds a point to the learning curve every ten seconds."""
         passed = time.perf_counter() - self.started
         if passed - self.shown >= 10 and self.wins:
             self.shown = passed
@@ -78,7 +82,7 @@ class Episodes:
 
 
 def values(parameters: Parameters, boards: Any) -> Any:
-    """The outputs of the network on boards of bytes."""
+    """Returns the outputs of the network for boards of bytes."""
     return forward(parameters, boards.astype(jnp.float32), jnp.maximum)
 
 
@@ -87,7 +91,7 @@ def values(parameters: Parameters, boards: Any) -> Any:
 
 @partial(jax.jit, static_argnums=0, donate_argnums=(1, 2))
 def learn_values(optimiser: Any, parameters: Any, memory: Any, target: Any, batch: Any) -> Any:
-    """A step of double DQN with the loss of Huber."""
+    """Performs a step of double DQN with the Huber loss."""
     boards, actions, rewards, over, reached = batch
     chosen = values(parameters, reached).argmax(1)
     later = jnp.take_along_axis(values(target, reached), chosen[:, None], 1)[:, 0]
@@ -102,7 +106,9 @@ def learn_values(optimiser: Any, parameters: Any, memory: Any, target: Any, batc
 
 
 def dqn(episodes: Episodes, steps: int, seed: int, buffer: int = 200_000, count: int = 64) -> Parameters:
-    """Deep Q-learning: a replay buffer of packed boards, four samples learnt for each step, a target that follows every 500 updates."""
+    """Trains by deep Q-learning. Boards are packed in a replay buffer. Four samples are learnt for each step, and the
+    target network is updated every 500 updates.
+    """
     draws, actions = np.random.default_rng(seed), len(episodes.shape.actions)
     parameters: Any = jax.tree.map(jnp.asarray, fresh(draws, episodes.shape.inputs, actions))
     target = jax.tree.map(jnp.copy, parameters)
@@ -143,7 +149,7 @@ def dqn(episodes: Episodes, steps: int, seed: int, buffer: int = 200_000, count:
 
 @partial(jax.jit, static_argnums=0, donate_argnums=(1, 2))
 def learn_policy(optimiser: Any, parameters: Any, memory: Any, batch: Any) -> Any:
-    """A step of PPO: clipped ratio, values, entropy."""
+    """Performs a step of PPO with a clipped ratio, values and entropy."""
     boards, actions, before, advantages, returns = batch
     advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
 
@@ -161,7 +167,7 @@ def learn_policy(optimiser: Any, parameters: Any, memory: Any, batch: Any) -> An
 
 @jax.jit
 def decide(parameters: Any, boards: Any, key: Any) -> Any:
-    """Draws actions: actions, their log probabilities, values."""
+    """Draws actions. Returns the actions, their log probabilities and the values."""
     outputs = values(parameters, boards)
     logs = jax.nn.log_softmax(outputs[:, :-1])
     actions = jax.random.categorical(key, logs)
@@ -169,7 +175,7 @@ def decide(parameters: Any, boards: Any, key: Any) -> Any:
 
 
 def ppo(episodes: Episodes, steps: int, seed: int, count: int = 64, ticks: int = 64, epochs: int = 4) -> Parameters:
-    """Proximal policy optimisation; a truncated episode counts as one that ends."""
+    """Trains by proximal policy optimisation. A truncated episode counts as an episode that ends."""
     draws, key = np.random.default_rng(seed), jax.random.key(seed)
     shape = episodes.shape
     parameters: Any = jax.tree.map(jnp.asarray, fresh(draws, shape.inputs, len(shape.actions) + 1))
@@ -220,7 +226,7 @@ def main() -> None:
     train = {"dqn": dqn, "ppo": ppo}[arguments.algorithm]
     parameters = train(episodes, arguments.steps, arguments.seed)
     if arguments.algorithm == "ppo":
-        # Players need no values.
+        # Players do not need the values.
         weights, biases = parameters[-1]
         parameters = [*parameters[:-1], (weights[:, :-1], biases[:-1])]
     save(name.with_suffix(".npz"), episodes.shape, parameters)

@@ -4,7 +4,7 @@
     pip install numpy scipy statsmodels
     cargo xtask agreement | python3 tools/scripts/agreement.py
 
-Prints the largest relative error of each function, and fails above 1e-8.
+Prints the largest relative error of each function. Fails if an error is above 1e-8.
 """
 
 import json
@@ -22,7 +22,9 @@ LIMIT = 1e-8
 
 
 def exact_within_strata(strata):
-    """The two-sided p of the sum of independent hypergeometric numbers, and the odds ratio of Mantel and Haenszel."""
+    """Returns the two-sided p-value of the sum of independent hypergeometric numbers, and the odds ratio of Mantel
+    and Haenszel.
+    """
     chances, observed, odds, against = np.array([1.0]), 0, 0.0, 0.0
     for a, m, b, n in strata:
         first, last = max(0, a + b - n), min(m, a + b)
@@ -76,7 +78,7 @@ THEIRS = {
     "pearson": correlation(stats.pearsonr),
     "spearman": correlation(stats.spearmanr),
     "student": lambda g: [2 * stats.t.sf(abs(g[0]), g[1]), stats.t.isf(g[2] / 2, g[1])],
-    # Both tails count there; at these powers the far one is nothing.
+    # Strictly, both tails count. At these powers, the far tail is negligible.
     "power": lambda g: (stats.norm.isf(0.025) + stats.norm.ppf(g[1])) * math.sqrt(2 / g[0]),
     "rate_over_games": rate_over_games,
     "paired_over_games": paired_over_games,

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Packs games of three sources for blind reviewers: rules, boards and filmstrips, shuffled, under numbers.
+"""Packs the rules, boards and filmstrips of games from three sources for blind reviewers. The games are shuffled and numbered.
 
     tools/scripts/blind-review.py --arcade target/release/arcade --generated new-games --public gvgai/games \
         --corpus corpora --numbers 12 6 6 --seed autumn --out review
 
 Writes review/01 to review/24, each with rules.txt, level-0.png, level-2.png, level-4.png and two filmstrips of wins by the same
-planners, and review-key.json beside the folder, which reviewers must not see. Needs Pillow.
+planners. Also writes review-key.json next to the folder, which reviewers must not see. Requires Pillow.
 
-With --pairs, review-pairs.txt lists each generated game beside one of the corpus, for the question which of the two a person made.
+With --pairs, review-pairs.txt pairs each generated game with a corpus game, so that reviewers can say which of the two a person made.
 """
 
 import argparse
@@ -19,7 +19,7 @@ import tempfile
 from filmstrip import frames, run, sheet
 
 FRAMES = 8
-# The players of a filmstrip in the order in which they try to win.
+# The players of a filmstrip, in the order in which they try to win.
 PLANNERS = ["olets:300"] * 3 + ["olets:3000"] * 2 + ["systematic:300000"]
 TICKS = 160
 
@@ -29,7 +29,7 @@ def game_file(folder):
 
 
 def source(arcade, folder):
-    """The games of a folder that can be loaded and have five levels."""
+    """Returns the games of a folder that can be loaded and have five levels."""
     games = [game for game in sorted(folder.iterdir()) if game_file(game) and has_levels(game)]
     return [game for game in games if run(arcade, "describe", str(game)).returncode == 0]
 
@@ -41,12 +41,14 @@ def level(game, number):
 def rules(arcade, game):
     text = run(arcade, "describe", str(game)).stdout
     lines = text.splitlines()
-    # The first line names the game or its file.
+    # The first line contains the name of the game or of its file.
     return "\n".join(line for line in lines[1:] if "canary" not in line.lower()).strip() + "\n"
 
 
 def filmstrip(arcade, game, number, out, seed):
-    """Eight frames of the first win, side by side, or of the first play if nobody wins. Returns whether it is a win."""
+    """Draws eight frames of the first win side by side, or of the first episode if no player wins. Returns whether
+    the episode is a win.
+    """
     with tempfile.TemporaryDirectory() as scratch:
         best = None
         for attempt, planner in enumerate(PLANNERS):

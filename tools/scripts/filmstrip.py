@@ -1,4 +1,4 @@
-"""Frames of an episode side by side, for the other scripts. Needs Pillow."""
+"""Places frames of an episode side by side, for the other scripts. Requires Pillow."""
 
 import subprocess
 
@@ -12,7 +12,7 @@ def run(arcade, *args):
 
 
 def frames(gif, count):
-    """Frames of an animation from the first to the last, evenly spaced."""
+    """Returns evenly spaced frames of an animation, including the first and the last frame."""
     animation = Image.open(gif)
     last = getattr(animation, "n_frames", 1) - 1
     picked = []
@@ -23,7 +23,7 @@ def frames(gif, count):
 
 
 def sheet(pictures, columns):
-    """Pictures in rows of some columns."""
+    """Arranges images in rows with a given number of columns."""
     width, height = max(p.width for p in pictures) + GAP, max(p.height for p in pictures) + GAP
     whole = Image.new("RGB", (min(columns, len(pictures)) * width, -(-len(pictures) // columns) * height), "white")
     for at, picture in enumerate(pictures):

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes a page of generated games: the dilemma of each, what each level asks, the gates' figures, and the wins as filmstrips.
+"""Writes a page of generated games, with their dilemmas, the demands of their levels, the figures of the gates, and wins as filmstrips.
 
     arcade generate games --method constructive --count 50 --seed s --out new-games
     cargo xtask side-by-side --gates --ours new-games --rows gates.jsonl
     tools/scripts/gallery.py --arcade target/release/arcade --games new-games --gates gates.jsonl --count 10 --seed s \
         --out docs/lab/gallery.md
 
-Pictures go to a folder beside the page, one a game, a row of frames for each level. Needs Pillow.
+Images are written to a folder next to the page. Each game has one image, with a row of frames for each level. Requires Pillow.
 """
 
 import argparse
@@ -26,7 +26,7 @@ BEGIN, END = "<!-- games: written by tools/scripts/gallery.py -->", "<!-- end of
 
 
 def film(arcade, game, number):
-    """The win of a level as a row of frames."""
+    """Draws the win of a level as a row of frames."""
     with tempfile.TemporaryDirectory() as scratch:
         gif = pathlib.Path(scratch) / "win.gif"
         done = run(arcade, "render", str(game), str(game / f"lvl{number}.txt"), "--episode",
@@ -82,7 +82,7 @@ def main():
 
 
 def told(row):
-    """The gates with their figures, and a mark for those that fail."""
+    """Formats the results of the gates with their figures, and marks failed gates."""
     for gate, answer in row["gates"].items():
         if gate == "winnable":
             continue

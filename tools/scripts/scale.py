@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Compares the calibration of a scale with an independent one, on simulated months.
+"""Compares the calibration of a scale with an independent calibration, on simulated months.
 
     pip install numpy scipy
     cargo xtask agreement --scale | python3 tools/scripts/scale.py
 
-Here all linear predictors are one normal vector with a dense covariance (C. E. Rasmussen and C. K. I. Williams, "Gaussian Processes
-for Machine Learning", 2006, chapter 3), where the program has effects of games and a Schur complement; months are linked by finite
-differences, and abilities are integrated over a fine grid. Prints the largest difference of each kind, and fails above 1e-2.
+In this script, all linear predictors are one normal vector with a dense covariance (C. E. Rasmussen and C. K. I. Williams, "Gaussian
+Processes for Machine Learning", 2006, chapter 3). The program uses effects of games and a Schur complement instead. Months are linked
+by finite differences, and abilities are integrated over a fine grid. Prints the largest difference of each kind. Fails if a difference
+is above 1e-2.
 """
 
 import json
@@ -20,7 +21,7 @@ ABILITY_VARIANCE = 25.0
 
 
 class Field:
-    """Normal variables as rows of loadings on independent standard normal ones, which are named."""
+    """Normal variables, each represented by its loadings on named, independent standard normal variables."""
 
     def __init__(self, spreads, examinees, shared):
         (self.game, self.level, self.family, self.planner) = spreads[:4]
@@ -69,7 +70,7 @@ def dense(rows):
 
 
 def mode(covariance, offset, won, of):
-    """The mode of the logits, the weights there, and the logarithm of the integral."""
+    """Returns the mode of the logits, the weights at the mode, and the logarithm of the integral."""
     deviation = np.zeros(len(won))
     alpha = np.zeros(len(won))
     for _ in range(200):
@@ -95,8 +96,9 @@ def mode(covariance, offset, won, of):
 
 
 def expected(covariance, shared, offset, won, of):
-    """The normal distribution nearest to the posterior: the means of shared parameters, the weights of the logits' rows, expected
-    weights, and the covariance of the shared parameters."""
+    """Returns the normal distribution nearest to the posterior. The result consists of the means of the shared
+    parameters, the weights of the logits' rows, the expected weights, and the covariance of the shared parameters.
+    """
     nodes = np.arange(-3.0, 4.0)
     shares = np.exp(-(nodes**2) / 2) / np.exp(-(nodes**2) / 2).sum()
     values, alpha, variance = np.zeros(shared.shape[1]), np.zeros(len(won)), np.zeros(len(won))
@@ -123,7 +125,7 @@ def entries(month):
 
 
 def solve(field, month, wanted, offsets):
-    """The means and the covariance of wanted functions, each a list of (share, row)."""
+    """Returns the means and the covariance of the wanted functions, each of which is a list of (share, row)."""
     plays, won, of = entries(month)
     shift = offsets is not None
     rows = [field.logit(examinee, game, level, shift) for game, examinee, level, _, _ in plays]
@@ -172,7 +174,7 @@ def planners_rows(field, levels, planners, shift):
 
 
 def person(found):
-    """The mean, the standard deviation and the ends of the posterior of an ability."""
+    """Returns the mean, the standard deviation and the ends of the interval of an ability's posterior."""
     steps = np.linspace(-9, 9, 361)
     nodes, weights = np.polynomial.hermite_e.hermegauss(41)
     weights = weights / weights.sum()
@@ -213,7 +215,8 @@ def main():
         worst[kind] = max(worst.get(kind, 0), apart)
 
     compare("spreads", given["spreads"], spreads)
-    # What follows is compared at the program's spreads, so that a small difference there is not counted again.
+    # The following values are compared at the program's spreads, so that a small difference in the spreads is not
+    # counted again.
     field = Field(given["spreads"], examinees, None)
     count = len(examinees)
     levels = [(game, level) for game in range(len(months[0])) for level in range(3)]
@@ -243,7 +246,7 @@ def main():
         return found, covariance
 
     found, covariance = second(abilities)
-    # By how much each moves with the abilities.
+    # The factors by which each value changes with the abilities.
     moves = np.zeros((4, count + 3))
     for at in range(count):
         near = abilities.copy()

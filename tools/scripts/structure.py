@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Prints measures of the structure of this tree, as a table in Markdown.
+"""Prints measures of the structure of this source tree, as a table in Markdown.
 
     tools/scripts/structure.py                    measures that are read from the sources
     tools/scripts/structure.py --build            also the size of the binary, and a cold release build and test build
     tools/scripts/structure.py --cycles           also the files of every import cycle
 
-The sources are read as text. An import is a path that begins with `crate`, `self` or `super`, in a `use` or in an expression;
-a name that a `mod.rs` or `lib.rs` re-exports counts as an import of the file that the name comes from. Tests and comments do not count.
+The sources are read as text. An import is a path that begins with `crate`, `self` or `super`, in a `use` or in an expression. A name
+that a `mod.rs` or `lib.rs` re-exports counts as an import of the file that defines the name. Tests and comments do not count.
 """
 
 import argparse
@@ -26,19 +26,19 @@ COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|r(#*)".*?"\1|b?"(?:[^"\\]|\\
 
 
 def tracked():
-    """The files of the checkout."""
+    """Returns the files of the checkout that are under version control."""
     out = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
     return [Path(name) for name in out.split("\0") if name]
 
 
 def crates(files):
-    """The folders of the packages of the workspace, by name."""
+    """Returns the folders of the packages in the workspace, by name."""
     return sorted({path.parent for path in files if path.name == "Cargo.toml" and path.parent != Path(".")
                    and (ROOT / path.parent / "src").is_dir()})
 
 
 def split_tests(text):
-    """The text before the first `#[cfg(test)]` module at the left margin, and the rest."""
+    """Returns the text before the first `#[cfg(test)]` module at the left margin, and the remaining text."""
     at = re.search(r"^#\[cfg\(test\)\]\n(?:pub(?:\([^)]*\))? )?mod \w+ \{", text, re.M)
     return (text[:at.start()], text[at.start():]) if at else (text, "")
 
@@ -48,7 +48,7 @@ def without_comments(text, keep_strings):
 
 
 class Modules:
-    """The files of one crate by their module paths."""
+    """The files of one crate, by their module paths."""
 
     def __init__(self, crate, files):
         self.source = crate / "src"
@@ -64,7 +64,7 @@ class Modules:
         self.exports = {path: self.re_exports(path) for path in self.paths}
 
     def re_exports(self, path):
-        """What a module passes on from others: the path behind each name."""
+        """Returns the path behind each name that a module re-exports."""
         names = {}
         for use in re.findall(r"\bpub(?:\([^)]*\))?\s+use\s+([^;]+);", self.code[path]):
             for target in expand(use):
@@ -72,7 +72,9 @@ class Modules:
         return names
 
     def file_of(self, module, path, depth=0):
-        """The module that `path`, written in `module`, names something of; None where it leaves the crate."""
+        """Returns the module that contains the item to which `path`, written in `module`, refers. Returns None if the
+        path leaves the crate.
+        """
         if depth > 8 or not path:
             return None
         base = list(module)
@@ -94,7 +96,7 @@ class Modules:
         return at
 
     def arrows(self):
-        """The imports of each module, other than of itself."""
+        """Returns the imports of each module, except for imports of the module itself."""
         arrows = {path: set() for path in self.paths}
         for path, code in self.code.items():
             targets = [target for use in re.findall(r"\buse\s+([^;]+);", code) for target, _ in expand(use)]
@@ -110,7 +112,7 @@ class Modules:
 
 
 def expand(use):
-    """The paths of a `use`, each with the name that it brings."""
+    """Returns the paths of a `use`, each with the name that it imports."""
     use = re.sub(r"\s+", " ", use.strip())
     brace = use.find("{")
     if brace < 0:
@@ -132,7 +134,7 @@ def expand(use):
 
 
 def cycles(arrows):
-    """The strongly connected components of more than one module (Tarjan)."""
+    """Returns the strongly connected components that have more than one module (Tarjan's algorithm)."""
     index, low, stack, on, found = {}, {}, [], set(), []
 
     def visit(node):
@@ -164,8 +166,10 @@ def cycles(arrows):
 
 
 def upward(arrows):
-    """Imports from a lower floor to a higher one; a module's floor is its greatest distance from the ground, cycles broken at
-    the import that closes them in the order of names. Imports of a module from its own folder's face count as upward."""
+    """Returns the number of imports from a lower floor to a higher floor. A module's floor is its greatest distance
+    from the ground. Cycles are broken at the import that closes them, in the order of names. Imports from the
+    `mod.rs` or `lib.rs` of a module's own folder count as upward.
+    """
     floor, active, back = {}, set(), 0
 
     def visit(node):
@@ -193,7 +197,7 @@ def lines(text):
 
 
 def cold_build(arguments):
-    """Wall and CPU seconds of a build into an empty folder, and the folder."""
+    """Returns the wall-clock and CPU seconds of a build into an empty folder, and the size of the binary."""
     with tempfile.TemporaryDirectory() as target:
         before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
         subprocess.run(["cargo", *arguments], cwd=ROOT, check=True, env={**os.environ, "CARGO_TARGET_DIR": target})

@@ -1,25 +1,26 @@
-//! The number of actions that a player commits to at each look at the board.
+//! The number of actions that a player commits to at each decision.
 
 use std::fmt;
 use std::num::NonZeroU64;
 use std::str::FromStr;
 
-/// The number of actions that a player commits to at each decision. They are played one per tick, without another
-/// look, and their effects are shown at the next decision. How far a player can commit and still win measures how far
-/// it foresees.
+/// The number of actions that a player commits to at each decision.
+///
+/// The actions are played one per tick without further decisions, and their effects are shown at the next
+/// decision. The largest commitment with which a player still wins measures how far the player foresees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Commitment {
-    /// A fixed number of actions. With one, the player looks before every action.
+    /// A fixed number of actions. With a commitment of one action, the player decides on every action.
     Actions(NonZeroU64),
-    /// All actions to the end of the episode, which means one decision per episode.
+    /// All actions to the end of the episode, so that an episode has one decision.
     All,
 }
 
 impl Commitment {
-    /// One action per decision: a look before every action.
+    /// The commitment to one action per decision.
     pub const ONE: Commitment = Commitment::Actions(NonZeroU64::MIN);
 
-    /// Returns `true` if there is a look before every action.
+    /// Returns `true` if the player commits to one action per decision.
     pub fn is_one(&self) -> bool {
         *self == Commitment::ONE
     }
@@ -32,8 +33,7 @@ impl Commitment {
         }
     }
 
-    /// Returns the difference from the default in the notation of results, such as `commit=10`; `None` for the
-    /// default.
+    /// Returns the commitment in the notation of results, such as `commit=10`, or `None` for the default.
     pub fn aid(self) -> Option<String> {
         (!self.is_one()).then(|| format!("commit={self}"))
     }

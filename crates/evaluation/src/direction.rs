@@ -2,7 +2,7 @@
 
 use engine::Direction;
 
-/// Returns `up`, `left`, `down` or `right`; `None` for any other direction.
+/// Returns `up`, `left`, `down` or `right`, or `None` for any other direction.
 pub(crate) fn direction_name(direction: Direction) -> Option<&'static str> {
     let names = [
         (Direction::UP, "up"),

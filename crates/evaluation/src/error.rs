@@ -1,10 +1,10 @@
-//! The error type of evaluations.
+//! The error type of this crate.
 
 use base::MessagePath;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// A reason why an evaluation cannot be set up, continued or read.
+/// The reason why an evaluation cannot be set up, continued or read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EvaluationError {
@@ -18,7 +18,7 @@ pub enum EvaluationError {
         /// The error of the operating system.
         source: std::io::Error,
     },
-    /// The request is malformed. The message names the cause and the next step.
+    /// The request is malformed. The message states the cause and the next step.
     #[error("{0}")]
     Malformed(String),
 }
@@ -29,7 +29,7 @@ impl EvaluationError {
         EvaluationError::Malformed(format!("{}: {what}", path.in_message()))
     }
 
-    /// Returns a closure for `map_err` that makes the error of an operation on a path.
+    /// Returns a closure for `map_err` that converts the I/O error of an operation on a path.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> EvaluationError {
         let path = path.to_owned();
         move |source| EvaluationError::Io { action, path, source }

@@ -1,5 +1,5 @@
-//! The meaning of the characters of a board, in one table per game that is the same for all levels, states and
-//! episodes.
+//! The meanings of the characters on a board. Each game has one table, which is the same for all levels,
+//! states and episodes.
 
 use crate::direction::direction_name;
 use base::Seed;
@@ -8,62 +8,62 @@ use engine::{Analysis, SpriteType};
 use render::{EMPTY, Glyph, Looks, Symbols};
 use std::collections::BTreeMap;
 
-/// The character of the avatar in all of its states.
+/// The character that stands for the avatar in all of its states.
 pub const AVATAR: char = '@';
 
 /// The characters from which shuffled symbols are drawn.
 const POOL: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-/// The characters for types without a free letter in their names.
+/// The characters for types whose names contain no free letter.
 const SPARE: &str = "+*%&$=~^?!:;|/abcdefghijklmnopqrstuvwxyz0123456789";
 
 /// The options for assigning characters to sprite types.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LegendOptions {
-    /// `true` if each state of the avatar has its own character, like any other type, instead of [`AVATAR`], so that
-    /// the player must keep track of its own state.
+    /// `true` if each state of the avatar has its own character instead of [`AVATAR`], so that the player must
+    /// keep track of the avatar's current character.
     pub tracking: bool,
-    /// The number of the table of random letters and digits that replace the characters, so that no character carries
-    /// a meaning by itself; `None` to keep the original characters.
+    /// The number of the table of random letters and digits that replace the characters, so that no character
+    /// carries a meaning by itself. `None` keeps the original characters.
     pub shuffled: Option<u64>,
 }
 
-/// The role of a sprite type for a reader of boards.
+/// The role of a sprite type on a board, from the point of view of a reader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryRole {
-    /// The player.
+    /// The sprite that the player controls.
     Avatar,
     /// A type that blocks the way permanently.
     Wall,
-    /// The ground under the other sprites, which is not shown.
+    /// The ground under the other sprites, which encodings do not show.
     Floor,
-    /// A type that stays in place and offers no gain: soil, cover, or sprites that shots or other sprites break. Long
-    /// lists of its positions would hide the rest.
+    /// A type that stays in place and offers no gain, such as soil, cover, or sprites that shots or other
+    /// sprites break. Its positions would make lists too long.
     Scenery,
     /// Any other type.
     Thing,
 }
 
-/// A visible sprite type.
+/// An entry of the legend for a visible sprite type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The name of the type.
+    /// The name of the sprite type.
     pub name: String,
-    /// The character of the type; [`EMPTY`] for floors.
+    /// The character of the sprite type, which is [`EMPTY`] for floors.
     pub symbol: char,
-    /// The role of the type.
+    /// The role of the sprite type.
     pub role: EntryRole,
-    /// `true` if the type's sprites move straight ahead in a direction that does not follow from the rules alone,
-    /// because some are sent or turned elsewhere.
+    /// `true` if the type's sprites move straight ahead and the rules alone do not determine their direction,
+    /// because something turns some of them.
     pub is_turned: bool,
 }
 
-/// The table of one game. Only the states of the avatar, or floors, can share a character.
+/// The table of characters for one game. Only the states of the avatar, or floors, can share a character.
 #[derive(Clone, Debug)]
 pub struct Legend {
     looks: Looks,
-    /// The entries, with the avatar first and then in the order of the registry, so that the order does not reveal
-    /// the purpose or importance of a type.
+    /// The entries of the table. The avatar is first, and the other types follow in the order of the
+    /// registry, so that the order does not reveal a type's purpose or importance.
     entries: Vec<Entry>,
     places: BTreeMap<String, usize>,
 }
@@ -104,22 +104,22 @@ impl Legend {
         &self.entries
     }
 
-    /// Returns the entry of a name; `None` for a type that is never visible.
+    /// Returns the entry of the named type, or `None` if the type is never visible.
     pub fn entry(&self, name: &str) -> Option<&Entry> {
         self.places.get(name).map(|&at| &self.entries[at])
     }
 
-    /// Returns the appearance of the types in images.
+    /// Returns the appearance of the sprite types in images.
     pub fn looks(&self) -> &Looks {
         &self.looks
     }
 
-    /// Returns `true` if a name is shown, which means that it is a visible type other than a floor.
+    /// Returns `true` if encodings show the named type. They show every visible type except floors.
     pub(crate) fn is_shown(&self, name: &str) -> bool {
         self.entry(name).is_some_and(|entry| entry.role != EntryRole::Floor)
     }
 
-    /// Returns one line per character: the character, a space, and the names.
+    /// Returns one line for each character, with the character, a space, and the names of its types.
     pub fn lines(&self) -> Vec<String> {
         let names = |role: EntryRole| {
             let all = self.entries.iter().filter(move |entry| entry.role == role);
@@ -144,7 +144,7 @@ impl Legend {
         lines
     }
 
-    /// Returns `true` if all states of the avatar share a character.
+    /// Returns `true` if all states of the avatar share one character.
     fn is_united(&self) -> bool {
         let mut avatars = self.entries.iter().filter(|entry| entry.role == EntryRole::Avatar);
         let first = avatars.next().map(|entry| entry.symbol);
@@ -163,13 +163,13 @@ fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
         && matches!(role, Role::Soil | Role::Cover | Role::Breakable | Role::Refuge | Role::Floor)
 }
 
-/// Returns `true` if a type's sprites move straight ahead, unless all of them always move in the direction given by
-/// the rules, or if they stand still and are turned.
+/// Returns `true` if a type's sprites move straight ahead but not always in the direction given by the rules,
+/// or if they stand still and are turned.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let motion = analysis.facts(stype).motion;
     let turns = |effect: &EffectSummary| match effect {
         EffectSummary::Turn => true,
-        // A sprite keeps its direction when it turns into a different one.
+        // A sprite keeps its direction when it turns into a sprite of a different type.
         EffectSummary::Become(into) | EffectSummary::BecomeAll(_, into) => *into == stype,
         EffectSummary::BecomeAny(into) => into.contains(&stype),
         _ => false,
@@ -190,7 +190,8 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     }
 }
 
-/// Gives all states of the avatar the character [`AVATAR`]. The type that had this character takes over a freed one.
+/// Gives all states of the avatar the character [`AVATAR`]. A type that already had this character gets a
+/// freed character.
 fn unite_avatars(entries: &mut [Entry]) {
     let is_avatar = |entry: &&Entry| entry.role == EntryRole::Avatar;
     let Some(free) = entries.iter().find(is_avatar).map(|entry| entry.symbol) else { return };
@@ -203,8 +204,8 @@ fn unite_avatars(entries: &mut [Entry]) {
     }
 }
 
-/// Gives a type whose letter differs from that of an earlier entry in case alone another character: a letter of its name,
-/// or else a spare one.
+/// Gives a new character to each type whose letter differs only in case from the letter of an earlier entry.
+/// The new character is a letter of the type's name or a spare character.
 fn separate_cases(entries: &mut [Entry]) {
     for at in 1..entries.len() {
         let own = entries[at].symbol;
@@ -220,7 +221,7 @@ fn separate_cases(entries: &mut [Entry]) {
     }
 }
 
-/// Draws new characters. Entries that shared a character still share one.
+/// Replaces the characters with random characters. Entries that shared a character share one again.
 fn shuffle(entries: &mut [Entry], number: u64) {
     let mut pool: Vec<char> = POOL.chars().collect();
     Seed::from_text("shuffled symbols").child("symbols", number).sampler().shuffle(&mut pool);

@@ -1,4 +1,4 @@
-//! Games without their theme, in which the rules are unchanged, but all names are meaningless.
+//! Masks games: the rules stay unchanged, but all names become meaningless.
 
 use crate::error::EvaluationError;
 use base::{Digest, Seed};
@@ -9,20 +9,20 @@ use std::collections::BTreeMap;
 /// A renaming that hides the names of a game's sprite types.
 #[derive(Clone, Debug)]
 pub(crate) struct Mask {
-    /// The renamed game. Its types keep their positions in the registry.
+    /// The renamed game. Its sprite types keep their positions in the registry.
     pub(crate) game: Game,
-    /// `true` if the order of names is hidden too.
+    /// `true` if the order of the names is hidden too.
     is_neutral: bool,
     names: BTreeMap<String, String>,
 }
 
 impl Mask {
-    /// Renames the types to `t1`, `t2` and so on, in an order derived from the game's digest. Comments, colours and
-    /// images are removed.
+    /// Renames the sprite types to `t1`, `t2` and so on, in an order derived from the game's digest.
+    /// Comments, colours and images are removed.
     ///
     /// # Errors
-    /// Returns an error if the game does not compile under different names, because it was loaded with faults that
-    /// only the reference tolerates.
+    /// Returns an error if the game does not compile under different names. Such a game was loaded with
+    /// faults that only the reference engine tolerates.
     pub(crate) fn of(game: &Game) -> Result<Mask, EvaluationError> {
         let description = game.description();
         let seed = Seed::from_text(&game.digest().to_string());
@@ -36,8 +36,8 @@ impl Mask {
         Ok(Mask { game, is_neutral: false, names })
     }
 
-    /// Gives all types new names, including those that the engine knows: `t1`, `t2` and so on, in an order derived
-    /// from the game's digest. Levels of the game remain valid.
+    /// Renames all sprite types, including types whose names the engine knows, to `t1`, `t2` and so on. The
+    /// order is derived from the game's digest. Levels of the game remain valid.
     pub(crate) fn neutral(game: &Game) -> Mask {
         let own: Vec<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
         let seed = Seed::from_text(&game.digest().to_string());
@@ -45,17 +45,17 @@ impl Mask {
         Mask { game: game.under_names(&names), is_neutral: true, names }
     }
 
-    /// Returns the number from which neutral characters are drawn, which differs between games.
+    /// Returns the number from which neutral characters are drawn. The number differs between games.
     pub(crate) fn neutral_characters(game: &Game) -> u64 {
         Seed::from_text(&game.digest().to_string()).child("neutral characters", 0).sampler().bits()
     }
 
-    /// Returns the replacement of one of the game's own names.
+    /// Returns the replacement for one of the game's own names.
     pub(crate) fn name<'a>(&'a self, own: &'a str) -> &'a str {
         self.names.get(own).map_or(own, String::as_str)
     }
 
-    /// Returns an observation with the names replaced.
+    /// Returns an observation in which all names are replaced.
     pub(crate) fn observation(&self, seen: &Observation) -> Observation {
         let mut masked = seen.clone();
         let avatar = masked.avatar.iter_mut().map(|avatar| &mut avatar.name);
@@ -96,7 +96,7 @@ fn strip(description: &mut Description, keys: &[&str]) {
     sprites(&mut description.sprites, keys);
 }
 
-/// Returns the rules without the names of images, which reveal the roles of types.
+/// Returns the rules without the names of images, which would reveal the roles of sprite types.
 pub(crate) fn without_pictures(description: &Description) -> Description {
     let mut description = description.clone();
     strip(&mut description, &["img", "autotiling", "randomtiling"]);
@@ -111,7 +111,8 @@ mod tests {
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    t3 > Immovable\n    bug > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    g > t3\n    b > bug\n  InteractionSet\n    avatar wall > stepBack\n    t3 avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=t3 win=True\n";
 
-    /// Neutral names reach all types, including one that already has such a name, and change nothing else.
+    /// Neutral names replace all type names, including a name that already looks neutral, and change nothing
+    /// else.
     #[test]
     fn neutral_names_change_nothing_else() {
         let game = Game::from_source(GAME).unwrap();

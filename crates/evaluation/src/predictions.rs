@@ -1,5 +1,5 @@
-//! Predictions about a game's rules, which state what touching each kind of sprite does, and the grading of
-//! predictions.
+//! Predictions about the effect of touching each type of sprite in a game, and their comparison with the
+//! rules.
 
 use crate::prompt::kinds_at_start;
 use crate::subject::Subject;
@@ -10,52 +10,55 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 base::named_enum! {
-    /// A fact about touching a kind of sprite that a player can predict.
+    /// A fact about touching a sprite type, which a player can predict.
     pub enum TouchFact {
-        /// The kind kills the avatar, at least while the avatar holds nothing.
+        /// Touching the sprite kills the avatar, at least while the avatar holds nothing.
         Kills = "kills",
-        /// The avatar cannot enter the kind's cell, at least while it holds nothing.
+        /// The avatar cannot enter the sprite's cell, at least while the avatar holds nothing.
         Stops = "stops",
-        /// The kind disappears or turns into a different kind, at once or when the avatar holds what is required.
+        /// The sprite disappears or turns into a different type, at once or when the avatar holds the
+        /// required resource.
         Goes = "goes",
-        /// The score changes, at once or when the avatar holds what is required.
+        /// The score changes, at once or when the avatar holds the required resource.
         Scores = "scores",
     }
 }
 
-/// The kinds for which each fact is predicted, by the game's own names.
+/// The sprite types for which each fact is predicted, by the game's own names.
 pub type Predicted = BTreeMap<TouchFact, BTreeSet<String>>;
 
 /// The result of comparing predictions with the rules.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grade {
-    /// The number of correct predictions among the pairs of kinds and facts that the rules determine.
+    /// The number of correct predictions among the pairs of types and facts that the rules determine.
     pub right: u64,
-    /// The number of pairs of kinds and facts that the rules determine.
+    /// The number of pairs of types and facts that the rules determine.
     pub of: u64,
-    /// The mean, over the facts, of the fraction of named kinds among those for which the fact is true, minus the
-    /// fraction of named kinds among the others. Only facts with both sorts of kinds count. The value is between −1
-    /// and 1: 0 for a player that names kinds without knowledge, 1 if everything is correct. `None` if no fact has
-    /// both sorts of kinds.
+    /// The insight, which is a mean over facts. For each fact, the value is the fraction of predicted types
+    /// among the types for which the fact is true, minus the fraction of predicted types among all other
+    /// types.
+    ///
+    /// A fact counts only if it is true for some types and false for others. The insight is between −1 and 1.
+    /// It is 0 for predictions without knowledge, and 1 if everything is correct. `None` if no fact counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub insight: Option<f64>,
 }
 
-/// The kinds of a game, except avatars and floors, by the effect of a touch on a player who does not know the rules
-/// and must find them out by touching.
+/// The sprite types of a game, except avatars and floors, by the effect of a touch. The effects are those for
+/// a player who does not know the rules and must learn them by touching.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Trials {
-    /// The kinds whose touch hurts, or costs points.
+    /// The types that hurt the avatar or cost points when they are touched.
     pub costly: Vec<String>,
-    /// The kinds whose touch has an effect only if the avatar holds what is required.
+    /// The types whose touch has an effect only if the avatar holds the required resource.
     pub gated: Vec<String>,
-    /// The decoys: kinds whose touch does nothing, although they are neither walls nor floors.
+    /// The decoys, which are neither walls nor floors, but have no effect when they are touched.
     pub idle: Vec<String>,
 }
 
 impl Trials {
-    /// Returns the trials among the kinds that are present at the start of a game's levels.
+    /// Returns the trials for the sprite types that are present at the start of a game's levels.
     pub fn of(subject: &Subject) -> Trials {
         let analysis = &subject.analysis;
         let mut trials = Trials::default();
@@ -75,10 +78,11 @@ impl Trials {
     }
 }
 
-/// Returns the truth of a fact about a kind according to the rules; `None` if it depends on more than the avatar's
-/// type and possessions.
+/// Returns whether a fact is true for a sprite type according to the rules, or `None` if the fact depends on
+/// more than the avatar's type and possessions.
 ///
-/// If an avatar can be of several types, each of them is considered, and `None` is returned if they differ.
+/// If the avatar can be of several types, each type is considered, and `None` is returned if the results
+/// differ.
 pub fn truth(analysis: &Analysis, kind: SpriteType, fact: TouchFact) -> Option<bool> {
     let each = analysis.avatars().iter().map(|avatar| fact_of(analysis.touch(avatar.stype, kind), fact));
     each.dedup().exactly_one().ok().flatten()
@@ -92,7 +96,8 @@ fn fact_of(touch: &Touch, fact: TouchFact) -> Option<bool> {
             Harm::Conditional => touch.safe_with.map(|_| true),
             Harm::Wounds => None,
         },
-        // A kind that moves or disappears at the first touch lets the avatar in at the second.
+        // If a sprite moves or disappears at the first touch, the avatar can enter its cell at the second
+        // touch.
         TouchFact::Stops if touch.pushes || (touch.blocks && touch.removal == Removal::Always) => None,
         TouchFact::Stops if touch.harm != Harm::None => None,
         TouchFact::Stops => Some(touch.blocks),
@@ -106,13 +111,13 @@ fn fact_of(touch: &Touch, fact: TouchFact) -> Option<bool> {
     }
 }
 
-/// Grades predictions about kinds. Names that the game does not have are ignored, and so are kinds that were not in
-/// the question.
+/// Grades predictions about sprite types. Names that are not in the game, and types that were not in the
+/// question, are ignored.
 pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Grade {
     let mut grade = Grade::default();
     let mut insights = Vec::new();
     for fact in TouchFact::ALL {
-        // The number of kinds that are named and true, indexed by truth and by answer.
+        // The numbers of types, indexed by whether the fact is true and whether it was predicted.
         let mut counts = [[0_u64; 2]; 2];
         for kind in kinds {
             let Some(stype) = analysis.game().sprite_type(kind) else { continue };
@@ -130,13 +135,15 @@ pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Gr
     grade
 }
 
-/// Reads the answer to the question: the last line for each fact, `KILLS: t1, t4` or `STOPS: none`. `names` maps the
-/// names in the question to the game's own. Emphasis and list markers, other kinds and text outside the lines are
-/// ignored. A semicolon also ends a line.
+/// Reads the answer to the question about sprite types. The last line for each fact counts, such as
+/// `KILLS: t1, t4` or `STOPS: none`. `names` maps the names in the question to the game's own names.
+///
+/// Emphasis, list markers, unknown types and text outside the lines are ignored. A semicolon also ends a
+/// line.
 ///
 /// # Errors
-/// Returns an error if a line is missing, or contains neither a kind nor `none`. The message is a clause about the
-/// answer.
+/// Returns an error if a line is missing, or contains neither a type nor `none`. The message is a clause
+/// whose subject is the answer.
 pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted, String> {
     let answer = crate::answer::without_reasoning(answer);
     let is_mark = |c: char| matches!(c, '*' | '`' | '#' | '-' | '>' | '_') || c.is_whitespace();
@@ -157,7 +164,7 @@ pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted,
         let mut is_none = false;
         for name in words.map(str::to_lowercase) {
             is_none |= name == "none" || name == "nothing";
-            // Kinds that were not in the question have no effect.
+            // Types that were not in the question are ignored.
             is_none |= is_kind(&name);
             kinds.extend(names.get(&name).cloned());
         }
@@ -169,7 +176,7 @@ pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted,
     Ok(predicted)
 }
 
-/// Returns `true` if a word looks like the name of a kind in a question.
+/// Returns `true` if a word has the form of a type name in a question.
 fn is_kind(word: &str) -> bool {
     word.strip_prefix('t').is_some_and(|rest| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit()))
 }
@@ -222,7 +229,7 @@ mod tests {
     fn answers_are_graded() {
         check("KILLS: t3; STOPS: t2; GOES: t1, t2, t4; SCORES: t2, t4.", Ok((15, 15, Some(1.0))));
         check("KILLS: t3\nSTOPS: t2\nGOES: t1, t2, t4\nSCORES: t2, t4", Ok((15, 15, Some(1.0))));
-        // The same prediction for all kinds shows no insight.
+        // The same prediction for all types shows no insight.
         check("KILLS: none\nSTOPS: none\nGOES: none\nSCORES: none", Ok((8, 15, Some(0.0))));
         let all = "t1, t2, t3, t4";
         check(&format!("KILLS: {all}\nSTOPS: {all}\nGOES: {all}\nSCORES: {all}"), Ok((7, 15, Some(0.0))));

@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// A game with its levels and the known facts beyond its rules.
+/// A game with its levels, and with known facts that its rules do not contain.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// The ID of the game in logs and tables, which is a file name without separators.
+    /// The ID of the game in logs and tables. The ID is usable as a file name, without path separators.
     pub id: String,
-    /// The text of the game.
+    /// The source text of the game.
     pub source: String,
     /// The compiled game.
     pub game: Game,
@@ -20,17 +20,18 @@ pub struct Subject {
     pub analysis: Analysis,
     /// The levels of the game.
     pub levels: Vec<SubjectLevel>,
-    /// The known facts about the game.
+    /// The known facts that the rules do not contain.
     pub facts: SubjectFacts,
 }
 
 impl Subject {
-    /// Builds a subject from the texts of a game and its levels. Each level comes with its number and the ticks of
-    /// its proved shortest win, if there is one. The taxonomy is derived from the rules if `facts` has none.
+    /// Builds a subject from the texts of a game and its levels. Each level is given with its number, its
+    /// text, and the number of ticks of its shortest win if the win is proved to be optimal. If `facts`
+    /// contains no taxonomy, the taxonomy is derived from the rules.
     ///
     /// # Errors
-    /// Returns the problems of the game if it does not compile, or else those of the first level that does not
-    /// compile.
+    /// Returns the problems of the game if it does not compile. Otherwise, returns the problems of the first
+    /// level that does not compile.
     pub fn read(
         id: &str,
         source: &str,
@@ -54,8 +55,8 @@ impl Subject {
         Ok(Subject { id: id.to_owned(), source: source.to_owned(), game, analysis, levels, facts })
     }
 
-    /// Returns the hash of a level's first state under a fixed seed, which is equal for levels of twins under
-    /// different names.
+    /// Returns the hash of a level's first state under a fixed seed. The hashes are equal for the levels of
+    /// renamed games.
     pub(crate) fn first_state(&self, level: &SubjectLevel) -> StateHash {
         let start = || self.game.start(&level.level, Seed::from_text("start")).state_hash();
         *level.first.get_or_init(start)
@@ -66,9 +67,9 @@ impl Subject {
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{}{problems}", level.map_or(String::new(), |number| format!("level {number}: ")))]
 pub struct Unreadable {
-    /// The number of the level; `None` if the game is at fault.
+    /// The number of the level, or `None` if the game does not compile.
     pub level: Option<usize>,
-    /// The problems found.
+    /// The problems that were found.
     pub problems: Diagnostics,
 }
 
@@ -81,7 +82,7 @@ pub struct SubjectLevel {
     pub text: String,
     /// The level, checked against its game.
     pub level: Level,
-    /// The number of ticks in the shortest win, if its optimality is proved.
+    /// The number of ticks in the shortest win, if the win is proved to be optimal.
     pub optimal_ticks: Option<usize>,
     /// The hash of the level's first state under a fixed seed, once it has been computed.
     first: OnceLock<StateHash>,
@@ -91,42 +92,44 @@ pub struct SubjectLevel {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectFacts {
-    /// The title in the game's own theme.
+    /// The title of the game in its own theme.
     pub title: String,
-    /// The kind of game that its release or its card states, such as `shooter`; empty if it is unknown.
+    /// The kind of game that its release or its card states, such as `shooter`. The text is empty if the kind
+    /// is unknown.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub kind: String,
-    /// The kind of game according to its rules, with one sentence per aspect of the taxonomy
+    /// The kind of game according to its rules, as one sentence for each aspect of the taxonomy
     /// (`engine::describe::Guide::kind`).
     pub taxonomy: Vec<String>,
-    /// `true` if the game's faults are tolerated, as in the reference engine.
+    /// `true` if faults in the game are tolerated, as the reference engine tolerates them.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub as_reference: bool,
-    /// The reference results that the release keeps for the levels played.
+    /// The reference results for the played levels, which the release contains.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<LevelMark>,
     /// The name of the game's release.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<String>,
-    /// The number of ticks in the shortest known win of each level, by number, as far as the release states it.
+    /// The number of ticks in the shortest known win of each level, by the level's number. Levels for which
+    /// the release states no win are missing.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub known_wins: BTreeMap<usize, u64>,
 }
 
-/// A reference player's result on a level, as kept in a release.
+/// A reference player's result on a level, as stored in a release.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelMark {
     /// The number of the level.
     pub level: usize,
-    /// The tier of the level, from 1 to 4, which measures what the level demands.
+    /// The tier of the level, from 1 to 4, which measures how far ahead a winner must see.
     pub tier: u8,
-    /// The player.
+    /// The name of the reference player.
     pub player: String,
-    /// The number of actions that the player commits to at each look.
+    /// The number of actions that the player commits to at each decision.
     pub commit: Commitment,
-    /// The number of episodes won.
+    /// The number of won episodes.
     pub wins: u64,
-    /// The number of episodes.
+    /// The number of episodes played.
     pub plays: u64,
 }

@@ -1,4 +1,5 @@
-//! Tracks, which are named, versioned bundles of prompt settings whose results are never mixed.
+//! Tracks. A track is a named and versioned bundle of prompt settings. Results on different tracks are never
+//! mixed.
 
 use crate::prompt::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
 use std::fmt;
@@ -6,28 +7,30 @@ use std::fmt;
 base::named_enum! {
     /// A track, which determines what players learn about a game ([docs/reference/tracks.md](../../../docs/reference/tracks.md)).
     pub enum Track {
-        /// The default prompts, with the rules in English under the game's own names.
+        /// The default prompts, with the rules in English and the game's own names.
         Told = "told",
-        /// The rules in English, under meaningless names and characters.
+        /// The rules in English, with meaningless names and characters.
         Masked = "masked",
-        /// No rules: several levels of a game in one conversation, the visible effects of each action, and a last
-        /// question about the rules. The first level is for practice.
+        /// Prompts without rules. Several levels of a game are played in one conversation, which shows the
+        /// visible effects of each action and ends with a question about the rules. The first level is for
+        /// practice.
         Discover = "discover",
-        /// The rules in English, and the board only as an image.
+        /// The rules in English, with the board only as an image.
         Vision = "vision",
     }
 }
 
 impl Track {
-    /// Returns the version of the bundle, which is raised when its settings or the texts of its own prompts change.
+    /// Returns the version of the track, which is raised whenever its settings or the texts of its own
+    /// prompts change.
     pub const fn version(self) -> u32 {
         match self {
             Track::Told | Track::Masked | Track::Discover | Track::Vision => 1,
         }
     }
 
-    /// Returns the track's prompt settings. The mode and the budget of a conversation can be overridden, except for
-    /// the mode of [`Track::Discover`].
+    /// Returns the prompt settings of the track. The mode and the token budget of a conversation can be
+    /// overridden, except for the mode of [`Track::Discover`].
     pub fn settings(self) -> PromptSettings {
         let told = PromptSettings::default();
         match self {
@@ -51,8 +54,8 @@ impl Track {
         }
     }
 
-    /// Returns the maximum number of levels of a game that are played in one conversation, which is 1 if levels are
-    /// played alone.
+    /// Returns the maximum number of levels of a game that are played in one conversation. The number is 1 if
+    /// levels are played alone.
     pub const fn series(self) -> u64 {
         match self {
             Track::Discover => 3,
@@ -60,18 +63,19 @@ impl Track {
         }
     }
 
-    /// Returns the name and version in the notation of results, such as `masked@1`.
+    /// Returns the name and version of the track in the notation of results, such as `masked@1`.
     pub fn id(self) -> String {
         format!("{}@{}", self.name(), self.version())
     }
 
-    /// Returns the difference from other players in the notation of results, such as `track=masked@1`.
+    /// Returns the difference from players on other tracks in the notation of results, such as
+    /// `track=masked@1`.
     pub fn aid(self) -> String {
         format!("{AID}{}", self.id())
     }
 }
 
-/// The prefix of the aid that states a track.
+/// The prefix of the aid that states the track of a player.
 pub(crate) const AID: &str = "track=";
 
 impl fmt::Display for Track {
@@ -80,19 +84,20 @@ impl fmt::Display for Track {
     }
 }
 
-/// The position of a level among those that are played in one conversation.
+/// The position of a level in a series of levels that are played in one conversation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SeriesPlace {
-    /// The number of levels before this one.
+    /// The number of levels before this level in the series.
     pub index: u64,
     /// The number of levels in the series.
     pub of: u64,
 }
 
 impl SeriesPlace {
-    /// Divides `levels` levels into series of at most `most` levels, as evenly as possible and with the longer ones
-    /// first, and returns the position of each level; `None` for levels that are played alone.
+    /// Divides `levels` levels into series of at most `most` levels, and returns the position of each level.
+    /// The series are as even as possible, with the longer series first. The position is `None` for a level
+    /// that is played alone.
     pub(crate) fn all(levels: usize, most: u64) -> Vec<Option<SeriesPlace>> {
         let count = (levels as u64).div_ceil(most.max(1)).max(1);
         let (each, more) = (levels as u64 / count, levels as u64 % count);
@@ -101,7 +106,7 @@ impl SeriesPlace {
         lengths.flat_map(of_series).collect()
     }
 
-    /// Returns `true` if the level is played to learn the rules, in which case it does not count.
+    /// Returns `true` if the level is played to learn the rules, and does not count in results.
     pub fn is_practice(self) -> bool {
         self.index == 0
     }

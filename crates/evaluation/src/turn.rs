@@ -7,87 +7,88 @@ use crate::track::SeriesPlace;
 use engine::analysis::Avatar;
 use engine::{Action, Analysis, Game, Observation, State};
 
-/// A player's view at one decision: the facts of the whole episode, and an observation of the current state. The
-/// state itself is never shown, because a player could use it to look into the future.
+/// A player's view at one decision, which consists of the facts of the whole episode and an observation of
+/// the current state. The state itself is never shown, because a player could use it to look into the future.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn<'a> {
-    /// The game. A player may read its rules, but not its levels.
+    /// The game of the episode. A player may read its rules, but not its levels.
     pub subject: &'a Subject,
-    /// The number of the level, for logs.
+    /// The number of the level, which is used in logs.
     pub level: usize,
     /// The number of actions played before this decision.
     pub number: u64,
     /// The maximum number of actions per episode.
     pub limit: u64,
-    /// The number of actions to commit to.
+    /// The number of actions that the player commits to.
     pub commit: Commitment,
     /// The current observation.
     pub observation: &'a Observation,
-    /// The preceding action, which led to the current observation; `None` at the first decision.
+    /// The preceding action, which led to the current observation, or `None` at the first decision.
     pub before: Option<Before<'a>>,
-    /// The actions since the preceding look, with their results.
+    /// The actions since the preceding decision, with their results.
     pub played: &'a [Played],
     /// The available actions, with [`Action::Nil`] first.
     pub actions: &'a [Action],
-    /// The position of the level in a series that is played in one conversation; `None` if the level is played alone.
+    /// The level's position in a series that is played in one conversation, or `None` if the level is played
+    /// alone.
     pub series: Option<SeriesView<'a>>,
 }
 
-/// The position of a level in a series, and the previous level.
+/// The position of a level in a series, with the end of the previous level.
 #[derive(Clone, Copy, Debug)]
 pub struct SeriesView<'a> {
-    /// The position of the level.
+    /// The position of the level in the series.
     pub place: SeriesPlace,
-    /// The end of the previous level; `None` for the first level.
+    /// The end of the previous level, or `None` for the first level.
     pub previous: Option<&'a LevelEnd>,
 }
 
 /// The end of a level in a series, as seen by the player.
 #[derive(Clone, Debug)]
 pub struct LevelEnd {
-    /// The last observation.
+    /// The last observation of the level.
     pub last: Observation,
     /// The second-to-last observation, and the action that followed it.
     pub before: Option<(Observation, Action)>,
-    /// The number of actions played.
+    /// The number of actions played in the level.
     pub steps: u64,
 }
 
-/// The preceding action.
+/// The preceding action and its result.
 #[derive(Clone, Copy, Debug)]
 pub struct Before<'a> {
-    /// The observation before that action.
+    /// The observation before the action.
     pub observation: &'a Observation,
-    /// The action played.
+    /// The action that was played.
     pub action: Action,
-    /// The change of the score.
+    /// The change of the score caused by the action.
     pub reward: f64,
 }
 
-/// An action of a commitment, with its result.
+/// An action of a commitment and its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
-    /// The requested action; [`Action::Nil`] if the player stated too few actions.
+    /// The requested action, or [`Action::Nil`] if the player stated too few actions.
     pub asked: Action,
-    /// `true` if the action was unavailable, so nothing was done.
+    /// `true` if the action was unavailable, so that the player did nothing.
     pub is_unavailable: bool,
     /// The avatar's column and row after the action, if there is an avatar.
     pub avatar: Option<(i32, i32)>,
-    /// The change of the score.
+    /// The change of the score caused by the action.
     pub reward: f64,
 }
 
-/// The recent past of an episode, as far as the next turn shows it.
+/// The part of an episode's recent past that the next turn shows.
 #[derive(Debug, Default)]
 pub(crate) struct Recent {
     /// The observation before the last action, the action and its reward.
     pub(crate) last: Option<(Observation, Action, f64)>,
-    /// The actions since the last look.
+    /// The actions played since the last decision.
     pub(crate) played: Vec<Played>,
 }
 
 impl<'a> Turn<'a> {
-    /// Makes the turn of an episode after `number` actions.
+    /// Creates the turn of an episode after `number` actions.
     pub(crate) fn of(
         task: &Task<'a>,
         number: u64,
@@ -107,13 +108,13 @@ impl<'a> Turn<'a> {
         Turn { subject, level, number, limit, commit, observation, before, played, actions, series }
     }
 
-    /// Returns the number of actions that the decision covers, at least one.
+    /// Returns the number of actions that the decision covers, which is at least one.
     pub fn due(&self) -> u64 {
         self.commit.due(self.limit.saturating_sub(self.number)).max(1)
     }
 }
 
-/// The start of an episode as seen by a player, for inspecting prompts without playing.
+/// The start of an episode as seen by a player. It is used to inspect prompts without playing.
 #[derive(Clone, Debug)]
 pub struct Observed {
     observation: Observation,
@@ -128,20 +129,21 @@ impl Observed {
         Observed { observation: game.observe(&state), actions: choices(game, &state) }
     }
 
-    /// Returns the first turn.
+    /// Returns the first turn of the episode.
     pub fn turn<'a>(&'a self, task: &Task<'a>) -> Turn<'a> {
         const NONE: &Recent = &Recent { last: None, played: Vec::new() };
         Turn::of(task, 0, &self.observation, NONE, &self.actions, None)
     }
 }
 
-/// Returns the actions available in a state, which are doing nothing and the keys.
+/// Returns the actions available in a state. They consist of doing nothing and the available keys.
 pub(crate) fn choices(game: &Game, state: &State) -> Vec<Action> {
     let keys = game.actions(state).iter().copied().filter(|&action| action != Action::Nil);
     std::iter::once(Action::Nil).chain(keys).collect()
 }
 
-/// Returns `true` if an action can have an effect in a game. If nothing can be shot, the use key is not a choice.
+/// Returns `true` if an action can have an effect in a game. If nothing can be shot, the use key has no
+/// effect.
 pub fn is_of_use(analysis: &Analysis, action: Action) -> bool {
     let game = analysis.game();
     let by = |avatar: &Avatar| {

@@ -1,4 +1,4 @@
-//! A file of a report, and the errors of making reports.
+//! The files of reports, and the errors of rendering reports.
 
 use evaluation::EvaluationError;
 use std::error::Error;
@@ -8,7 +8,7 @@ use std::error::Error;
 pub struct File {
     /// The path relative to the report's folder, with `/` as the separator.
     pub name: String,
-    /// The content.
+    /// The content of the file.
     pub bytes: Vec<u8>,
 }
 
@@ -18,18 +18,18 @@ impl File {
     }
 }
 
-/// The reason why a report cannot be made.
+/// The reason why a report cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum PageError {
     /// The log of an episode cannot be read.
     #[error(transparent)]
     Evaluation(#[from] EvaluationError),
-    /// An image or a page cannot be made.
+    /// An image or a page cannot be rendered.
     #[error("{what}")]
     Failed {
         /// The part of the report that failed.
         what: &'static str,
-        /// The cause.
+        /// The error that caused the failure.
         source: Box<dyn Error + Send + Sync>,
     },
 }

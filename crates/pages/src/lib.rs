@@ -1,7 +1,8 @@
-//! Reports as files: self-contained pages with plots, and the same numbers as JSON, CSV and LaTeX.
+//! Renders reports as files: self-contained pages with plots, and the same numbers as JSON, CSV and LaTeX.
 //!
-//! `forge` and `evaluation` make the model of a report. This crate turns it into text and images, without a clock or a file
-//! system: every function returns [`File`]s, and the same report gives the same bytes.
+//! `forge` and `evaluation` provide the data of a report, and this crate converts the data to text and
+//! images. The crate uses no clock and no file system. Every function returns [`File`]s, and the same report
+//! gives the same bytes.
 
 mod evaluation_report;
 mod file;

@@ -1,4 +1,4 @@
-"""Games in VGDL, from Python: the engine, planners, judges, generators and snapshots of Infinite Arcade.
+"""Games in VGDL for Python, with the engine, planners, judges, generators and snapshots of Infinite Arcade.
 
 >>> import infinite_arcade as ia
 >>> game = ia.load("hailglass")
@@ -6,8 +6,8 @@
 >>> state.step("right")
 'ongoing'
 
-The environments are in :mod:`infinite_arcade.gymnasium`, the evaluation tasks in :mod:`infinite_arcade.inspect`, and the tables in
-:mod:`infinite_arcade.tables`. These modules are not imported here, so the package itself needs only NumPy.
+The environments are in :mod:`infinite_arcade.gymnasium`, the evaluation tasks in :mod:`infinite_arcade.inspect`, and
+the tables in :mod:`infinite_arcade.tables`. The package does not import these modules, so it needs only NumPy.
 """
 
 from ._native import ACTIONS, GENERATION, SEMANTICS, ArcadeError, LogError, VgdlError, __version__

@@ -1,4 +1,4 @@
-"""The extension module. Use the classes and functions of the package, which are documented."""
+"""The extension module. Use the documented classes and functions of the package instead."""
 
 from pathlib import Path
 from typing import Any
@@ -12,13 +12,13 @@ GENERATION: int
 ACTIONS: list[str]
 
 class ArcadeError(Exception):
-    """The suite could not fulfil a request. The message says why."""
+    """Raised if the suite cannot fulfil a request. The message states the reason."""
 
 class LogError(ArcadeError):
-    """A log is damaged, was changed, or belongs to a different episode."""
+    """Raised if a log is damaged, was changed, or belongs to a different episode."""
 
 class VgdlError(ValueError):
-    """A game or level does not compile. It prints like the messages of ``arcade``."""
+    """Raised if a game or level does not compile. The exception prints like the messages of ``arcade``."""
 
     diagnostics: list[dict[str, Any]]
 
@@ -32,7 +32,7 @@ def seed_from_text(text: str) -> str:
     """Returns the seed derived from a text, as 64 hexadecimal digits."""
 
 def seed_child(seed: str, purpose: str, index: int) -> str:
-    """Returns the seed derived from ``seed`` for part ``index`` of ``purpose``, which separates different kinds of parts."""
+    """Derives a seed from ``seed``, ``purpose`` and ``index``. Different purposes give independent seeds."""
 
 def planner_names() -> list[str]: ...
 

@@ -1,14 +1,15 @@
 """Plays the same action logs through every interface, and compares state hashes, scores and outcomes.
 
-The command line plays episodes of the corpus with a random player, and its logs are the reference. The actions of each log are then
-played
+The command line plays episodes of the corpus with a random player, and the resulting logs are the reference. The
+actions of each log are then played
 
 - with Gymnasium, in a single environment and in a vector of all episodes of a level;
 - with Inspect, by a scripted model that answers with the actions;
 - with ``cmd:``, by a program that sends the actions to ``arcade evaluate``;
 - on a Ray cluster, if Ray is installed and ``--ray`` is given.
 
-``python -m infinite_arcade.doors --count 1000 --ray`` compares 1,000 logs; it needs ``arcade`` and the extras gymnasium and inspect.
+``python -m infinite_arcade.doors --count 1000 --ray`` compares 1,000 logs. It requires ``arcade`` and the extras
+gymnasium and inspect.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ from .games import Game, load
 
 __all__ = ["Log", "compare", "main", "read_logs", "record"]
 
-#: The program that plays logs over standard input and output. It finds the log by the rules and the first board.
+#: The program that plays logs over standard input and output. It finds the log that matches the rules and the first
+#: board.
 _PLAYER = """
 import json, sys
 logs = json.load(open(sys.argv[1]))
@@ -45,7 +47,7 @@ for line in sys.stdin:
         print(json.dumps({"turn": message["turn"], "action": actions_left[message["turn"] - first]}), flush=True)
 """
 
-#: A program that records the rules and the first board of each level.
+#: The program that records the rules and the first board of each level.
 _SCOUT = """
 import json, os, sys
 for line in sys.stdin:
@@ -64,7 +66,7 @@ for line in sys.stdin:
 
 @dataclass(frozen=True)
 class Log:
-    """An episode that the command line has recorded."""
+    """An episode that was recorded by the command line."""
 
     game: str
     level: int
@@ -82,12 +84,12 @@ class Log:
 
     @property
     def end(self) -> tuple[str, float, str]:
-        """The last state hash, the score and the outcome."""
+        """The last state hash, the score and the outcome of the episode."""
         return self.hashes[-1], self.score, self.outcome
 
 
 def read_logs(results: Path) -> list[Log]:
-    """Returns the episodes of a results folder, in the order of their names."""
+    """Returns the episodes of a results folder, sorted by name."""
     logs = []
     for path in sorted((results / "episodes").glob("*.jsonl")):
         events = [json.loads(line) for line in path.read_text("utf-8").splitlines()]
@@ -114,7 +116,7 @@ def _outcome(value: Any) -> str:
 def record(
     arcade: Path, games: list[str], seed: str, max_steps: int, out: Path, player: str = "random"
 ) -> list[Log]:
-    """Plays one episode on each level of the games with the command line."""
+    """Plays one episode on each level of the given games with the command line."""
     command = [str(arcade), "evaluate", *games, "--player", player, "--seed", seed, "--max-steps", str(max_steps)]
     subprocess.run([*command, "--out", str(out), "-q"], check=True, stdout=subprocess.DEVNULL)
     return read_logs(out)
@@ -134,7 +136,9 @@ def by_single(games: dict[str, Game], logs: list[Log]) -> Iterator[tuple[str, fl
 
 
 def by_vector(games: dict[str, Game], logs: list[Log]) -> Iterator[tuple[str, float, str]]:
-    """Plays the logs in vectors, with one vector for all logs of a level. Finished episodes wait for the others."""
+    """Plays the logs in vectors, with one vector for all logs of a level. Finished episodes wait for the other
+    episodes.
+    """
     from gymnasium.vector import AutoresetMode
 
     from .gymnasium import GameVectorEnv
@@ -144,7 +148,7 @@ def by_vector(games: dict[str, Game], logs: list[Log]) -> Iterator[tuple[str, fl
         own = [(at, log) for at, log in enumerate(logs) if log.key == key]
         game = games[key[0]]
         longest = max(len(log.actions) for _, log in own)
-        # The longest log sets the limit, so that no lane is truncated before its episode is over.
+        # The longest log sets the limit, so that no lane is truncated before the end of its episode.
         envs = GameVectorEnv(
             game, key[1], num_envs=len(own), max_steps=longest + 1, autoreset_mode=AutoresetMode.NEXT_STEP
         )
@@ -162,7 +166,7 @@ def by_vector(games: dict[str, Game], logs: list[Log]) -> Iterator[tuple[str, fl
 def by_inspect(
     names: list[str], logs: list[Log], seed: str, max_steps: int, folder: Path
 ) -> Iterator[tuple[str, float, str]]:
-    """Plays the logs of one seed with Inspect, by a model that answers with their actions."""
+    """Plays the logs of one seed with Inspect. A scripted model answers with the actions of the logs."""
     import inspect_ai
     from inspect_ai.model import ModelOutput, ModelUsage, get_model
 
@@ -193,7 +197,7 @@ def by_inspect(
 def by_program(
     arcade: Path, names: list[str], logs: list[Log], seed: str, max_steps: int, folder: Path
 ) -> Iterator[tuple[str, float, str]]:
-    """Plays the logs by an external program, with ``cmd:``."""
+    """Plays the logs with an external program, through ``cmd:``."""
     folder.mkdir(parents=True)
     scout, player, book = folder / "scout.py", folder / "player.py", folder / "book.json"
     scout.write_text(_SCOUT)
@@ -227,7 +231,7 @@ def by_ray(logs: list[Log]) -> Iterator[tuple[str, float, str]]:
 def compare(
     arcade: Path, names: list[str], seed: str, *, max_steps: int, folder: Path, with_ray: bool = False
 ) -> dict[str, int]:
-    """Compares one log per level of the games, and returns the number of logs that each interface has reproduced.
+    """Compares one log per level of the given games. Returns the number of logs that each interface has reproduced.
 
     Raises:
         AssertionError: if a hash, a score or an outcome differs.
@@ -251,7 +255,7 @@ def compare(
 
 
 def main() -> None:
-    """Compares the requested number of logs."""
+    """Compares the number of logs given on the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=1000, help="logs, at least")
     parser.add_argument("--max-steps", type=int, default=30, help="the most actions of a log")

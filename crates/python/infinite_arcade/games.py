@@ -27,7 +27,8 @@ _NOTEBOOK_PIXELS = 480
 class State:
     """The state of an episode.
 
-    A state is a value: a :meth:`copy` is independent of the original, and the same actions lead both to the same hashes.
+    A state is a value. A :meth:`copy` is independent of the original, and the same actions lead both states to the
+    same hashes.
     """
 
     __slots__ = ("_native",)
@@ -37,22 +38,23 @@ class State:
 
     @property
     def ticks(self) -> int:
-        """The number of ticks played."""
+        """The number of ticks played so far."""
         return self._native.ticks
 
     @property
     def score(self) -> float:
-        """The score."""
+        """The current score."""
         return self._native.score
 
     @property
     def outcome(self) -> str:
-        """``ongoing``, ``won``, ``lost``, ``ended`` (over without a winner) or ``stopped`` (by a limit)."""
+        """The outcome: ``ongoing``, ``won``, ``lost``, ``ended`` (over without a winner) or ``stopped`` (by a limit).
+        """
         return self._native.outcome
 
     @property
     def stopped_by(self) -> str | None:
-        """A description of the limit that stopped the episode, or None."""
+        """A description of the limit that stopped the episode, or None if no limit stopped it."""
         return self._native.stopped_by
 
     @property
@@ -67,22 +69,22 @@ class State:
 
     @property
     def actions(self) -> list[str]:
-        """The available actions except ``nil``, sorted. Only ``nil`` if there is no avatar."""
+        """The available actions except ``nil``, sorted. If there is no avatar, the only action is ``nil``."""
         return self._native.actions
 
     def step(self, action: str) -> str:
         """Plays one tick and returns the outcome. An action that the avatar does not have counts as ``nil``.
 
         Raises:
-            ValueError: if there is no action with that name; see :data:`infinite_arcade.ACTIONS`.
+            ValueError: if there is no action with this name; see :data:`infinite_arcade.ACTIONS`.
         """
         return self._native.step(action)
 
     def play(self, actions: Sequence[str]) -> list[str]:
-        """Plays one action per tick until the episode is over, and returns the state hash after each tick.
+        """Plays one action per tick until the episode is over. Returns the state hash after each tick.
 
         Raises:
-            ValueError: if there is no action with one of the names. Then nothing is played.
+            ValueError: if any of the names is not that of an action. In this case, nothing is played.
         """
         return self._native.play(list(actions))
 
@@ -91,33 +93,38 @@ class State:
         return self._native.state_hash()
 
     def copy(self) -> State:
-        """Returns a copy with the same future."""
+        """Returns a copy of the state with the same random future."""
         return State(self._native.copy())
 
     __copy__ = copy
 
     def fork(self, seed: str) -> State:
-        """Returns a copy with a different random future, as planners use it."""
+        """Returns a copy of the state with a different random future, which planners can search."""
         return State(self._native.fork(seed))
 
     def observe(self) -> dict[str, Any]:
-        """Returns a player's observation: ``ticks``, ``score``, ``outcome``, ``columns``, ``rows``, ``cells`` (``[rows][columns]``, the
-        names of the visible sprites in each cell in drawing order), ``resources`` (name and amount) and ``avatar`` (name, column,
-        row, facing, health; None once the avatar is gone).
+        """Returns a player's observation as a dictionary.
+
+        Its keys are ``ticks``, ``score``, ``outcome``, ``columns``, ``rows``, ``cells``, ``resources`` and
+        ``avatar``. ``cells`` is ``[rows][columns]``, with the names of the visible sprites in each cell in drawing
+        order. ``resources`` holds names and amounts. ``avatar`` holds name, column, row, facing and health, or is
+        None once the avatar is gone.
         """
         return self._native.observe()
 
     def planes(self) -> NDArray[np.uint8]:
-        """Returns the board as ``[types][rows][columns]``, uint8: 1 in cells with a sprite of the type. See :attr:`Game.types`."""
+        """Returns the board as ``[types][rows][columns]``, uint8, with 1 in each cell that contains a sprite of the
+        type. :attr:`Game.types` lists the types.
+        """
         columns, rows = self.size
         return self._native.planes().reshape(-1, rows, columns)
 
     def text(self) -> str:
-        """Returns the board as lines of characters, which :attr:`Game.symbols` explains."""
+        """Returns the board as lines of characters. :attr:`Game.symbols` lists their meanings."""
         return self._native.text()
 
     def full_text(self) -> str:
-        """Returns the board, followed by tick, score, holdings and a legend."""
+        """Returns the board as text, followed by the tick, the score, the held resources and a legend."""
         return self._native.full_text()
 
     def rgb(self, cell: int = 16) -> NDArray[np.uint8]:
@@ -130,18 +137,18 @@ class State:
         return flat.reshape(height, width, 3)
 
     def png(self, cell: int = 24, *, caption: bool = False, legend: bool = False) -> bytes:
-        """Returns the board as a PNG file, with the same bytes on every machine.
+        """Returns the board as a PNG file. The file has the same bytes on every machine.
 
         Raises:
-            ValueError: see :meth:`rgb`.
+            ValueError: in the same cases as :meth:`rgb`.
         """
         return self._native.png(cell, caption=caption, legend=legend)
 
     def svg(self, cell: int = 24, *, caption: bool = False, legend: bool = False) -> str:
-        """Returns the board as SVG.
+        """Returns the board as an SVG image.
 
         Raises:
-            ValueError: see :meth:`rgb`.
+            ValueError: in the same cases as :meth:`rgb`.
         """
         return self._native.svg(cell, caption=caption, legend=legend)
 
@@ -154,44 +161,44 @@ class State:
 
 
 class Level:
-    """A level that fits one game."""
+    """A level of one particular game."""
 
     __slots__ = ("_native", "number", "optimal_ticks")
 
     def __init__(self, native: _native.Level, number: int = 0, optimal_ticks: int | None = None) -> None:
         self._native = native
-        #: The level's index in the game.
+        #: The index of the level in the game.
         self.number = number
-        #: The number of ticks of the shortest win, if it is proven.
+        #: The number of ticks in the shortest win, if the win is proved to be optimal.
         self.optimal_ticks = optimal_ticks
 
     @property
     def name(self) -> str:
-        """Its name in messages."""
+        """The name of the level in messages."""
         return self._native.name
 
     @property
     def digest(self) -> str:
-        """The BLAKE3 hash of the canonical text, as hexadecimal digits."""
+        """The BLAKE3 hash of the level's canonical text, as hexadecimal digits."""
         return self._native.digest
 
     @property
     def size(self) -> tuple[int, int]:
-        """The numbers of columns and rows."""
+        """The numbers of columns and rows of the level."""
         return self._native.columns, self._native.rows
 
     @property
     def text(self) -> str:
-        """The canonical text: rows of equal length, each with a newline."""
+        """The canonical text of the level, with rows of equal length that each end with a newline."""
         return self._native.text
 
     def describe(self) -> list[str]:
-        """Returns the facts proven about the level, one sentence per fact."""
+        """Returns the proven facts about the level, one sentence per fact."""
         return self._native.describe()
 
     def start(self, seed: str) -> State:
-        """Returns the state before the first tick. ``seed`` is a text to derive the game's randomness from; 64 hexadecimal digits
-        are the seed itself.
+        """Returns the state before the first tick. The game's randomness is derived from the text ``seed``. If the
+        text has 64 hexadecimal digits, they are the seed itself.
         """
         return State(self._native.start(seed))
 
@@ -204,24 +211,26 @@ class Level:
 
 @dataclass(frozen=True)
 class Episode:
-    """An episode: its level, its seed and its actions, which suffice to replay it. A notebook shows it as an animation."""
+    """An episode, which consists of a level, a seed and actions. They suffice to replay the episode. A notebook shows
+    an episode as an animation.
+    """
 
     level: Level
     seed: str
     actions: tuple[str, ...]
 
     def replay(self) -> State:
-        """Replays the episode, and returns its last state."""
+        """Replays the episode and returns its last state."""
         state = self.level.start(self.seed)
         state.play(self.actions)
         return state
 
     def gif(self, cell: int = 16, *, delay: int = 12, caption: bool = True) -> bytes:
-        """Returns the episode as an animated GIF with one frame per tick, each of which lasts ``delay`` hundredths of a second. The GIF
-        has the same bytes on every machine.
+        """Returns the episode as an animated GIF, with one frame per tick. Each frame lasts ``delay`` hundredths of a
+        second. The GIF has the same bytes on every machine.
 
         Raises:
-            ValueError: if there is no action with one of the names, or the images would be too large.
+            ValueError: if any of the names is not that of an action, or the images would be too large.
         """
         return self.level._native.gif(self.seed, list(self.actions), cell, delay, caption)
 
@@ -231,7 +240,7 @@ class Episode:
 
 
 class Game:
-    """A compiled game with the levels that come with it."""
+    """A compiled game and its levels."""
 
     __slots__ = ("_native", "id", "levels", "title")
 
@@ -248,12 +257,12 @@ class Game:
         """Compiles a game and checks its levels.
 
         Args:
-            source: the game as VGDL.
-            levels: the texts of its levels, in order.
-            name: its name in messages.
-            id: its name in logs and tables.
-            title: its title.
-            as_reference: overlook the faults that the reference engine overlooks.
+            source: the rules of the game in VGDL.
+            levels: the texts of the levels, in order.
+            name: the name of the game in messages.
+            id: the name of the game in logs and tables.
+            title: the title of the game.
+            as_reference: tolerate the faults that the reference engine tolerates.
 
         Raises:
             VgdlError: if the game or a level has problems. The exception prints like the messages of ``arcade``.
@@ -261,7 +270,7 @@ class Game:
         self._native = _native.Game(source, name=name, as_reference=as_reference)
         self.id = id or Path(name).stem
         self.title = title or self.id
-        #: The levels, in order.
+        #: The levels of the game, in order.
         self.levels: list[Level] = []
         for text in levels:
             self.level(text)
@@ -280,22 +289,24 @@ class Game:
 
     @property
     def name(self) -> str:
-        """Its name in messages."""
+        """The name of the game in messages."""
         return self._native.name
 
     @property
     def source(self) -> str:
-        """The text of the game."""
+        """The source text of the game."""
         return self._native.source
 
     @property
     def digest(self) -> str:
-        """The BLAKE3 hash of the canonical form without comments, as hexadecimal digits."""
+        """The BLAKE3 hash of the game's canonical form without comments, as hexadecimal digits."""
         return self._native.digest
 
     @property
     def actions(self) -> list[str]:
-        """The actions that can have an effect in this game, ``nil`` first. Action ``i`` of the environments is ``actions[i]``."""
+        """The actions that can have an effect in this game, starting with ``nil``. Action ``i`` of the environments
+        is ``actions[i]``.
+        """
         return self._native.actions
 
     @property
@@ -305,12 +316,12 @@ class Game:
 
     @property
     def symbols(self) -> dict[str, str]:
-        """The character of each visible type on boards of symbols; ``.`` for floors."""
+        """The character of each visible type on boards of symbols, which is ``.`` for floors."""
         return dict(self._native.symbols)
 
     @property
     def time_limit(self) -> int:
-        """The maximum number of ticks in an episode."""
+        """The maximum number of ticks in an episode of the game."""
         return self._native.time_limit
 
     @property
@@ -320,17 +331,17 @@ class Game:
 
     @property
     def warnings(self) -> list[dict[str, Any]]:
-        """Warnings about parts of the text that are legal but surely not intended, each with ``code``, ``message``, ``line``,
-        ``column`` and ``help``.
+        """Warnings about parts of the text that are valid but probably not intended. Each warning has ``code``,
+        ``message``, ``line``, ``column`` and ``help``.
         """
         return self._native.warnings
 
     def describe(self) -> str:
-        """Returns the rules in plain English."""
+        """Returns the rules of the game in plain English."""
         return self._native.describe()
 
     def facts(self) -> dict[str, Any]:
-        """Returns the taxonomy of the game, and the facts proven about its rules."""
+        """Returns the taxonomy of the game, and the proven facts about its rules."""
         facts: dict[str, Any] = json.loads(self._native.facts())
         return facts
 
@@ -347,7 +358,7 @@ class Game:
 
 @dataclass(frozen=True)
 class CorpusGame:
-    """A hand-written game of the corpus."""
+    """A hand-written game of the corpus, which is not compiled yet."""
 
     name: str
     source: str = field(repr=False)
@@ -355,7 +366,7 @@ class CorpusGame:
     card: dict[str, Any] = field(repr=False)
 
     def compile(self) -> Game:
-        """Compiles the game."""
+        """Compiles the game and its levels."""
         title = str(self.card.get("title", self.name))
         return Game(self.source, self.levels, name=f"{self.name}/game.vgdl", id=self.name, title=title)
 
@@ -370,9 +381,12 @@ def corpus() -> dict[str, CorpusGame]:
 
 
 def load(game: str | Path, *, as_reference: bool = False) -> Game:
-    """Loads a game with the levels beside it: a ``.vgdl`` or ``.txt`` file, a folder with one, one of its levels, or the name of a
-    corpus game. Levels are named ``lvl0.txt`` …, or ``NAME_lvl0.txt`` … beside ``NAME.txt``. If ``game`` is a level, the
-    game is loaded with only that level.
+    """Loads a game and its levels.
+
+    ``game`` is a ``.vgdl`` or ``.txt`` file, a folder that contains such a file, the file of a level, or the name of
+    a corpus game. Levels are in the same folder as the game's file. They are named ``lvl0.txt`` and so on, or
+    ``NAME_lvl0.txt`` and so on for a file ``NAME.txt``. If ``game`` is a level, the game is loaded with only that
+    level.
 
     Raises:
         FileNotFoundError: if there is no such file, folder or corpus game.

@@ -4,21 +4,28 @@
 >>> env = gymnasium.make("InfiniteArcade/Game-v0", game="hailglass", level=0)
 >>> envs = gymnasium.make_vec("InfiniteArcade/Game-v0", num_envs=4096, game="hailglass")
 
-Importing this module registers the ID; ``gymnasium.make("infinite_arcade.gymnasium:InfiniteArcade/Game-v0", …)`` imports it too.
+Importing this module registers the ID. ``gymnasium.make("infinite_arcade.gymnasium:InfiniteArcade/Game-v0", …)`` also
+imports the module.
 
-An observation is one of
+There are three kinds of observations:
 
-- ``planes``: ``[types][rows][columns]``, uint8, 1 in cells with a sprite of the type; the types are ``env.unwrapped.planes``;
-- ``symbols``: ``[rows][columns]``, uint8, the character of the uppermost sprite (ASCII); ``env.unwrapped.game.symbols`` explains them;
-- ``rgb``: ``[rows × cell][columns × cell][3]``, uint8, drawn by the renderer of the suite.
+- ``planes`` is ``[types][rows][columns]``, uint8, with 1 in each cell that contains a sprite of the type.
+  ``env.unwrapped.planes`` lists the types.
+- ``symbols`` is ``[rows][columns]``, uint8, with the ASCII character of the uppermost sprite.
+  ``env.unwrapped.game.symbols`` lists the characters.
+- ``rgb`` is ``[rows × cell][columns × cell][3]``, uint8, drawn by the renderer of the suite.
 
-If levels have different sizes, smaller ones are at the top left of the largest size. Action ``i`` is ``game.actions[i]``; an action that
-is not available in a state does nothing. The reward is the change in score, or ±1 at the end with ``reward="outcome"``.
+If levels have different sizes, smaller levels are at the top left of the largest size. Action ``i`` is
+``game.actions[i]``. An action that is not available in a state does nothing. The reward is the change in score. With
+``reward="outcome"``, the reward is ±1 at the end of the episode.
 
-``reset(seed=s)`` derives the seed of the game's randomness from ``s`` by hashing; each further ``reset()`` starts the next episode of
-``s``. In a vector, ``reset(seed=[…])`` gives each environment its own seed, with which it plays the same episodes as a single
-environment; a single number gives environment ``i`` the seed ``child("lane", i)`` derived from it. ``info["seed"]`` is the seed of the
-episode: with this seed, the level and the actions, ``Level.start`` replays the episode.
+``reset(seed=s)`` derives the seed of the game's randomness from ``s`` by hashing. Each further ``reset()`` starts the
+next episode of ``s``. In a vector, ``reset(seed=[…])`` gives each environment its own seed, with which it plays the
+same episodes as a single environment. If the seed is a single number, environment ``i`` gets a seed derived from it,
+``child("lane", i)``.
+
+``info["seed"]`` is the seed of the episode. To replay the episode, start its level with this seed (``Level.start``) and play
+its actions.
 ``reset(options={"seed": "<64 hexadecimal digits>"})`` starts the same episode.
 """
 
@@ -43,7 +50,7 @@ __all__ = ["GameEnv", "GameVectorEnv", "register"]
 
 ENV_ID = "InfiniteArcade/Game-v0"
 
-#: The autoreset modes of vectors, with their names in the extension.
+#: The autoreset modes of vectors, and their names in the extension.
 _MODES = {
     AutoresetMode.NEXT_STEP: "next-step",
     AutoresetMode.SAME_STEP: "same-step",
@@ -54,7 +61,7 @@ Board = NDArray[np.uint8]
 
 
 class _Lanes:
-    """Lanes with the buffers that they write to."""
+    """Lanes, and the buffers to which they write."""
 
     def __init__(
         self,
@@ -110,7 +117,7 @@ class _Lanes:
 
 
 class GameEnv(gymnasium.Env[Board, np.int64]):
-    """A game as an environment.
+    """A game as a Gymnasium environment.
 
     ``info`` contains ``seed``, ``level``, ``score`` and ``outcome``.
     """
@@ -131,11 +138,12 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
         """Creates an environment.
 
         Args:
-            game: a game, or what :func:`infinite_arcade.load` takes.
-            level: one level, several levels, or None for all. :meth:`reset` with ``options={"level": i}`` chooses the ``i``-th.
+            game: a game, or an argument for :func:`infinite_arcade.load`.
+            level: one level, several levels, or None for all levels. :meth:`reset` with ``options={"level": i}``
+                selects the ``i``-th of them.
             observation: ``planes``, ``symbols`` or ``rgb``.
-            cell: pixels of a cell in pictures.
-            max_steps: the steps after which an episode is truncated; by default the limit of the game.
+            cell: the size of a cell in images, in pixels.
+            max_steps: the number of steps after which an episode is truncated; by default the limit of the game.
             reward: ``score`` or ``outcome``.
             render_mode: ``rgb_array`` or ``ansi``.
 
@@ -164,19 +172,21 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
 
     @property
     def planes(self) -> list[str]:
-        """The names of the planes."""
+        """The names of the planes' sprite types."""
         return self._lanes.native.planes
 
     @property
     def state(self) -> State:
-        """Returns a copy of the current state with the game's true future, for tests and planners but not for agents."""
+        """Returns a copy of the current state, which includes the game's true random future. The copy is for tests
+        and planners, and must not be shown to agents.
+        """
         return State(self._lanes.native.state(0))
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Board, dict[str, Any]]:
-        """Starts an episode. ``options``: ``level``, an index into the levels of the environment; ``seed``, the seed of the episode
-        itself.
+        """Starts an episode. In ``options``, ``level`` is an index into the levels of the environment, and ``seed``
+        is the seed of the episode itself.
         """
         super().reset(seed=seed)
         options = options or {}
@@ -195,7 +205,7 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
         return self._observation(), self._info()
 
     def step(self, action: np.int64 | int) -> tuple[Board, SupportsFloat, bool, bool, dict[str, Any]]:
-        """Plays one tick.
+        """Plays one tick with an action.
 
         Raises:
             gymnasium.error.ResetNeeded: if the episode is over, or no episode was started.
@@ -211,7 +221,7 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
         return self._observation(), reward, terminated, truncated, self._info()
 
     def render(self) -> Any:
-        """Returns the board as pixels or as text."""
+        """Returns the current board as pixels or as text."""
         match self.render_mode:
             case "rgb_array":
                 return self.state.rgb(self._cell)
@@ -239,13 +249,14 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
 
 
 class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
-    """Many episodes of a game, stepped together outside the interpreter's lock.
+    """Many episodes of a game that are stepped together, outside the interpreter's lock.
 
-    Environment ``i`` plays level ``i % len(levels)``. Observations, rewards and flags are written into arrays that are allocated once.
-    With ``copy=False``, these arrays themselves are returned, read-only, and are valid until the next step.
+    Environment ``i`` plays level ``i % len(levels)``. Observations, rewards and flags are written into arrays that
+    are allocated once. With ``copy=False``, these arrays are returned directly. They are read-only, and valid until
+    the next step.
 
-    ``info`` is empty except for ``final_obs`` and ``final_info`` in same-step mode. :attr:`seeds`, :attr:`outcomes`, :attr:`scores` and
-    :attr:`hashes` describe the current states.
+    ``info`` is empty except for ``final_obs`` and ``final_info`` in same-step mode. :attr:`seeds`, :attr:`outcomes`,
+    :attr:`scores` and :attr:`hashes` describe the current states.
     """
 
     metadata: dict[str, Any]
@@ -266,18 +277,18 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         copy: bool = True,
         render_mode: str | None = None,
     ) -> None:
-        """Creates an environment.
+        """Creates a vector environment.
 
         Args:
-            game: a game, or what :func:`infinite_arcade.load` takes.
-            level: one level, several levels, or None for all.
+            game: a game, or an argument for :func:`infinite_arcade.load`.
+            level: one level, several levels, or None for all levels.
             num_envs: the number of environments.
             observation: ``planes``, ``symbols`` or ``rgb``.
-            cell: pixels of a cell in pictures.
-            max_steps: the steps after which an episode is truncated; by default the limit of the game.
+            cell: the size of a cell in images, in pixels.
+            max_steps: the number of steps after which an episode is truncated; by default the limit of the game.
             max_episode_steps: the name of ``max_steps`` in :func:`gymnasium.make_vec`.
             reward: ``score`` or ``outcome``.
-            autoreset_mode: the time at which the next episode follows a finished one.
+            autoreset_mode: the time at which the next episode follows a finished episode.
             threads: the number of threads, or 0 for all cores. It does not affect results.
             copy: return copies of observations.
             render_mode: ``rgb_array`` or ``ansi``.
@@ -313,36 +324,36 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
 
     @property
     def planes(self) -> list[str]:
-        """The names of the planes."""
+        """The names of the planes' sprite types."""
         return self._lanes.native.planes
 
     @property
     def seeds(self) -> list[str]:
-        """The seeds of the current episodes."""
+        """The seeds of the environments' current episodes."""
         return self._lanes.native.seeds
 
     @property
     def levels(self) -> list[int]:
-        """The indices of the levels that are played."""
+        """The index of each environment's level."""
         return [self._lanes.levels[at].number for at in self._lanes.native.levels]
 
     @property
     def hashes(self) -> list[str]:
-        """The hashes of the current states."""
+        """The hashes of the environments' current states."""
         return self._lanes.native.hashes
 
     @property
     def outcomes(self) -> list[str]:
-        """The outcomes of the current states."""
+        """The outcomes of the environments' current states."""
         return self._lanes.native.outcomes
 
     @property
     def scores(self) -> list[float]:
-        """The scores of the current states."""
+        """The scores of the environments' current states."""
         return self._lanes.native.scores
 
     def state(self, index: int) -> State:
-        """Returns a copy of an environment's current state, with the game's true future."""
+        """Returns a copy of an environment's current state, which includes the game's true random future."""
         return State(self._lanes.native.state(index))
 
     def reset(
@@ -351,11 +362,11 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
     ) -> tuple[Board, dict[str, Any]]:
-        """Starts an episode in every environment, or in those selected by ``options["reset_mask"]``. ``options["seed"]`` has the seeds
-        of the episodes themselves, one per environment.
+        """Starts an episode in every environment, or in the environments selected by ``options["reset_mask"]``.
+        ``options["seed"]`` holds the seeds of the episodes themselves, one per environment.
 
         Raises:
-            ValueError: if there is not one mask entry or one seed per environment.
+            ValueError: if there is not exactly one mask entry and one seed per environment.
         """
         options = options or {}
         native, lanes = self._lanes.native, self._lanes
@@ -397,8 +408,9 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         """Plays one tick in every environment.
 
         Raises:
-            gymnasium.error.ResetNeeded: if no episode was started, or an episode is over and nothing resets it (disabled mode).
-            ValueError: if there is not one action per environment.
+            gymnasium.error.ResetNeeded: if no episode was started, or an episode is over and the environment does not
+            reset itself (disabled mode).
+            ValueError: if there is not exactly one action per environment.
         """
         lanes = self._lanes
         if not self._has_started:
@@ -446,7 +458,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
 
 
 def _text_of(seed: int | None) -> str:
-    """Returns the text from which a seed is derived."""
+    """Returns the text from which a Gymnasium seed is derived."""
     return str(seed)
 
 
@@ -460,7 +472,7 @@ def _chosen(game: Game, level: int | Sequence[int] | None) -> list[Level]:
 
 
 def register() -> None:
-    """Registers ``InfiniteArcade/Game-v0``, once."""
+    """Registers ``InfiniteArcade/Game-v0``, unless it is already registered."""
     if ENV_ID not in gymnasium.registry:
         gymnasium.register(
             ENV_ID,

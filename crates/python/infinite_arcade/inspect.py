@@ -1,13 +1,16 @@
-"""Evaluation tasks for Inspect AI: ``infinite_arcade/starter``, ``infinite_arcade/snapshot``, ``infinite_arcade/corpus``.
+"""Evaluation tasks for Inspect AI: ``infinite_arcade/starter``, ``infinite_arcade/snapshot``,
+``infinite_arcade/corpus``.
 
-A sample is a level, and its ID is the digest of the level. On the track ``discover``, a sample is a series of levels, and its ID is the
-digest of the last one. An epoch is a run. The suite itself plays, with the prompts, the answer parser and the logs of
-``arcade evaluate``, and Inspect obtains the answers, with its limits, retries and caches. Episodes with the same ``seed``, level and run
-have the same randomness as in ``arcade evaluate``, so that results of both can be paired.
+A sample is a level, and its ID is the digest of the level. On the track ``discover``, a sample is a series of levels,
+and its ID is the digest of the last level. An epoch is a run. The suite plays the episodes itself, with the prompts,
+the answer parser and the logs of ``arcade evaluate``. Inspect obtains the answers, with its limits, retries and
+caches. Episodes with the same ``seed``, level and run have the same randomness as in ``arcade evaluate``, so that the
+results of both can be paired.
 
-The log of each episode is kept in the sample's store. The scorers replay it, compare every state hash, score and outcome, and reject
-a log that differs from the replay or belongs to a different episode. With ``journal=DIR``, logs are written to that folder during the
-episodes, and a retried evaluation continues them, so that no answer is requested twice.
+The log of each episode is stored in the sample's store. The scorers replay each log, and compare every state hash,
+score and outcome. They reject a log that differs from the replay or belongs to a different episode. With
+``journal=DIR``, logs are written to that folder during the episodes. A retried evaluation continues these logs, so
+that no answer is requested twice.
 """
 
 from __future__ import annotations
@@ -74,17 +77,17 @@ def snapshot(
     reasks: int = 1,
     journal: str | None = None,
 ) -> Task:
-    """Returns a task with the levels in a release's folder.
+    """Returns a task with the levels in the folder of a release.
 
     Args:
-        path: the folder; its digests are checked first.
-        games: only these games, by ID.
-        levels: only these levels, by number.
+        path: the folder of the release, whose digests are checked first.
+        games: the IDs of the only games to include.
+        levels: the numbers of the only levels to include.
         track: ``told``, ``masked``, ``discover`` or ``vision`` (``arcade docs tracks``).
         commit: the number of actions that the player commits to per decision, or ``all`` for the whole episode.
         mode: ``zero-shot`` or ``contextual``.
         max_steps: the maximum number of actions per episode.
-        seed: the text from which the games' randomness is derived; it is the same for every player.
+        seed: the text from which the games' randomness is derived. The randomness is the same for every player.
         reasks: the number of repeated requests after an answer without a usable action.
         journal: a folder for the logs of episodes, which retries continue.
     """
@@ -98,7 +101,9 @@ def snapshot(
 
 @task
 def starter(path: str = "releases/starter", **options: Any) -> Task:
-    """Returns a task with the release ``starter``, which ``arcade release`` mints into ``releases/starter``; see :func:`snapshot`."""
+    """Returns a task with the release ``starter``, which ``arcade release`` mints into ``releases/starter``. The
+    arguments are those of :func:`snapshot`.
+    """
     if not Path(path).is_dir():
         raise ArcadeError(f"{path}: there is no such release; `arcade release` mints it, or name its folder with -T path=DIR")
     return snapshot(path, **options)
@@ -116,7 +121,9 @@ def corpus(
     reasks: int = 1,
     journal: str | None = None,
 ) -> Task:
-    """Returns a task with the corpus games, which are embedded in the package; see :func:`snapshot`."""
+    """Returns a task with the corpus games, which are embedded in the package. The arguments are those of
+    :func:`snapshot`.
+    """
     wanted = _listed(games)
     found = (entry.compile() for name, entry in corpus_games().items() if wanted is None or name in wanted)
     options = _options(track, commit, mode, max_steps, seed, reasks)
@@ -135,7 +142,9 @@ def game(
     reasks: int = 1,
     journal: str | None = None,
 ) -> Task:
-    """Returns a task with one game: a file or folder, or the name of a corpus game; see :func:`snapshot`."""
+    """Returns a task with one game, which is a file, a folder, or the name of a corpus game. The other arguments are
+    those of :func:`snapshot`.
+    """
     options = _options(track, commit, mode, max_steps, seed, reasks)
     return _task([load(path)], None, levels, options, journal, {})
 
@@ -147,7 +156,9 @@ def samples(
     levels_wanted: Sequence[int] | None = None,
     options: dict[str, Any] | None = None,
 ) -> Iterator[Sample]:
-    """Returns the samples of games. Each contains the texts of its game and levels, so that its log can be replayed without the release."""
+    """Returns the samples of the given games. Each sample contains the texts of its game and levels, so that its log
+    can be replayed without the release.
+    """
     options = options or _options(None, 1, None, 1000, "evaluate", 1)
     ids = set[str]()
     for own in games:
@@ -232,7 +243,9 @@ def play(journal: str | None = None) -> Solver:
 
 @scorer(metrics=[mean(), stderr(cluster="game")])
 def win() -> Scorer:
-    """Scores the fraction of levels won, by replaying the logs. Practice levels do not count. Errors are clustered by game."""
+    """Scores the fraction of levels that were won, by replaying the logs. Practice levels do not count. Standard
+    errors are clustered by game.
+    """
 
     async def score(state: TaskState, target: Target) -> Score:
         played = _replayed(state)
@@ -254,14 +267,14 @@ def win() -> Scorer:
 
 
 def _stop(episode: dict[str, Any]) -> str:
-    """Returns the engine's reason for stopping, which says nothing about the model."""
+    """Returns the engine's reason for stopping an episode. Such an episode says nothing about the model."""
     reason = episode["stopped_by"]
     return "" if reason is None else f" (stopped by the engine: {reason})"
 
 
 @scorer(metrics=[mean(), stderr(cluster="game")])
 def points() -> Scorer:
-    """Scores the mean game score, by replaying the logs."""
+    """Scores the mean score of the games, by replaying the logs."""
 
     async def score(state: TaskState, target: Target) -> Score:
         counted = [one for one in _replayed(state) if not one["practice"]]
@@ -274,7 +287,9 @@ def points() -> Scorer:
 
 @modelapi(name="scripted")
 def scripted() -> type[ModelAPI]:
-    """An offline model for tests: ``scripted/left-up`` answers with one of these actions, chosen by the digest of the prompt."""
+    """An offline model for tests. ``scripted/left-up`` answers with one of the actions in its name, chosen by the
+    digest of the prompt.
+    """
     return _Scripted
 
 
@@ -369,7 +384,7 @@ def _answer(series: _native.Series, output: ModelOutput) -> None:
 
 
 def _logs(series: _native.Series) -> list[dict[str, Any]]:
-    """Returns the logs of a series that is over or has been aborted."""
+    """Returns the logs of a series that is over or was aborted."""
     try:
         if series.next_request() is not None:
             series.fail("the sample was cancelled")
@@ -380,7 +395,7 @@ def _logs(series: _native.Series) -> list[dict[str, Any]]:
 
 
 def _replayed(state: TaskState) -> list[dict[str, Any]]:
-    """Returns the results of the logs of a sample, each replayed on its game.
+    """Returns the results of the logs of a sample. Each log is replayed on its game.
 
     Raises:
         LogError: if a log differs from its replay, or belongs to a different episode.

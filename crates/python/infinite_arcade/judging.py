@@ -1,4 +1,4 @@
-"""Judging levels, and generating levels and games."""
+"""Judges levels, and generates levels and games."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ __all__ = ["generate_games", "generate_levels", "validate"]
 
 
 def validate(level: Level, *, budget: int = 1_000_000, seed: str = "validate") -> dict[str, Any]:
-    """Judges a level by the criteria of a release, as ``arcade validate`` does.
+    """Judges a level by the criteria of a release, in the same way as ``arcade validate``.
 
     Args:
-        level: the level.
-        budget: the number of forward-model calls that the criteria divide among them.
+        level: the level to judge.
+        budget: the number of forward-model calls that the criteria share.
         seed: the text from which the judges' randomness is derived.
 
     Returns:
-        A report with ``passes``; ``judgements``, each with ``criterion``, ``verdict`` and evidence; and
-        ``witness``, the winning episode or None.
+        A report with ``passes``, ``judgements`` and ``witness``. Each judgement has ``criterion``, ``verdict`` and
+        evidence. ``witness`` is the winning episode or None.
     """
     return _object(_native.validate(level._native, budget=budget, seed=seed))
 
@@ -47,11 +47,11 @@ def generate_levels(
         seed: the text from which the randomness is derived.
         difficulty: the difficulty label that each level must get, such as ``hard``.
         size: the numbers of columns and rows.
-        min_solution: the minimum number of ticks of the shortest win found.
+        min_solution: the minimum number of ticks in the shortest win that was found.
         sprites: the exact numbers of sprites of some types.
 
     Returns:
-        The levels that could be made, each with ``text``, ``digest``, ``witness``, ``difficulty`` and ``report``.
+        The accepted levels, each with ``text``, ``digest``, ``witness``, ``difficulty`` and ``report``.
 
     Raises:
         ArcadeError: if the generator does not support the game, or no level was accepted.
@@ -84,18 +84,21 @@ def generate_games(
     """Generates games with levels, each of which a planner has won. A game takes some minutes of one core.
 
     Args:
-        kinds: draws games of hand-written kernels of these kinds, such as ``shooter``, instead of inventing rules.
-        method: ``constructive``, ``search`` or ``evolutionary``, of inventions; kernels are only drawn.
+        kinds: the kinds of hand-written kernels from which games are drawn, such as ``shooter``. If empty, rules are
+            invented.
+        method: the method for inventions: ``constructive``, ``search`` or ``evolutionary``. Games of kernels require
+            ``constructive``.
         count: the number of games.
         levels: the number of levels per game.
-        seed: the text that all seeds are derived from.
+        seed: the text from which all seeds are derived.
 
     Returns:
-        The games that could be made, each with ``source``, ``levels``, ``card`` and ``witnesses``.
+        The accepted games, each with ``source``, ``levels``, ``card`` and ``witnesses``.
 
     Raises:
-        ArcadeError: no game was accepted.
-        ValueError: there is no such method or kind, or another method than ``constructive`` for games of kernels.
+        ArcadeError: if no game was accepted.
+        ValueError: if there is no such method or kind, or if a different method than ``constructive`` is given for
+            games of kernels.
     """
     made: list[dict[str, Any]] = _object(
         _native.generate_games(kinds=list(kinds), method=method, count=count, levels=levels, seed=seed)

@@ -1,4 +1,4 @@
-"""Planners: players that look ahead on copies of the state."""
+"""Planners, which are players that look ahead on copies of the state."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ PLANNERS: list[str] = _native.planner_names()
 
 
 class Planner:
-    """A planner with its own random streams, such as ``mcts``, or ``olets:500`` with the number of forward-model calls per decision."""
+    """A planner with its own random streams, such as ``mcts`` or ``olets:500``. The number in the name is the number
+    of forward-model calls per decision.
+    """
 
     __slots__ = ("_native",)
 
@@ -22,7 +24,7 @@ class Planner:
         Args:
             name: one of :data:`PLANNERS`, with or without ``:CALLS``.
             seed: the text from which the random streams are derived.
-            budget: the number of forward-model calls per decision, if the name does not specify it.
+            budget: the number of forward-model calls per decision, used if the name does not contain it.
 
         Raises:
             ValueError: if there is no such planner.
@@ -30,7 +32,9 @@ class Planner:
         self._native = _native.Planner(name, seed=seed, budget=budget)
 
     def plan(self, state: State, count: int = 1) -> tuple[list[str], int]:
-        """Returns the next actions and their cost in forward-model calls. Releases the interpreter's lock meanwhile."""
+        """Returns the next actions, and their cost in forward-model calls. Releases the interpreter's lock while
+        planning.
+        """
         return self._native.plan(state._native, count)
 
     def act(self, state: State) -> str:
@@ -43,7 +47,9 @@ class Planner:
 
 
 def play(level: Level, planner: Planner, *, seed: str, max_steps: int | None = None) -> tuple[State, list[str]]:
-    """Plays an episode and returns its last state and its actions. ``seed`` determines the game's randomness."""
+    """Plays an episode with a planner. Returns its last state and its actions. ``seed`` determines the game's
+    randomness.
+    """
     state, actions = level.start(seed), list[str]()
     while not state.is_over and (max_steps is None or len(actions) < max_steps):
         actions.append(planner.act(state))

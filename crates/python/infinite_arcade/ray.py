@@ -1,10 +1,11 @@
-"""Minting and evaluating on a Ray cluster, with the same bytes as on one machine.
+"""Mints and evaluates on a Ray cluster. The results have the same bytes as on one machine.
 
-Work is divided as the command line divides it: a release into shards that are merged, and an evaluation into its games. A node returns
-the files that it wrote. If a node fails, its task is given to another one. No result depends on how tasks are assigned to nodes.
+Work is divided as the command line divides it. A release is divided into shards that are merged, and an evaluation
+into its games. A node returns the files that it wrote. If a node fails, its task is assigned to a different node. The
+results do not depend on the assignment of tasks to nodes.
 
-A release is minted by this package. For an evaluation, the same version of ``arcade`` must be on the path of every node, or its path
-must be passed.
+This package mints releases itself. For an evaluation, the same version of ``arcade`` must be in the search path of
+every node, or its path must be passed.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from .games import Game, load
 
 __all__ = ["ActionLog", "End", "evaluate", "mint", "replay"]
 
-#: The files in a folder, by path.
+#: The contents of the files in a folder, by path.
 Files = dict[str, bytes]
 
 #: The minimum number of logs per task.
@@ -35,8 +36,8 @@ _LOGS_OF_A_TASK = 50
 
 @dataclass(frozen=True)
 class ActionLog:
-    """The actions of an episode. ``game`` is an argument of :func:`infinite_arcade.load` that is valid on every node, and ``seed`` is the
-    seed of the episode.
+    """The actions of an episode. ``game`` is an argument for :func:`infinite_arcade.load` that is valid on every
+    node, and ``seed`` is the seed of the episode.
     """
 
     game: str
@@ -55,7 +56,7 @@ class End:
 
 
 def replay(logs: Sequence[ActionLog]) -> list[End]:
-    """Plays logs on the cluster, and returns the final states in the same order.
+    """Plays logs on the cluster. Returns the final states in the order of the logs.
 
     Raises:
         FileNotFoundError: if a node does not have a game.
@@ -71,12 +72,12 @@ def mint(recipe: str | Path, out: str | Path, *, shards: int, jobs: int | None =
 
     Args:
         recipe: the name of a recipe embedded in the package, or a .toml file on this machine.
-        out: the release's folder.
+        out: the folder for the release.
         shards: the number of shards.
-        jobs: the number of threads per task, each with its own reserved core; by default one.
+        jobs: the number of threads per task, by default one. Each thread has its own reserved core.
 
     Raises:
-        ArcadeError: if the recipe cannot be minted, here or on a node.
+        ArcadeError: if the recipe cannot be minted, on this machine or on a node.
         FileNotFoundError: if there is no such recipe.
     """
     _start()
@@ -100,19 +101,20 @@ def evaluate(
     arcade: str = "arcade",
     jobs: int | None = None,
 ) -> None:
-    """Evaluates a player on games, each of which is a task, and writes the same results folder as ``arcade evaluate``, except for the
-    times in the logs. Finally, the evaluation is resumed here, which checks the folder by replaying every episode.
+    """Evaluates a player on games, each of which is a task. Writes the same results folder as ``arcade evaluate``,
+    except for the times in the logs. Finally, the evaluation is resumed on this machine, which checks the folder by
+    replaying every episode.
 
     Args:
-        subject: a release's folder that exists on every node, or ``corpus``.
+        subject: the folder of a release that exists on every node, or ``corpus``.
         out: the results folder, which must not exist.
         games: the IDs of the games, in the order of the subject.
-        arguments: further flags of ``arcade evaluate``: ``["--player", "mcts:100", "--runs", "5"]``.
+        arguments: further flags of ``arcade evaluate``, such as ``["--player", "mcts:100", "--runs", "5"]``.
         arcade: the path of the ``arcade`` program on every node.
-        jobs: the number of concurrent episodes per task, each with its own reserved core; by default one.
+        jobs: the number of concurrent episodes per task, by default one. Each episode has its own reserved core.
 
     Raises:
-        ArcadeError: if ``arcade`` fails, here or on a node. The message is that of ``arcade``.
+        ArcadeError: if ``arcade`` fails, on this machine or on a node. The message is that of ``arcade``.
     """
     _start()
     task = ray.remote(num_cpus=jobs or 1, max_retries=-1)(_evaluate)

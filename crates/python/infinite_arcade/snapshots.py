@@ -1,4 +1,4 @@
-"""Releases: minting, reading and verifying them."""
+"""Mints, reads and verifies releases."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class SnapshotGame:
     folder: Path = field(repr=False)
 
     def compile(self) -> Game:
-        """Compiles the game with its levels.
+        """Compiles the game and its levels.
 
         Raises:
             VgdlError: if the game does not compile, which cannot happen in a verified release.
@@ -37,7 +37,9 @@ class SnapshotGame:
         return game
 
     def witness(self, level: int) -> dict[str, Any] | None:
-        """Returns the winning episode of a level (``seed``, ``actions``, ``hashes``, ``outcome``, ``score``), or None if withheld."""
+        """Returns the winning episode of a level, or None if the episode is withheld. The episode has ``seed``,
+        ``actions``, ``hashes``, ``outcome`` and ``score``.
+        """
         path = self.folder / "witness" / f"lvl{level}.json"
         if not path.is_file():
             return None
@@ -72,7 +74,7 @@ class Release:
                 yield SnapshotGame(parts[1], card, folder)
 
     def game(self, id: str) -> SnapshotGame:
-        """Returns the game with that ID.
+        """Returns the game with the given ID.
 
         Raises:
             KeyError: if there is no such game.
@@ -84,7 +86,7 @@ class Release:
 
 
 def open_snapshot(path: str | Path) -> Release:
-    """Opens a release's folder after checking the digest of every file.
+    """Opens the folder of a release after checking the digest of every file.
 
     Raises:
         ArcadeError: if the folder is not a release, or a digest is wrong.
@@ -97,13 +99,15 @@ def open_snapshot(path: str | Path) -> Release:
 
 
 def verify(path: str | Path) -> dict[str, Any]:
-    """Verifies a release's folder or archive, as ``arcade verify`` does: digests, games, levels, and a replay of every witness.
+    """Verifies the folder or archive of a release, in the same way as ``arcade verify``. Checks the digests, the
+    games and the levels, and replays every witness.
 
     Returns:
-        A dictionary with ``name``, ``root``, ``games``, ``levels``, ``witnesses``, and ``problems``, which is empty for a sound release.
+        A dictionary with ``name``, ``root``, ``games``, ``levels``, ``witnesses`` and ``problems``. ``problems`` is
+        empty if the release is valid.
 
     Raises:
-        ArcadeError: if there is no manifest, or it is damaged.
+        ArcadeError: if there is no manifest, or the manifest is damaged.
     """
     found: dict[str, Any] = json.loads(_native.verify(Path(path)))
     return found
@@ -119,22 +123,23 @@ def mint(
     resume: bool = False,
     jobs: int | None = None,
 ) -> dict[str, Any]:
-    """Mints a release, as ``arcade release`` does. The same recipe always gives the same bytes.
+    """Mints a release, in the same way as ``arcade release``. The same recipe always gives the same bytes.
 
-    The folder is either complete or absent. If the mint is interrupted, the finished jobs are kept beside it for ``resume``.
+    The folder is either complete or absent. If the mint is interrupted, the finished jobs are kept next to the folder
+    for ``resume``.
 
     Args:
         recipe: the name of a recipe embedded in the package, or a .toml file.
-        out: the release's folder, absent or empty.
-        parent: the folder of the previous release. Nothing that it contains is minted again.
+        out: the folder for the release, which must be absent or empty.
+        parent: the folder of the previous release. No content of the previous release is minted again.
         secret: the secret of a sealed release, as made by ``arcade release --commit``.
-        shard: ``K/N`` to make only the K-th of N slices, for :func:`merge`.
+        shard: ``K/N`` to mint only the K-th of N shards, for :func:`merge`.
         resume: keep the jobs that an interrupted mint has finished.
         jobs: the number of threads; by default one per core.
 
     Returns:
-        A dictionary with ``out``, ``root``, ``games`` (their cards), ``card`` and ``caveats``. For a shard, a dictionary with ``out``,
-        ``shard`` and ``lots`` (the number of jobs).
+        A dictionary with ``out``, ``root``, ``games`` (their cards), ``card`` and ``caveats``. For a shard, a
+        dictionary with ``out``, ``shard`` and ``lots`` (the number of jobs).
 
     Raises:
         ArcadeError: if the recipe cannot be minted, or the folder cannot be written.
@@ -158,16 +163,17 @@ def mint(
 def merge(
     shards: Sequence[str | Path], out: str | Path, *, secret: str | Path | None = None, jobs: int | None = None
 ) -> dict[str, Any]:
-    """Joins the shards of a release, as ``arcade merge`` does. The result is that of an unsharded mint.
+    """Merges the shards of a release, in the same way as ``arcade merge``. The result is the same as that of a mint
+    without shards.
 
     Args:
         shards: the folders of all shards, in any order.
-        out: the release's folder, absent or empty.
+        out: the folder for the release, which must be absent or empty.
         secret: the secret of a sealed release.
         jobs: the number of threads; by default one per core.
 
     Returns:
-        The result of :func:`mint`.
+        A dictionary in the form that :func:`mint` returns.
 
     Raises:
         ArcadeError: if a shard is missing or has been altered, or the folder cannot be written.
@@ -178,7 +184,7 @@ def merge(
 
 
 def recipe_text(recipe: str | Path) -> str:
-    """Returns the text of a recipe, from a .toml file or from the package.
+    """Returns the text of a recipe, which is a .toml file or is embedded in the package.
 
     Raises:
         FileNotFoundError: if there is no such recipe.

@@ -25,9 +25,11 @@ Table = Any
 
 
 def episodes(results: str | Path | Iterable[str | Path]) -> Table:
-    """Returns the episodes of results folders, each replayed: ``results``, ``player``, ``game``, ``level``, ``run``, ``track``, ``status``,
-    ``outcome``, ``won``, ``score``, ``steps``, ``max_steps``, ``optimal_ticks``, ``meaningful`` (a ratio), ``input_tokens``,
-    ``output_tokens``. Unfinished episodes are left out.
+    """Returns a table of the episodes in results folders. Each episode is replayed. Unfinished episodes are omitted.
+
+    The columns are ``results``, ``player``, ``game``, ``level``, ``run``, ``track``, ``status``, ``outcome``,
+    ``won``, ``score``, ``steps``, ``max_steps``, ``optimal_ticks``, ``meaningful`` (a ratio), ``input_tokens`` and
+    ``output_tokens``.
 
     Raises:
         LogError: if a log is damaged, or differs from its replay.
@@ -68,8 +70,10 @@ def episodes(results: str | Path | Iterable[str | Path]) -> Table:
 
 
 def steps(results: str | Path) -> Table:
-    """Returns the steps of a results folder: ``game``, ``level``, ``run``, ``step``, ``action``, ``validity``, ``score``, ``hash``,
-    ``outcome``, ``column``, ``row``.
+    """Returns a table of the steps in a results folder.
+
+    The columns are ``game``, ``level``, ``run``, ``step``, ``action``, ``validity``, ``score``, ``hash``,
+    ``outcome``, ``column`` and ``row``.
 
     Raises:
         LogError: if a log is damaged.
@@ -88,7 +92,9 @@ def steps(results: str | Path) -> Table:
 
 
 def games(release: Release) -> Table:
-    """Returns the games of a release from their cards: ``id``, ``title``, ``kind``, ``goal``, ``digest``, ``real_time``, ``levels``."""
+    """Returns a table of the games of a release, based on their cards. The columns are ``id``, ``title``, ``kind``,
+    ``goal``, ``digest``, ``real_time`` and ``levels``.
+    """
     names = ("id", "title", "kind", "goal", "digest", "real_time")
     rows = [
         {**{name: found.card.get(name) for name in names}, "id": found.id, "levels": len(found.card["levels"])}
@@ -98,8 +104,8 @@ def games(release: Release) -> Table:
 
 
 def levels(release: Release) -> Table:
-    """Returns the levels of a release from their cards: ``game``, ``level``, ``digest``, ``columns``, ``rows``, ``difficulty``,
-    ``optimal_ticks``, ``text``.
+    """Returns a table of the levels of a release, based on their cards. The columns are ``game``, ``level``,
+    ``digest``, ``columns``, ``rows``, ``difficulty``, ``optimal_ticks`` and ``text``.
     """
     rows = []
     for found in release.games():
@@ -123,21 +129,21 @@ def levels(release: Release) -> Table:
 
 
 def to_pandas(table: Table) -> Any:
-    """Returns a pandas data frame whose columns are the Arrow columns themselves, without a copy."""
+    """Returns a pandas data frame that uses the Arrow columns directly, without a copy."""
     import pandas
 
     return table.to_pandas(types_mapper=pandas.ArrowDtype)
 
 
 def to_polars(table: Table) -> Any:
-    """Returns a Polars data frame over the buffers of the table, without a copy if Polars uses the same layout."""
+    """Returns a Polars data frame over the buffers of the table. Nothing is copied if Polars uses the same layout."""
     import polars
 
     return polars.from_arrow(table)
 
 
 def _table(rows: Sequence[dict[str, Any]], columns: dict[str, Any]) -> Table:
-    """Converts rows to a table; ``columns`` has the types of the columns that can be empty."""
+    """Converts rows to a table. ``columns`` holds the types of the columns that can be empty."""
     table = pa.Table.from_pylist(list(rows))
     for name, kind in columns.items():
         if name in table.column_names:

@@ -1,9 +1,10 @@
 """A taskset for verifiers: ``infinite-arcade-verifiers``.
 
-A task is a level. The suite plays the episode and is the user in the conversation, with the prompts (in contextual mode), the answer parser
-and the log of ``arcade evaluate``. The reward ``win`` is 1 if a replay of the log wins. Score and steps are metrics.
+A task is a level. The suite plays the episode and takes the role of the user in the conversation. It uses the prompts
+of the contextual mode, the answer parser and the log of ``arcade evaluate``. The reward ``win`` is 1 if a replay of
+the log wins. The score and the number of steps are metrics.
 
-This is a separate package beside ``infinite_arcade`` because verifiers finds tasksets by the name of a top-level module.
+The package is separate from ``infinite_arcade``, because verifiers finds tasksets by the name of a top-level module.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from infinite_arcade.games import Game
 
 __all__ = ["ArcadeConfig", "ArcadeData", "ArcadeEnv", "ArcadeEnvConfig", "ArcadeTask", "ArcadeTaskset"]
 
-#: Conversations are never truncated, so that training uses exactly what the model was shown.
+#: Conversations are never truncated, so that training uses exactly the text that the model was shown.
 _PROMPTS = json.dumps({"mode": "contextual", "history_tokens": 1 << 40})
 
 
@@ -46,14 +47,14 @@ class ArcadeConfig(vf.TasksetConfig):
 
 
 class ArcadeData(vf.TaskData):
-    """The data of a task, which is a level."""
+    """The data of a task, which describes a level."""
 
     info: dict[str, Any]
     """The texts of the game and the level, and the settings of the episode."""
 
 
 class ArcadeTask(vf.Task[ArcadeData, vf.State, vf.TaskConfig]):
-    """A level to play."""
+    """A task, which is a level to play."""
 
 
 class ArcadeEnvConfig(vf.EnvConfig):
@@ -63,7 +64,7 @@ class ArcadeEnvConfig(vf.EnvConfig):
 
 
 class ArcadeEnv(vf.Env[ArcadeEnvConfig]):
-    """The suite as the user in the conversation."""
+    """The environment, in which the suite takes the role of the user in the conversation."""
 
     async def run(self, task: vf.Task, agents: vf.Agents) -> None:
         info = task.data.info
@@ -92,7 +93,7 @@ class ArcadeEnv(vf.Env[ArcadeEnvConfig]):
 
 
 class ArcadeTaskset(vf.Taskset[ArcadeTask, ArcadeConfig]):
-    """A taskset with the levels of a release, a game or the corpus."""
+    """A taskset with the levels of a release, of a game or of the corpus."""
 
     def load(self) -> Iterator[ArcadeTask]:
         config = self.config
@@ -130,7 +131,7 @@ class ArcadeTaskset(vf.Taskset[ArcadeTask, ArcadeConfig]):
 
 
 def replayed(info: dict[str, Any], log: str) -> dict[str, Any]:
-    """Returns the results of a log, replayed on the level of a task.
+    """Returns the results of a log, which is replayed on the level of a task.
 
     Raises:
         LogError: if the log differs from its replay, or belongs to a different episode.

@@ -1,4 +1,4 @@
-//! Exceptions.
+//! The exceptions of the package, and conversions from errors.
 
 use editor::{Source, in_words};
 use engine::{Diagnostic, Severity, line_and_column};
@@ -28,22 +28,22 @@ create_exception!(
     "A game or level does not compile. It prints like the messages of `arcade`; `diagnostics` has the problems as dictionaries."
 );
 
-/// Returns an [`ArcadeError`] with the message of an error.
+/// Converts an error to an [`ArcadeError`] with the same message.
 pub(crate) fn failed(error: impl Display) -> PyErr {
     ArcadeError::new_err(error.to_string())
 }
 
-/// Returns a [`LogError`] with the message of an error.
+/// Converts an error to a [`LogError`] with the same message.
 pub(crate) fn bad_log(error: impl Display) -> PyErr {
     LogError::new_err(error.to_string())
 }
 
-/// Returns a `ValueError`.
+/// Creates a `ValueError` with a message.
 pub(crate) fn invalid(message: impl Display) -> PyErr {
     PyValueError::new_err(message.to_string())
 }
 
-/// Returns a [`VgdlError`] with the problems of a text. `name` is the name that messages use for the text.
+/// Creates a [`VgdlError`] with the problems of a text. `name` is the name of the text in messages.
 pub(crate) fn malformed(py: Python<'_>, name: &str, text: &str, problems: &[Diagnostic]) -> PyErr {
     let source = Source { name, text, is_coloured: std::io::stderr().is_terminal() };
     let error = VgdlError::new_err(in_words(source, problems));
@@ -53,7 +53,7 @@ pub(crate) fn malformed(py: Python<'_>, name: &str, text: &str, problems: &[Diag
     listed.err().unwrap_or(error)
 }
 
-/// Returns a problem as a dictionary.
+/// Converts a problem to a dictionary.
 pub(crate) fn described<'py>(
     py: Python<'py>,
     name: &str,

@@ -1,7 +1,8 @@
-//! Evaluated episodes. The suite plays them with its own prompts, answer parser and logs, and asks Python for the model's
-//! answers.
+//! Evaluated episodes. The suite plays the episodes with its own prompts, answer parser and logs, and gets
+//! the model's answers from Python.
 //!
-//! A series of episodes runs on its own thread. The thread sends each request to Python over a channel, and waits for the answer.
+//! A series of episodes runs on its own thread. The thread sends each request to Python over a channel, and
+//! waits for the answer.
 
 use crate::errors::{bad_log, failed, invalid};
 use crate::game::{Game, outcome_name};
@@ -26,31 +27,33 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread;
 
-/// A level with its number, its text, and the number of ticks of its proven shortest win.
+/// The number of a level, its text, and the number of ticks of its shortest win if the win is proved to be
+/// optimal.
 type LevelText = (usize, String, Option<usize>);
 
-/// A message with its role, its text, and optionally an image as PNG.
+/// The role of a message, its text, and optionally an image in PNG format.
 type Message<'py> = (&'static str, String, Option<Bound<'py, PyBytes>>);
 
-/// The subject of a series: a game's levels in one conversation, or a single level.
+/// A series of episodes, which consists of a single level, or of several levels of a game in one
+/// conversation.
 #[derive(Clone)]
 struct Order {
     subject: Arc<Subject>,
     settings: Settings,
     prompts: PromptSettings,
     run: u64,
-    /// The index of the series among those of the game and run.
+    /// The index of the series among the series of the same game and run.
     first: usize,
     reasks: u32,
 }
 
-/// A message from the thread that plays.
+/// A message from the playing thread to Python.
 enum Report {
     Request(ChatRequest),
     Done(Result<Vec<Played>, String>),
 }
 
-/// An episode that has ended, with its log.
+/// An episode that has ended, and its log.
 struct Played {
     level: usize,
     level_digest: String,
@@ -59,7 +62,7 @@ struct Played {
     log: String,
 }
 
-/// A model whose answers come from Python.
+/// A model whose answers are provided by Python.
 struct Remote {
     requests: Mutex<Sender<Report>>,
     answers: Mutex<Receiver<Result<ChatReply, ChatError>>>,
@@ -79,9 +82,11 @@ impl Model for Remote {
     }
 }
 
-/// Episodes that a model plays: one level, or the levels of a game that a track plays in one conversation.
+/// The episodes of a series that a model plays. A series is a single level, or several levels that a track
+/// plays in one conversation.
 ///
-/// Python repeatedly takes the next request, obtains an answer, and hands the answer back, until there is no further request.
+/// Python repeatedly takes the next request, obtains an answer, and returns it, until there are no further
+/// requests.
 #[pyclass(module = "infinite_arcade")]
 pub(crate) struct Series {
     order: Order,
@@ -101,7 +106,7 @@ impl Order {
         own.chunk_by(is_next).nth(self.first).map(<[_]>::to_vec).unwrap_or_default()
     }
 
-    /// Plays the episodes.
+    /// Plays all episodes of the series.
     fn play(&self, model: &Arc<dyn Model>, folder: Option<&PathBuf>) -> Result<Vec<Played>, String> {
         let words = |error: EvaluationError| error.to_string();
         let tasks = self.tasks();
@@ -188,7 +193,7 @@ fn track_named(name: Option<&str>) -> PyResult<Option<Track>> {
     name.map(named).transpose()
 }
 
-/// Returns the prompts of a track, or the prompts that a JSON object describes.
+/// Returns the prompt settings of a track, or the settings that a JSON object describes.
 fn prompts_of(track: Option<Track>, prompts: Option<&str>) -> PyResult<PromptSettings> {
     match prompts {
         Some(prompts) => {
@@ -199,7 +204,8 @@ fn prompts_of(track: Option<Track>, prompts: Option<&str>) -> PyResult<PromptSet
     }
 }
 
-/// Returns the digest of a game's prompts, which makes results from different frameworks comparable.
+/// Returns the digest of a game's prompts. Results from different frameworks are comparable if their digests
+/// are equal.
 #[pyfunction]
 #[pyo3(signature = (game, *, track = None, prompts = None, commit = "1"))]
 pub(crate) fn prompt_digest(
@@ -253,7 +259,7 @@ impl Series {
             .name("episode".to_owned())
             .spawn(move || {
                 let played = own.play(&model, place.as_ref());
-                // If there is no receiver, nobody needs the result.
+                // If there is no receiver, the result is no longer needed.
                 let _ = sender.send(Report::Done(played));
             })
             .map_err(failed)?;
@@ -267,7 +273,7 @@ impl Series {
         })
     }
 
-    /// Returns the numbers of the levels in each series of a game, in the order in which they are played.
+    /// Returns the numbers of the levels in each series of a game, in the order of play.
     #[staticmethod]
     #[pyo3(signature = (game, id, levels, *, track = None))]
     fn plan(game: &Game, id: &str, levels: Vec<LevelText>, track: Option<&str>) -> PyResult<Vec<Vec<usize>>> {
@@ -279,19 +285,20 @@ impl Series {
         Ok(all.chunk_by(is_next).map(numbers).collect())
     }
 
-    /// The seeds of the games' randomness in the episodes of the series.
+    /// The seeds of the games' randomness, for each episode of the series.
     #[getter]
     fn seeds(&self) -> Vec<String> {
         self.order.tasks().iter().map(|task| task.chance().to_string()).collect()
     }
 
-    /// The folder for the logs.
+    /// The folder that contains the logs.
     #[getter]
     fn folder(&self) -> Option<PathBuf> {
         self.folder.clone()
     }
 
-    /// Returns the next request, or `None` once all episodes are over. A request is a list of messages with role, text and image.
+    /// Returns the next request, or `None` once all episodes are over. A request is a list of messages, each
+    /// with its role, text and image.
     fn next_request<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Vec<Message<'py>>>> {
         if self.results.is_some() {
             return Ok(None);
@@ -322,7 +329,7 @@ impl Series {
         }
     }
 
-    /// Answers the last request. `finish` is `stop`, `length`, `refusal` or `other`.
+    /// Provides the answer to the last request. `finish` is `stop`, `length`, `refusal` or `other`.
     #[pyo3(signature = (text, *, finish = "stop", reasoning = None, input_tokens = None, output_tokens = None, served_by = None, latency_ms = 0.0))]
     #[allow(clippy::too_many_arguments, reason = "they are the parts of an answer")]
     fn answer(
@@ -353,8 +360,8 @@ impl Series {
         }))
     }
 
-    /// Reports that no answer could be obtained. The episode is aborted and can be resumed. `kind` is `infrastructure`, `budget`
-    /// or `rejected`.
+    /// Reports that no answer could be obtained. The episode is aborted, and can be resumed later. `kind` is
+    /// `infrastructure`, `budget` or `rejected`.
     #[pyo3(signature = (message, *, kind = "infrastructure"))]
     fn fail(&mut self, message: String, kind: &str) -> PyResult<()> {
         let kind = match kind {
@@ -365,8 +372,8 @@ impl Series {
         self.reply(Err(ChatError { kind, message, failures: Vec::new() }))
     }
 
-    /// Returns the episodes that were begun, each as a dictionary that includes its log. Call this method once there is no
-    /// further request.
+    /// Returns the episodes that were begun, each as a dictionary that includes the log. This method may be
+    /// called once there are no further requests.
     fn results<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let Some(results) = &self.results else { return Err(invalid("the episodes are not over yet")) };
         let entry = |played: &Played| {
@@ -399,7 +406,7 @@ impl Series {
     }
 }
 
-/// Parses the events of a log.
+/// Parses the events of a log from JSON lines.
 fn events(log: &str) -> PyResult<Vec<Event>> {
     let event = |(number, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
@@ -409,12 +416,12 @@ fn events(log: &str) -> PyResult<Vec<Event>> {
     log.lines().enumerate().map(event).collect()
 }
 
-/// Replays a log on its game, and compares every state hash, score and outcome. If `seed` and `max_steps` are given, also checks
-/// that the log belongs to the specified episode: its level, run, seed of the game's randomness, step limit, commitment and
-/// track.
+/// Replays a log on its game, and compares every state hash, score and outcome. If `seed` and `max_steps` are
+/// given, the log must also belong to the specified episode. In this case, the level, the run, the seed of
+/// the game's randomness, the step limit, the commitment and the track are checked.
 ///
-/// Returns JSON with the actions, the outcome, the score, the number of steps and the last state hash, and with `true` if the log
-/// has an end.
+/// Returns JSON with the actions, the outcome, the score, the number of steps and the last state hash. A flag
+/// states whether the log is complete.
 #[pyfunction]
 #[pyo3(signature = (game, id, levels, log, *, level = None, run = 0, seed = None, max_steps = None, commit = "1", track = None))]
 #[allow(clippy::too_many_arguments, reason = "they are the settings of an evaluation")]
@@ -469,7 +476,7 @@ pub(crate) fn replay_log(
     serde_json::to_string(&document).map_err(failed)
 }
 
-/// Replays an episode's log, and returns the metrics of the episode as JSON, in the format of `arcade report --json`.
+/// Replays the log of an episode, and returns its metrics as JSON, in the format of `arcade report --json`.
 #[pyfunction]
 pub(crate) fn metrics_of_log(
     py: Python<'_>,
@@ -483,7 +490,8 @@ pub(crate) fn metrics_of_log(
     serde_json::to_string(&metrics).map_err(failed)
 }
 
-/// Returns the lines of the log at a path. If `timeless` is true, all times are set to 0, so that runs can be compared.
+/// Returns the lines of the log at a path. If `timeless` is `true`, all times are set to 0, so that runs can
+/// be compared.
 #[pyfunction]
 pub(crate) fn read_log(path: PathBuf, timeless: bool) -> PyResult<String> {
     let events = read(&path).map_err(bad_log)?;

@@ -1,4 +1,5 @@
-//! Judging and generating levels and games, and checking snapshots. Results are JSON, in the format of the command line.
+//! Judges and generates levels and games, and checks snapshots. Results are returned as JSON, in the format
+//! of the command line.
 
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
@@ -17,10 +18,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
-/// The ranges of a board's columns and rows.
+/// The ranges of the number of columns and the number of rows of a board.
 type Size = ((usize, usize), (usize, usize));
 
-/// Judges a level by the criteria of a release, as `arcade validate` does, and returns the report.
+/// Judges a level by the criteria of a release, in the same way as `arcade validate`. Returns the report.
 #[pyfunction]
 #[pyo3(signature = (level, *, budget, seed))]
 pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -> PyResult<String> {
@@ -38,7 +39,8 @@ pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -
     })
 }
 
-/// Generates levels for a game, as `arcade generate levels` does. Returns the levels with their witnesses, and the cost.
+/// Generates levels for a game, in the same way as `arcade generate levels`. Returns the levels with their
+/// witnesses, and the cost.
 #[pyfunction]
 #[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, sprites = Vec::new()))]
 #[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
@@ -95,7 +97,7 @@ pub(crate) fn generate_levels(
     })
 }
 
-/// Generates games, as `arcade generate games` does.
+/// Generates games, in the same way as `arcade generate games`.
 #[pyfunction]
 #[pyo3(signature = (*, kinds, method, count, levels, seed))]
 pub(crate) fn generate_games(
@@ -143,14 +145,15 @@ pub(crate) fn generate_games(
     })
 }
 
-/// Verifies a release's folder or archive, as `arcade verify` does: digests, games, levels, and every witness.
+/// Verifies the folder or archive of a release, in the same way as `arcade verify`. Checks the digests, the
+/// games, the levels and every witness.
 #[pyfunction]
 pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     let verification = py.detach(|| verify_within(&path, &Bounds::RELEASE)).map_err(failed)?;
     serde_json::to_string(&verification).map_err(failed)
 }
 
-/// Checks the digests in a release's folder, and returns its manifest and the problems found.
+/// Checks the digests in the folder of a release. Returns its manifest and the problems found.
 #[pyfunction]
 pub(crate) fn integrity(py: Python<'_>, path: PathBuf) -> PyResult<(String, Vec<String>)> {
     let integrity = py.detach(|| check_integrity(&path)).map_err(failed)?;

@@ -1,4 +1,4 @@
-//! Games and levels.
+//! Games and levels for Python.
 
 use crate::errors::{described, failed, invalid, malformed};
 use crate::picture;
@@ -13,7 +13,7 @@ use render::{Looks, Symbols};
 use serde_json::json;
 use std::sync::Arc;
 
-/// A game, with everything derived from its rules.
+/// A game and everything that is derived from its rules.
 pub(crate) struct Rules {
     pub(crate) name: String,
     pub(crate) source: String,
@@ -22,7 +22,7 @@ pub(crate) struct Rules {
     pub(crate) analysis: Analysis,
     pub(crate) looks: Looks,
     pub(crate) symbols: Symbols,
-    /// The actions that can have an effect, starting with doing nothing.
+    /// The actions that can have an effect. The first action is to do nothing.
     pub(crate) actions: Vec<Action>,
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Rules {
 #[derive(Clone)]
 pub(crate) struct Game(pub(crate) Arc<Rules>);
 
-/// A level that fits one game.
+/// A level of one particular game.
 #[pyclass(frozen, module = "infinite_arcade")]
 pub(crate) struct Level {
     pub(crate) game: Game,
@@ -48,7 +48,8 @@ pub(crate) fn action_named(name: &str) -> PyResult<Action> {
     })
 }
 
-/// Converts a text to a seed: 64 hexadecimal digits are the seed itself, and a seed is derived from any other text.
+/// Converts a text to a seed. If the text has 64 hexadecimal digits, they are the seed itself. From any other
+/// text, a seed is derived.
 pub(crate) fn seed_of(text: &str) -> Seed {
     text.parse().unwrap_or_else(|_| Seed::from_text(text))
 }
@@ -70,7 +71,7 @@ pub(crate) fn seed_from_text(text: &str) -> String {
     Seed::from_text(text).to_string()
 }
 
-/// Returns the seed derived from `seed` for part `index` of `purpose`.
+/// Derives a seed from `seed`, a `purpose` and an `index`.
 #[pyfunction]
 pub(crate) fn seed_child(seed: &str, purpose: &str, index: u64) -> String {
     seed_of(seed).child(purpose, index).to_string()
@@ -156,12 +157,12 @@ impl Game {
         Ok(Level { game: self.clone(), name: name.to_owned(), level })
     }
 
-    /// Returns the rules in plain English.
+    /// Returns the rules of the game in plain English.
     fn describe(&self) -> String {
         Guide::from_analysis(&self.0.analysis).to_string()
     }
 
-    /// Returns the kind of the game and the facts proven about its rules, as JSON.
+    /// Returns the kind of the game and the proven facts about its rules, as JSON.
     fn facts(&self) -> PyResult<String> {
         let analysis = &self.0.analysis;
         let facts = json!({
@@ -213,7 +214,7 @@ impl Level {
         self.level.to_string()
     }
 
-    /// Returns the facts proven about the level, one sentence per fact.
+    /// Returns the proven facts about the level, one sentence per fact.
     fn describe(&self) -> Vec<String> {
         let analysis = &self.game.0.analysis;
         describe::level(analysis, &self.level, &analysis.reach(&self.level))
@@ -224,7 +225,7 @@ impl Level {
         State::new(self.game.clone(), state)
     }
 
-    /// Returns an episode as an animated GIF.
+    /// Renders an episode as an animated GIF.
     fn gif<'py>(
         &self,
         py: Python<'py>,

@@ -1,6 +1,7 @@
-//! Lanes: many episodes of a game that are stepped together, with their observations in one buffer.
+//! Lanes. A lane plays episodes of a game one after another. Many lanes are stepped together, with their
+//! observations in one buffer.
 //!
-//! Each lane plays by itself, with its own seed. No result depends on the number of threads.
+//! Each lane plays independently, with its own seed. The results do not depend on the number of threads.
 
 use crate::errors::{failed, invalid};
 use crate::game::{Game, Level, Rules, outcome_name, seed_of};
@@ -13,32 +14,33 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// The number of lanes in a thread's task.
+/// The number of lanes in one task of a thread.
 const LANES_OF_A_TASK: usize = 64;
 
-/// The handling of finished episodes.
+/// The rule for starting a new episode in a lane whose episode has ended.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Autoreset {
-    /// The next step starts a new episode, and ignores its action.
+    /// The next step starts a new episode and ignores its action.
     NextStep,
-    /// The step that ends an episode also starts the next one.
+    /// The step that ends an episode also starts the next episode.
     SameStep,
-    /// The lane does nothing until it is reset.
+    /// A lane whose episode has ended does nothing until it is reset.
     Disabled,
 }
 
-/// The content of an observation.
+/// The format of an observation.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Sight {
-    /// `[planes][rows][columns]`: 1 in cells with a sprite of the type.
+    /// `[planes][rows][columns]`, with 1 in each cell that contains a sprite of the plane's type.
     Planes,
-    /// `[rows][columns]`: the ASCII code of the uppermost sprite's character; see `Lanes.symbols`.
+    /// `[rows][columns]`, with the ASCII code of the character of each cell's uppermost sprite.
+    /// `Lanes.symbols` lists the characters.
     Symbols,
-    /// `[height][width][3]`: an image with cells of this many pixels.
+    /// `[height][width][3]`, an RGB image with the given number of pixels per cell.
     Rgb(u32),
 }
 
-/// The parts that all lanes share.
+/// The data that all lanes share.
 struct Setting {
     game: Game,
     roots: Vec<engine::State>,
@@ -46,29 +48,30 @@ struct Setting {
     columns: usize,
     rows: usize,
     sight: Sight,
-    /// The types in drawing order, each with its character on boards of symbols.
+    /// The sprite types in drawing order, each with its character on boards of symbols.
     characters: Vec<(usize, u8)>,
     max_steps: u64,
     autoreset: Autoreset,
 }
 
-/// An episode of a lane.
+/// A lane and its current episode.
 struct Lane {
     state: engine::State,
     root: usize,
     seed: Seed,
-    /// The number of episodes that this seed has started before the current one.
+    /// The number of episodes that were started with this seed before the current episode.
     episodes: u64,
     /// The seed of the current episode.
     current: Seed,
     steps: u64,
     is_over: bool,
-    /// The score and outcome of the last finished episode, for callers of the step that also started the next one.
+    /// The score and outcome of the last finished episode. Callers need these values if the same step also
+    /// started the next episode.
     last: (f64, Outcome),
     drawn: Drawn,
 }
 
-/// The results of a step of a lane.
+/// The outputs of one lane's step.
 struct Told<'a> {
     observation: &'a mut [u8],
     reward: &'a mut f64,
@@ -81,7 +84,7 @@ impl Setting {
         &self.game.0
     }
 
-    /// Returns the number of bytes of an observation.
+    /// Returns the size of an observation in bytes.
     fn size(&self) -> usize {
         match self.sight {
             Sight::Planes => self.planes.size(),
@@ -107,7 +110,7 @@ impl Setting {
         }
     }
 
-    /// Draws an observation by updating the previous one.
+    /// Draws an observation by updating the lane's previous observation.
     fn update(&self, lane: &mut Lane, out: &mut [u8]) {
         match self.sight {
             Sight::Planes => self.planes.update(&mut lane.state, &mut lane.drawn, out),
@@ -133,21 +136,21 @@ impl Setting {
         }
     }
 
-    /// Starts the next episode of a lane.
+    /// Starts the next episode in a lane.
     fn begin(&self, lane: &mut Lane, out: &mut [u8]) {
         lane.current = lane.seed.child("episode", lane.episodes);
         lane.episodes += 1;
         self.start(lane, out);
     }
 
-    /// Starts the episode with a lane's current seed.
+    /// Starts an episode in a lane with the lane's current seed.
     fn start(&self, lane: &mut Lane, out: &mut [u8]) {
         lane.state.fork_from(&self.roots[lane.root], Chance::from_seed(lane.current));
         (lane.steps, lane.is_over) = (0, false);
         self.draw(lane, out);
     }
 
-    /// Plays a step of a lane. Returns `true` if the step ended an episode.
+    /// Plays one step in a lane. Returns `true` if the step ended an episode.
     fn step(&self, lane: &mut Lane, action: Action, told: Told<'_>, last: Option<&mut [u8]>) -> bool {
         (*told.reward, *told.terminated, *told.truncated) = (0.0, false, false);
         if lane.is_over {
@@ -178,12 +181,12 @@ impl Setting {
     }
 }
 
-/// Many episodes of one game that are stepped together.
+/// Many lanes of one game that are stepped together.
 #[pyclass(module = "infinite_arcade")]
 pub(crate) struct Lanes {
     setting: Setting,
     lanes: Vec<Lane>,
-    /// The actions, by their indices.
+    /// The actions in the order of their indices.
     actions: Vec<Action>,
     /// The thread pool, or `None` to use only the calling thread.
     pool: Option<ThreadPool>,
@@ -264,50 +267,51 @@ impl Lanes {
         self.lanes.len()
     }
 
-    /// The shape of an observation.
+    /// The shape of one observation.
     #[getter]
     fn shape(&self) -> Vec<usize> {
         self.setting.shape()
     }
 
-    /// The names of the planes.
+    /// The names of the planes' sprite types.
     #[getter]
     fn planes(&self) -> Vec<&str> {
         let game = &self.setting.rules().game;
         self.setting.planes.types().iter().map(|&stype| game.name(stype)).collect()
     }
 
-    /// The seeds of the current episodes.
+    /// The seeds of the lanes' current episodes.
     #[getter]
     fn seeds(&self) -> Vec<String> {
         self.lanes.iter().map(|lane| lane.current.to_string()).collect()
     }
 
-    /// The index of the level that each lane plays.
+    /// The index of each lane's level.
     #[getter]
     fn levels(&self) -> Vec<usize> {
         self.lanes.iter().map(|lane| lane.root).collect()
     }
 
-    /// The state hashes of the current states.
+    /// The hashes of the lanes' current states.
     #[getter]
     fn hashes(&self) -> Vec<String> {
         self.lanes.iter().map(|lane| lane.state.state_hash().to_string()).collect()
     }
 
-    /// The outcomes of the current states.
+    /// The outcomes of the lanes' current states.
     #[getter]
     fn outcomes(&self) -> Vec<&'static str> {
         self.lanes.iter().map(|lane| outcome_name(lane.state.outcome())).collect()
     }
 
-    /// The scores of the current states.
+    /// The scores of the lanes' current states.
     #[getter]
     fn scores(&self) -> Vec<f64> {
         self.lanes.iter().map(|lane| lane.state.score()).collect()
     }
 
-    /// Returns the score and outcome of the last finished episode in a lane that resets in the same step.
+    /// Returns the score and outcome of the last finished episode in a lane. The method is for lanes that
+    /// start the next episode in the same step.
     fn last(&self, lane: usize) -> PyResult<(f64, &'static str)> {
         let found = self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?;
         Ok((found.last.0, outcome_name(found.last.1)))
@@ -319,8 +323,8 @@ impl Lanes {
         Ok(State::new(self.setting.game.clone(), found.state.clone()))
     }
 
-    /// Gives a lane a seed, from which the seeds of its episodes are derived. If `exact` is true, the seed is also that of the
-    /// lane's next episode.
+    /// Sets the seed of a lane, from which the seeds of its episodes are derived. If `exact` is `true`, the
+    /// next episode of the lane uses the seed itself.
     fn seed(&mut self, lane: usize, seed: &str, exact: bool) -> PyResult<()> {
         let found = self.lanes.get_mut(lane).ok_or_else(|| invalid("there is no such lane"))?;
         (found.seed, found.episodes) = (seed_of(seed), 0);
@@ -330,7 +334,7 @@ impl Lanes {
         Ok(())
     }
 
-    /// Gives lane `i` the seed `seed.child("lane", i)`.
+    /// Sets the seed of each lane `i` to `seed.child("lane", i)`.
     fn seed_all(&mut self, seed: &str) {
         let seed = seed_of(seed);
         for (number, lane) in self.lanes.iter_mut().enumerate() {
@@ -338,7 +342,7 @@ impl Lanes {
         }
     }
 
-    /// Sets the level that a lane plays from its next episode on.
+    /// Sets the level that a lane plays, starting with its next episode.
     fn choose(&mut self, lane: usize, level: usize) -> PyResult<()> {
         if level >= self.setting.roots.len() {
             return Err(invalid(format_args!("there is no level {level} among those of the environment")));
@@ -347,7 +351,7 @@ impl Lanes {
         Ok(())
     }
 
-    /// Starts the next episode in the lanes whose flag in `mask` is set, and writes their observations.
+    /// Starts the next episode in each lane whose flag in `mask` is set, and writes the lane's observation.
     #[pyo3(signature = (mask, observations, exact = false))]
     fn reset(
         &mut self,
@@ -380,8 +384,8 @@ impl Lanes {
         Ok(())
     }
 
-    /// Plays one step in every lane. If lanes reset in the same step, `last` receives the last observations of the episodes that
-    /// ended. Returns the number of episodes that ended.
+    /// Plays one step in every lane. If new episodes start in the same step, `last` receives the last
+    /// observations of the episodes that ended. Returns the number of episodes that ended.
     #[allow(clippy::too_many_arguments, reason = "one array each")]
     fn step(
         &mut self,
@@ -448,7 +452,7 @@ impl Lanes {
         }))
     }
 
-    /// Plays steps without observations, as a baseline for the rate with observations. Draws the same actions as
+    /// Plays steps without observations, to measure the speed without them. Draws the same actions as
     /// `cargo xtask bench --batch`. Returns the number of episodes that ended.
     fn step_blindly(
         &mut self,
@@ -480,7 +484,7 @@ impl Lanes {
     }
 }
 
-/// The buffers of a step, or the part of them for one task.
+/// The buffers for the outputs of a step, or the parts of the buffers that belong to one task.
 struct Buffers<'a> {
     out: &'a mut [u8],
     rewards: &'a mut [f64],
@@ -490,7 +494,7 @@ struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// Divides lanes and buffers into tasks, each with the index of its first lane.
+    /// Splits the lanes and buffers into tasks. Each task includes the index of its first lane.
     fn split<'l>(self, lanes: &'l mut [Lane], size: usize) -> Vec<((&'l mut [Lane], usize), Buffers<'a>)> {
         let count = lanes.len().div_ceil(LANES_OF_A_TASK);
         let mut lasts: Vec<Option<&mut [u8]>> = match self.last {
@@ -512,7 +516,8 @@ impl<'a> Buffers<'a> {
     }
 }
 
-/// Returns the planes in drawing order with their characters, without floors, or `None` if a character is not ASCII.
+/// Returns the planes in drawing order with their characters, without floors. Returns `None` if a character
+/// is not ASCII.
 fn characters(rules: &Rules, planes: &Planes) -> Option<Vec<(usize, u8)>> {
     let order = rules.game.drawing_order();
     let place = |stype: engine::SpriteType| order.iter().position(|&other| other == stype.0);

@@ -1,8 +1,8 @@
-//! The extension module of the Python package `infinite_arcade`: games, states, planners, judges, snapshots, environments and
-//! evaluated episodes.
+//! The extension module of the Python package `infinite_arcade`, with games, states, planners, judges,
+//! snapshots, environments and evaluated episodes.
 //!
-//! Every class here is a thin wrapper around the crates of the suite. The Python files of the package add names, types and
-//! documentation. Long-running work releases the interpreter's lock.
+//! Every class in this crate is a thin wrapper around the crates of the suite. The Python files of the
+//! package add names, types and documentation. Long-running functions release the interpreter's lock.
 
 mod corpus;
 mod errors;

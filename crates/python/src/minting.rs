@@ -1,4 +1,5 @@
-//! Minting of releases, as with `arcade release` and `arcade merge`. Results are JSON, in the format of the command line.
+//! Mints releases, in the same way as `arcade release` and `arcade merge`. Results are returned as JSON, in
+//! the format of the command line.
 
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
@@ -16,13 +17,13 @@ use std::path::{Path, PathBuf};
 static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../seeds");
 static LOCKFILE: &[u8] = include_bytes!("../../../Cargo.lock");
 
-/// Returns the text of the recipe with this name that is embedded in the extension.
+/// Returns the text of the embedded recipe with the given name.
 #[pyfunction]
 pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
 }
 
-/// Mints a release, or shard `K/N` of a release, from the text of a recipe.
+/// Mints a release, or shard `K/N` of a release, from the text of its recipe.
 #[pyfunction]
 #[pyo3(signature = (recipe, out, *, parent = None, secret = None, shard = None, resume = false, jobs = None))]
 #[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
@@ -60,7 +61,7 @@ pub(crate) fn mint(
     })
 }
 
-/// Joins the shards of a release.
+/// Merges the shards of a release.
 #[pyfunction]
 #[pyo3(signature = (shards, out, *, secret = None, jobs = None))]
 pub(crate) fn merge(
@@ -80,18 +81,18 @@ pub(crate) fn merge(
     })
 }
 
-/// Returns the contents of a release, in the format of the command line.
+/// Describes a release as JSON, in the format of the command line.
 fn document(minted: &Minted, recipe: &Recipe, out: &Path) -> String {
     let (root, games, card) = (minted.manifest.root, &minted.cards, &minted.card);
     json!({ "out": out, "root": root, "games": games, "card": card, "caveats": recipe.caveats() }).to_string()
 }
 
-/// Returns the tools with which the extension mints.
+/// Returns the tools that the extension uses for minting.
 fn tools(corpus: &Corpus) -> Tools<'_> {
     Tools { corpus, lockfile: Digest::of(LOCKFILE), players: &Players }
 }
 
-/// The players that measure marks, by the names that `arcade evaluate --player` uses.
+/// The players that measure marks, by the names accepted by `arcade evaluate --player`.
 #[derive(Debug)]
 struct Players;
 
@@ -107,7 +108,7 @@ impl MarkPlayers for Players {
     }
 }
 
-/// Returns the corpus.
+/// Returns the corpus of hand-written games.
 fn hand_written() -> PyResult<Corpus> {
     let game = |(name, source, levels, card): (String, String, Vec<String>, String)| {
         CorpusGame::read(name, source, levels, &card).map_err(failed)
@@ -115,7 +116,7 @@ fn hand_written() -> PyResult<Corpus> {
     Ok(Corpus { games: corpus().into_iter().map(game).collect::<PyResult<_>>()? })
 }
 
-/// Runs work on a pool with this number of threads [default: one per core].
+/// Runs `work` on a pool with the given number of threads. The default is one thread per core.
 fn in_pool<T: Send>(jobs: Option<usize>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).build().map_err(failed)?;
     Ok(pool.install(work))

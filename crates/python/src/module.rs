@@ -25,7 +25,7 @@ mod _native {
     #[pymodule_export]
     use crate::state::State;
 
-    /// Adds the constants.
+    /// Adds the constants to the module.
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;

@@ -1,25 +1,25 @@
-//! Images of boards.
+//! Renders boards as images.
 
 use engine::{Action, Game, State};
 use render::{Animation, Image, Looks, Painter, Picture, RenderError, Style};
 use std::cell::RefCell;
 
 thread_local! {
-    /// A painter that caches the tiles that this thread has drawn.
+    /// A painter that caches the tiles drawn by this thread.
     static PAINTER: RefCell<Painter> = RefCell::new(Painter::new());
 }
 
-/// Draws a board without caption and legend, with cells of `cell` pixels.
+/// Draws a board without a caption and a legend, with cells of `cell` pixels.
 pub(crate) fn pixels(looks: &Looks, state: &State, cell: u32) -> Result<Image, RenderError> {
     let picture = render::picture(looks, state, &Style::bare(cell))?;
     PAINTER.with_borrow_mut(|painter| painter.paint(&picture))
 }
 
-/// The maximum number of pictures from which the palette of an animation is made.
+/// The maximum number of images from which the palette of an animation is computed.
 const SPECIMENS: usize = 32;
 
-/// Draws an episode as an animated GIF from the given state on, with one frame per tick. A frame lasts `delay` hundredths of a
-/// second.
+/// Renders an episode from the given state on as an animated GIF, with one frame per tick. Each frame lasts
+/// `delay` hundredths of a second.
 pub(crate) fn animation(
     (game, looks): (&Game, &Looks),
     mut state: State,

@@ -1,4 +1,4 @@
-//! Planners.
+//! Planners for Python.
 
 use crate::errors::invalid;
 use crate::game::seed_of;
@@ -32,7 +32,7 @@ impl Planner {
         Ok(Planner { player: OpenLoop::new(spec.player(seed), budget, seed), spec })
     }
 
-    /// Returns the next actions and the forward-model calls that they cost.
+    /// Returns the next actions, and the number of forward-model calls that they cost.
     #[pyo3(signature = (state, count = 1))]
     fn plan(&mut self, py: Python<'_>, state: &State, count: u64) -> (Vec<&'static str>, u64) {
         let (game, state, player) = (&state.game.0.game, &state.state, &mut self.player);

@@ -1,4 +1,4 @@
-//! States: stepping, hashing and observing.
+//! States of episodes, with functions for stepping, hashing and observing them.
 
 use crate::errors::{failed, invalid};
 use crate::game::{Game, action_named, outcome_name, seed_of};
@@ -28,7 +28,7 @@ impl State {
         self.game.clone()
     }
 
-    /// The number of ticks played.
+    /// The number of ticks played so far.
     #[getter]
     fn ticks(&self) -> i32 {
         self.state.tick() + 1
@@ -44,7 +44,7 @@ impl State {
         outcome_name(self.state.outcome())
     }
 
-    /// The limit that stopped the episode, or `None`.
+    /// The limit that stopped the episode, or `None` if no limit stopped it.
     #[getter]
     fn stopped_by(&self) -> Option<String> {
         match self.state.outcome() {
@@ -69,7 +69,7 @@ impl State {
         self.game.0.game.actions(&self.state).iter().map(|action| action.name()).collect()
     }
 
-    /// Plays one tick and returns the outcome.
+    /// Plays one tick with the given action, and returns the outcome.
     fn step(&mut self, action: &str) -> PyResult<&'static str> {
         let action = action_named(action)?;
         let outcome = self.game.0.game.step(&mut self.state, action);
@@ -136,7 +136,7 @@ impl State {
         Ok(shown)
     }
 
-    /// Returns the planes of the board as flat bytes. See `Lanes`.
+    /// Returns the planes of the board as flat bytes, in the format of `Lanes`.
     fn planes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
         let rules = &self.game.0;
         let (columns, rows) = self.state.size();
@@ -156,7 +156,7 @@ impl State {
         render::text(&self.game.0.looks, &self.game.0.symbols, &self.state)
     }
 
-    /// Returns an image of the board: its height, its width and its flat RGB bytes.
+    /// Returns an image of the board, as its height, its width and its flat RGB bytes.
     fn rgb<'py>(&self, py: Python<'py>, cell: u32) -> PyResult<(u32, u32, Bound<'py, PyArray1<u8>>)> {
         let image = picture::pixels(&self.game.0.looks, &self.state, cell).map_err(invalid)?;
         let bytes = image.pixels.iter().flat_map(|colour| colour.0).collect();

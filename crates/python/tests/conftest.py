@@ -1,4 +1,4 @@
-"""Games for the tests."""
+"""Games and fixtures for the tests."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import infinite_arcade as ia
 
 ROOT = Path(__file__).parents[3]
 
-#: A corridor: the squirrel is one or two steps from the nut, and loses after 20 ticks.
+#: A corridor in which the squirrel is one or two steps from the nut, and loses after 20 ticks.
 NUT = """BasicGame
     SpriteSet
         nut > Immovable
@@ -35,7 +35,7 @@ def nut() -> ia.Game:
 
 @pytest.fixture(scope="session")
 def arcade() -> Path:
-    """The command line, if it has been built."""
+    """Returns the path of the command line, if it has been built."""
     found = [ROOT / "target" / profile / "arcade" for profile in ("release", "debug")]
     built = [path for path in found if path.is_file()]
     if not built:
@@ -48,7 +48,7 @@ def arcade() -> Path:
 
 @pytest.fixture(scope="session")
 def tiny(arcade: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A release that the command line has minted; not to be changed."""
+    """Returns a release that was minted by the command line, and must not be changed."""
     out = tmp_path_factory.mktemp("releases") / "tiny"
     subprocess.run([arcade, "release", "tiny", "--out", out, "-q"], check=True, stdout=subprocess.DEVNULL)
     return out

@@ -1,4 +1,4 @@
-"""Games, states, planners, judges, generators and snapshots."""
+"""Tests of games, states, planners, judges, generators and snapshots."""
 
 from __future__ import annotations
 

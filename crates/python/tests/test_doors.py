@@ -1,4 +1,4 @@
-"""The same logs through every interface; ``python -m infinite_arcade.doors`` compares a thousand."""
+"""Tests that every interface reproduces the same logs. ``python -m infinite_arcade.doors`` compares a thousand logs."""
 
 from __future__ import annotations
 

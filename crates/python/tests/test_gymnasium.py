@@ -1,4 +1,4 @@
-"""Environments."""
+"""Tests of the Gymnasium environments."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def test_episodes_are_truncated(nut: ia.Game) -> None:
 @pytest.mark.parametrize("mode", list(AutoresetMode))
 @pytest.mark.parametrize(("name", "observation"), [("heath-fire", "planes"), ("hailglass", "symbols"), ("great-yawn", "rgb")])
 def test_vectors_play_what_single_environments_play(mode: AutoresetMode, name: str, observation: str) -> None:
-    """The vector equals Gymnasium's own vector of single environments, in every mode: the vector checks."""
+    """The vector behaves like Gymnasium's own vector of single environments, in every mode."""
     count, game = 5, ia.load(name)
     make = lambda: arcade.GameEnv(game, 0, observation=observation, max_steps=12)
     single = SyncVectorEnv([make] * count, autoreset_mode=mode)
@@ -153,7 +153,7 @@ def test_threads_change_nothing(observation: str) -> None:
 
 @pytest.mark.parametrize("name", sorted(ia.corpus()))
 def test_boards_are_kept_up_to_date(name: str) -> None:
-    """Boards drawn over the last ones equal boards drawn anew, in lanes of all levels."""
+    """Boards that are drawn over earlier boards equal boards drawn from scratch, in lanes of all levels."""
     envs = arcade.GameVectorEnv(name, num_envs=10, autoreset_mode=AutoresetMode.SAME_STEP, threads=1, copy=False)
     rng = np.random.default_rng(1)
     observations, _ = envs.reset(seed=1)

@@ -1,4 +1,4 @@
-"""Inspect tasks, with scripted models."""
+"""Tests of the Inspect tasks, with scripted models."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Answer = Callable[[list[ChatMessage]], str]
 def scripted(answer: Answer) -> Model:
     def output(input: list[ChatMessage], *_: Any) -> ModelOutput:
         said = ModelOutput.from_content("mockllm/model", answer(input))
-        # Without a count of its own, the scripted model asks a server for a tokenizer.
+        # If the scripted model did not count tokens itself, it would request a tokenizer from a server.
         said.usage = ModelUsage(input_tokens=5, output_tokens=2, total_tokens=7)
         return said
 
@@ -75,7 +75,7 @@ def test_a_scripted_model_wins(tmp_path: Path) -> None:
 
 
 class Server(BaseHTTPRequestHandler):
-    """A chat completions server with the answers of a script."""
+    """A server of chat completions whose answers are scripted."""
 
     answer: Answer
 
@@ -96,7 +96,9 @@ class Server(BaseHTTPRequestHandler):
 
 @pytest.mark.parametrize("track", [None, "masked", "discover"])
 def test_logs_are_those_of_the_command_line(track: str | None, arcade: Path, tmp_path: Path) -> None:
-    """The same answers give the same log, line by line, by `arcade evaluate` and by Inspect: prompts, classes, steps and hashes."""
+    """The same answers give the same log, line by line, with `arcade evaluate` and with Inspect. Prompts, classes,
+    steps and hashes are equal.
+    """
     script = ["ACTION: left", "I do not know", "**Action:** right", "ACTION: right", "ACTION: jump", "ACTION: left"]
 
     def answers() -> Answer:

@@ -1,4 +1,6 @@
-"""Training scripts: a short run of each algorithm, whose checkpoint plays behind ``cmd:``. Runs where JAX is installed."""
+"""Tests of the training scripts. Each algorithm is trained briefly, and its checkpoint plays through ``cmd:``. Runs
+only if JAX is installed.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A Ray cluster of two local nodes, one of which is killed. Runs where Ray is installed."""
+"""Tests with a Ray cluster of two local nodes, one of which is killed. Runs only if Ray is installed."""
 
 from __future__ import annotations
 

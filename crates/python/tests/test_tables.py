@@ -1,4 +1,4 @@
-"""Tables. Run where PyArrow is installed."""
+"""Tests of the tables. Runs only if PyArrow is installed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The taskset for verifiers, against a chat server on loopback. Runs where verifiers is installed."""
+"""Tests of the taskset for verifiers, with a chat server on loopback. Runs only if verifiers is installed."""
 
 from __future__ import annotations
 

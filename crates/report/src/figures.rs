@@ -1,23 +1,23 @@
-//! Figures with confidence intervals.
+//! Figures with confidence intervals, such as fractions, means and quantiles.
 
 use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, quantile, wilson};
 
-/// A fraction of a number of things.
+/// A fraction of a number of items, with its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Share {
-    /// The number of things that count.
+    /// The number of counted items.
     pub count: u64,
-    /// The total number of things.
+    /// The total number of items.
     pub of: u64,
     /// The 95% Wilson interval of the fraction.
     pub interval: [f64; 2],
 }
 
 impl Share {
-    /// Creates the fraction `count` / `of`, with its interval.
+    /// Creates the fraction `count` / `of` and computes its interval.
     pub fn new(count: u64, of: u64) -> Share {
         let interval = wilson(count, of, Z95);
         Share { count, of, interval: [interval.low, interval.high] }
@@ -33,7 +33,7 @@ impl Share {
         Share::new(count, of)
     }
 
-    /// Returns the fraction, from 0 to 1; 0 if the total is 0.
+    /// Returns the fraction as a number between 0 and 1, or 0 if the total is 0.
     pub fn share(&self) -> f64 {
         self.count as f64 / self.of.max(1) as f64
     }
@@ -42,20 +42,21 @@ impl Share {
 /// A mean over the items of a set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mean {
-    /// The mean.
+    /// The mean of the items' values.
     pub mean: f64,
-    /// The 95% bootstrap interval, from resampling the items.
+    /// The 95% bootstrap interval, obtained by resampling the items.
     pub interval: [f64; 2],
     /// The number of items.
     pub count: u64,
-    /// The name of an item in the singular, such as `level`. In JSON, the key of the count is its plural.
+    /// The name of an item in the singular, such as `level`. In JSON, the key of the count is the plural of
+    /// the name.
     pub item: &'static str,
 }
 
 const RESAMPLES: usize = 2000;
 
 impl Mean {
-    /// Returns the mean of some values, one per item, or `None` if there are no values.
+    /// Returns the mean of the given values, one per item, or `None` if there are no values.
     pub fn over(item: &'static str, values: &[f64]) -> Option<Mean> {
         let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
         let interval = bootstrap(values, mean, RESAMPLES, 0.95, [0; 32])?;
@@ -78,22 +79,22 @@ impl Serialize for Mean {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantiles {
-    /// The number of values.
+    /// The number of values in the sample.
     pub count: u64,
-    /// The minimum.
+    /// The minimum of the sample.
     pub min: f64,
-    /// The lower quartile.
+    /// The lower quartile of the sample.
     pub lower: f64,
-    /// The median.
+    /// The median of the sample.
     pub median: f64,
-    /// The upper quartile.
+    /// The upper quartile of the sample.
     pub upper: f64,
-    /// The maximum.
+    /// The maximum of the sample.
     pub max: f64,
 }
 
 impl Quantiles {
-    /// Returns the quantiles of some values, or `None` if there are no values.
+    /// Returns the quantiles of the given values, or `None` if there are no values.
     pub fn of(values: &[f64]) -> Option<Quantiles> {
         let at = |share| quantile(values, share);
         Some(Quantiles {

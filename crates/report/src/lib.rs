@@ -1,7 +1,8 @@
-//! The shared model of all reports: figures with intervals, and tables as data with one renderer per format.
+//! The data model that all reports share. It consists of figures with intervals, and of tables with one
+//! renderer per format.
 //!
-//! A report on levels, games or evaluations is a pure function that returns these types. [`SetReport`] is written as
-//! JSON, and [`Table`] as Markdown, CSV and LaTeX. The binary builds the pages.
+//! A report on levels, games or evaluations is computed by a pure function that returns these types.
+//! [`SetReport`] is written as JSON, and [`Table`] as Markdown, CSV and LaTeX. The binary builds the pages.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod figures;

@@ -1,68 +1,70 @@
-//! Reports on sets of levels or games as data: questions, each answered by figures, and additional tables.
+//! Reports on sets of levels or games, as data. A report consists of questions that are answered by figures,
+//! and of additional tables.
 //!
-//! A figure is stated once, with a name for people and a key for programs: the page shows the name, and
-//! [`SetReport::to_json`] writes the key. Programs that read the JSON can rely on the keys; the names may be reworded.
+//! Each figure is defined once, with a name for people and a key for programs. The page shows the name, and
+//! [`SetReport::to_json`] writes the key. Programs that read the JSON can rely on the keys, whereas the names
+//! may be reworded.
 
 use crate::{Mean, Quantiles, Share, Table};
 use base::canonical::{CanonicalError, Node};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The report on a set.
+/// The report on a set of levels or games.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SetReport {
-    /// The most important figures, under separate names.
+    /// The most important figures, each with a different name than in its section.
     pub headlines: Vec<Figure>,
-    /// The questions, in the order of the page.
+    /// The questions, in the order in which the page shows them.
     pub sections: Vec<Section>,
-    /// The tables in addition to the questions.
+    /// The tables that do not belong to a question.
     pub tables: Vec<Table>,
     data: Data,
 }
 
-/// A question with its answers.
+/// A question of a report, with its answers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     /// The key of the section's object in the JSON.
     pub key: &'static str,
-    /// The question.
+    /// The question that the section answers.
     pub title: &'static str,
-    /// A note on the figures; may be empty.
+    /// A note on the figures, which may be empty.
     pub note: String,
-    /// The figures that the page shows, in order.
+    /// The figures of the section, in the order in which the page shows them.
     pub figures: Vec<Figure>,
     /// The tables that the page shows below the figures.
     pub tables: Vec<Table>,
     data: Data,
 }
 
-/// A figure on a page.
+/// A figure that a page shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// The key of the value in the JSON; empty for figures that only the page shows.
+    /// The key of the value in the JSON. The key is empty for figures that only the page shows.
     pub key: &'static str,
-    /// The name for people.
+    /// The name that the page shows.
     pub name: String,
-    /// The value.
+    /// The value of the figure.
     pub value: Value,
 }
 
 /// The value of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A fraction of a count.
+    /// A fraction of a number of items, with its interval.
     Share(Share),
-    /// A mean from 0 to 1.
+    /// A mean between 0 and 1.
     Mean(Mean),
     /// A mean that may be negative.
     Gain(Mean),
     /// The quantiles of a sample.
     Quantiles(Quantiles),
-    /// A number of things.
+    /// A number of items.
     Count(u64),
-    /// A number of things out of a total, with the name of what the total counts.
+    /// A number of items out of a total, with the name of the total's items.
     CountOf(u64, u64, &'static str),
-    /// A fraction without an interval, from 0 to 1.
+    /// A fraction between 0 and 1, without an interval.
     Expected(f64),
     /// An unknown value.
     Missing,
@@ -74,7 +76,7 @@ impl From<Share> for Value {
     }
 }
 
-/// Named values for programs, and the first error among them.
+/// The named values for programs, and the first error that occurred among them.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Data {
     fields: BTreeMap<String, Node>,
@@ -91,14 +93,14 @@ impl Data {
 }
 
 impl SetReport {
-    /// Adds a value for programs that the page does not show.
+    /// Adds a value that is written to the JSON but not shown on the page.
     #[must_use]
     pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> SetReport {
         self.data.put(key, value);
         self
     }
 
-    /// Adds a question. If the question does not apply, its key in the JSON is `null`.
+    /// Adds a question. If the question does not apply, the value of its key in the JSON is `null`.
     #[must_use]
     pub fn section(self, key: &str, section: impl Into<Option<Section>>) -> SetReport {
         let Some(section) = section.into() else { return self.data(key, &()) };
@@ -110,15 +112,15 @@ impl SetReport {
         report
     }
 
-    /// Adds a table.
+    /// Adds a table that does not belong to a question.
     #[must_use]
     pub fn table(mut self, table: impl Into<Option<Table>>) -> SetReport {
         self.tables.extend(table.into());
         self
     }
 
-    /// Adds figures, each given by its section and key, to the top of the page under different names. Missing figures
-    /// are left out.
+    /// Adds figures to the top of the page under different names. Each figure is given by its section and its
+    /// key. Figures that do not exist are omitted.
     #[must_use]
     pub fn headlines(mut self, figures: &[(&str, &str, &str)]) -> SetReport {
         for (section, key, name) in figures {
@@ -128,13 +130,13 @@ impl SetReport {
         self
     }
 
-    /// Returns a figure by its section and key.
+    /// Returns the figure with the given section and key, if it exists.
     pub fn figure(&self, section: &str, key: &str) -> Option<&Figure> {
         let section = self.sections.iter().find(|found| found.key == section)?;
         section.figures.iter().find(|figure| figure.key == key)
     }
 
-    /// Returns a fraction by its section and key.
+    /// Returns the fraction with the given section and key, if it exists.
     pub fn share(&self, section: &str, key: &str) -> Option<Share> {
         match self.figure(section, key)?.value {
             Value::Share(share) => Some(share),
@@ -145,7 +147,7 @@ impl SetReport {
     /// Returns the report as canonical JSON, with a line feed at the end.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite, which only a game's scores can cause.
+    /// Returns an error if a number is not finite. Only the scores of a game can cause this error.
     pub fn to_json(&self) -> Result<String, CanonicalError> {
         match &self.data.fault {
             Some(fault) => Err(fault.clone()),
@@ -161,14 +163,14 @@ impl Section {
         Section { key, title, note: note.into(), figures, tables, data: Data::default() }
     }
 
-    /// Adds a value for programs that the page does not show.
+    /// Adds a value that is written to the JSON but not shown on the page.
     #[must_use]
     pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> Section {
         self.data.put(key, value);
         self
     }
 
-    /// Adds a figure that only the page shows.
+    /// Adds a figure that is shown on the page but not written to the JSON.
     #[must_use]
     pub fn shown(self, name: impl Into<String>, value: Value) -> Section {
         self.figure("", name, value)
@@ -180,7 +182,7 @@ impl Section {
         self.data(key, &share).figure(key, name, Value::Share(share))
     }
 
-    /// Adds a mean from 0 to 1, if there is one.
+    /// Adds a mean between 0 and 1, if there is one.
     #[must_use]
     pub fn mean(self, key: &'static str, name: &str, mean: Option<Mean>) -> Section {
         self.data(key, &mean).known(key, name, mean.map(Value::Mean))
@@ -192,20 +194,21 @@ impl Section {
         self.data(key, &mean).known(key, name, mean.map(Value::Gain))
     }
 
-    /// Adds the quantiles of some values, if there are any.
+    /// Adds the quantiles of the given values, if there are any values.
     #[must_use]
     pub fn quantiles(self, key: &'static str, name: &str, values: &[f64]) -> Section {
         let found = Quantiles::of(values);
         self.data(key, &found).known(key, name, found.map(Value::Quantiles))
     }
 
-    /// Adds a number of things.
+    /// Adds a number of items.
     #[must_use]
     pub fn count(self, key: &'static str, name: &str, count: u64) -> Section {
         self.data(key, &count).figure(key, name, Value::Count(count))
     }
 
-    /// Adds how often each thing occurred, as a count or, given a total, as a fraction.
+    /// Adds the number of occurrences of each item. If a total is given, fractions are added instead of
+    /// numbers.
     #[must_use]
     pub fn tally(self, key: &str, name: &str, counts: &BTreeMap<String, u64>, of: Option<u64>) -> Section {
         counts.iter().fold(self.data(key, counts), |section, (thing, &count)| {
@@ -214,7 +217,7 @@ impl Section {
         })
     }
 
-    /// Adds a table that only the page shows.
+    /// Adds a table that is shown on the page but not written to the JSON.
     #[must_use]
     pub fn table(mut self, table: Table) -> Section {
         self.tables.push(table);
@@ -228,8 +231,8 @@ impl Section {
         }
     }
 
-    /// Adds a figure that the page shows and that [`SetReport::headlines`] finds by its key. Its value is not added to
-    /// the JSON.
+    /// Adds a figure that is shown on the page, and that [`SetReport::headlines`] finds by its key. The value
+    /// is not written to the JSON.
     #[must_use]
     pub fn figure(mut self, key: &'static str, name: impl Into<String>, value: Value) -> Section {
         self.figures.push(Figure { key, name: name.into(), value });

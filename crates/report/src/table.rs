@@ -1,4 +1,4 @@
-//! The tables of reports, with their output as Markdown, CSV and LaTeX.
+//! The tables of reports, which can be formatted as Markdown, CSV and LaTeX.
 
 use serde::Serialize;
 use std::borrow::Cow;
@@ -7,19 +7,20 @@ use std::fmt::Write;
 /// A table. Every row has one cell per column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
-    /// The file name without extension: letters, digits and hyphens.
+    /// The file name without its extension, which consists of letters, digits and hyphens.
     pub id: String,
-    /// The title.
+    /// The title of the table.
     pub title: String,
-    /// The notes for the reader: units, and the reasons for missing values.
+    /// A note for the reader, such as the units, or the reasons for missing values.
     pub note: String,
-    /// The column headings.
+    /// The headings of the columns.
     pub columns: Vec<String>,
-    /// The rows.
+    /// The rows of the table, each with one cell per column.
     pub rows: Vec<Vec<TableCell>>,
 }
 
-/// A column of a table with one row per `R`: its heading, and a function that returns the cell of a row.
+/// A column of a table with one row per `R`. It consists of a heading, and of a function that returns the
+/// cell for a row.
 pub type Column<'a, R> = (&'a str, &'a dyn Fn(&R) -> TableCell);
 
 /// A cell of a [`Table`].
@@ -30,29 +31,29 @@ pub enum TableCell {
     Missing,
     /// A text.
     Text(String),
-    /// A text of figures, which is aligned like a number.
+    /// A text that contains numbers, which is aligned like a number.
     Figure(String),
-    /// A number of things.
+    /// A number of items.
     Count(u64),
-    /// A number with a fixed number of decimals.
+    /// A number with a fixed number of decimal places.
     Number {
-        /// The number.
+        /// The value of the number.
         value: f64,
-        /// The number of decimals.
+        /// The number of decimal places.
         digits: usize,
     },
     /// A number with its confidence interval.
     Interval {
-        /// The number.
+        /// The value of the number.
         value: f64,
-        /// The lower bound.
+        /// The lower bound of the interval.
         low: f64,
-        /// The upper bound.
+        /// The upper bound of the interval.
         high: f64,
-        /// The number of decimals.
+        /// The number of decimal places.
         digits: usize,
     },
-    /// A p-value or another probability, printed with two significant digits.
+    /// A probability, such as a p-value, which is printed with two significant digits.
     Probability(f64),
 }
 
@@ -62,18 +63,18 @@ impl TableCell {
         TableCell::Text(text.into())
     }
 
-    /// Creates a number cell with decimals, or a missing one.
+    /// Creates a number cell with `digits` decimal places, or a missing cell if there is no value.
     pub fn number(value: impl Into<Option<f64>>, digits: usize) -> TableCell {
         value.into().map_or(TableCell::Missing, |value| TableCell::Number { value, digits })
     }
 
-    /// Creates a text cell that is aligned like a number, or a missing one.
+    /// Creates a text cell that is aligned like a number, or a missing cell if there is no text.
     pub fn figure(words: impl Into<Option<String>>) -> TableCell {
         words.into().map_or(TableCell::Missing, TableCell::Figure)
     }
 
-    /// Creates a number cell, or a missing one. Whole numbers have no decimals; all others have up to two, depending on
-    /// their size.
+    /// Creates a number cell, or a missing cell if there is no value. Whole numbers have no decimal places.
+    /// Other numbers have up to two, depending on their size.
     pub fn short(value: impl Into<Option<f64>>) -> TableCell {
         let digits = |value: f64| match value.abs() {
             size if value.fract() == 0.0 || size >= 100.0 => 0,
@@ -84,17 +85,17 @@ impl TableCell {
         TableCell::number(value, value.map_or(0, digits))
     }
 
-    /// Creates a count cell, or a missing one.
+    /// Creates a count cell, or a missing cell if there is no count.
     pub fn count(count: impl Into<Option<u64>>) -> TableCell {
         count.into().map_or(TableCell::Missing, TableCell::Count)
     }
 
-    /// Creates a probability cell, or a missing one.
+    /// Creates a probability cell, or a missing cell if there is no value.
     pub fn probability(p: impl Into<Option<f64>>) -> TableCell {
         p.into().map_or(TableCell::Missing, TableCell::Probability)
     }
 
-    /// Formats the cell for people.
+    /// Formats the cell as text for people.
     pub fn plain(&self) -> String {
         match self {
             TableCell::Missing => "–".to_owned(),
@@ -116,7 +117,7 @@ impl TableCell {
     }
 }
 
-/// Formats a number with `digits` decimals, without a sign before 0.
+/// Formats a number with `digits` decimal places. Zero is formatted without a sign.
 fn rounded(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     match text.strip_prefix('-') {
@@ -140,8 +141,8 @@ impl Table {
         table
     }
 
-    /// Adds a row. Columns without a cell become [`Missing`](TableCell::Missing), and cells without a column are left
-    /// out.
+    /// Adds a row. Columns without a cell become [`Missing`](TableCell::Missing), and cells without a column
+    /// are dropped.
     pub fn push(&mut self, mut row: Vec<TableCell>) {
         row.resize(self.columns.len(), TableCell::Missing);
         self.rows.push(row);
@@ -152,7 +153,7 @@ impl Table {
         self.rows.iter().any(|row| row[column].is_words())
     }
 
-    /// Formats the table as Markdown, with its title as a heading and the note below.
+    /// Formats the table as Markdown, with its title as a heading above and its note below.
     ///
     /// ```
     /// use infinite_arcade_report::{Table, TableCell};
@@ -179,8 +180,8 @@ impl Table {
         text
     }
 
-    /// Formats the table as CSV: numbers with all digits, empty fields for unknown values, three columns per interval.
-    /// Text that a spreadsheet would interpret as a formula gets a leading apostrophe.
+    /// Formats the table as CSV. Numbers have all digits, unknown values are empty fields, and each interval
+    /// has three columns. Text that a spreadsheet would interpret as a formula gets a leading apostrophe.
     ///
     /// ```
     /// use infinite_arcade_report::{Table, TableCell};
@@ -221,7 +222,7 @@ impl Table {
         String::from_utf8(bytes).expect("what was written is text")
     }
 
-    /// Formats the table as a LaTeX `table` that needs no package.
+    /// Formats the table as a LaTeX `table` that requires no packages.
     pub fn to_latex(&self) -> String {
         let columns: String =
             (0..self.columns.len()).map(|column| if self.is_words(column) { 'l' } else { 'r' }).collect();
@@ -242,8 +243,8 @@ impl Table {
     }
 }
 
-/// Escapes text for Markdown on one line: all characters that could be read as markup, HTML, a link or the end of a
-/// cell.
+/// Escapes text for Markdown, and puts it on one line. Escapes all characters that could be interpreted as
+/// markup, as HTML, as a link or as the end of a cell.
 ///
 /// ```
 /// use infinite_arcade_report::in_markdown;
@@ -270,8 +271,8 @@ pub fn in_markdown(text: &str) -> String {
     out
 }
 
-/// Returns `true` if a character is a control character, or changes the direction or the lines of the text around it,
-/// so that a name could look like a different one.
+/// Returns `true` if a character is a control character, or changes the direction or the lines of the
+/// surrounding text. Such characters could make a name look like a different name.
 pub fn is_invisible(character: char) -> bool {
     let turns = ['\u{61c}', '\u{200e}', '\u{200f}', '\u{2028}', '\u{2029}'];
     character.is_control()
@@ -280,8 +281,8 @@ pub fn is_invisible(character: char) -> bool {
         || ('\u{2066}'..='\u{2069}').contains(&character)
 }
 
-/// Returns a text on one line, with every invisible character ([`is_invisible`]) spelt out. Text from files must pass
-/// through this function before it is shown as part of our own text.
+/// Returns a text on one line, in which every invisible character ([`is_invisible`]) is escaped. Text from
+/// files must pass through this function before it is displayed.
 ///
 /// ```
 /// use infinite_arcade_report::visible;
@@ -291,7 +292,8 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     spelt_out(text, is_invisible)
 }
 
-/// Does the same as [`visible`], but keeps line feeds and tabs.
+/// Returns a text in which every invisible character is escaped, like [`visible`]. Line feeds and tabs are
+/// kept.
 pub fn visible_lines(text: &str) -> Cow<'_, str> {
     spelt_out(text, |character| is_invisible(character) && !matches!(character, '\n' | '\t'))
 }
@@ -312,8 +314,8 @@ fn spelt_out(text: &str, is_spelt: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// Prepares text for a CSV field, on one line ([`visible`]). A leading apostrophe keeps a spreadsheet from interpreting
-/// the text as a formula (OWASP, *CSV Injection*).
+/// Formats text for a CSV field, on one line ([`visible`]). A leading apostrophe keeps a spreadsheet from
+/// interpreting the text as a formula (OWASP, *CSV Injection*).
 pub fn in_csv(text: &str) -> String {
     let starts =
         |text: &str| text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
@@ -322,7 +324,7 @@ pub fn in_csv(text: &str) -> String {
     format!("{}{}", if is_formula { "'" } else { "" }, visible(text))
 }
 
-/// Escapes the special characters of LaTeX.
+/// Escapes the characters that are special in LaTeX.
 fn latex(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in visible(text).chars() {
@@ -331,7 +333,7 @@ fn latex(text: &str) -> String {
             '~' => out += "\\textasciitilde{}",
             '^' => out += "\\textasciicircum{}",
             '&' | '%' | '$' | '#' | '_' | '{' | '}' => out.extend(['\\', character]),
-            // At the start of a row, a bracket would be read as an option of the previous line.
+            // At the start of a row, LaTeX would interpret a bracket as an option of the previous line.
             '[' => out += "{[}",
             ']' => out += "{]}",
             '<' => out += "\\textless{}",
@@ -373,7 +375,8 @@ mod tests {
         check("a\n# b\u{1b}[2J", "a\\\\n# b\\\\u{1b}\\[2J");
     }
 
-    /// Names from files neither break lines nor change the direction of text, and terminals do not interpret them.
+    /// Names from files neither break lines nor change the direction of text, and terminals do not interpret
+    /// them.
     #[test]
     fn invisible_characters_are_spelt_out_everywhere() {
         let name = "a\nb\u{1b}[2J\u{9b}\u{202e}\u{2028}";

@@ -1,10 +1,10 @@
 //! The chi-squared distribution (K. Pearson, "On the criterion that a given system of deviations …", 1900).
 
-/// Returns the probability that a chi-squared variable with `df` degrees of freedom is at least `value`, by the
-/// finite series for whole degrees of freedom (M. Abramowitz and I. A. Stegun, *Handbook of Mathematical Functions*,
-/// 1964, 26.4.4 and 26.4.5). The result is bit-identical on every machine. Cost: O(`df`).
+/// Returns the probability that a chi-squared variable with `df` degrees of freedom is at least `value`.
 ///
-/// NaN if `df` is 0 or if `value` is NaN.
+/// The probability is computed by the finite series for whole degrees of freedom (M. Abramowitz and I. A.
+/// Stegun, *Handbook of Mathematical Functions*, 1964, 26.4.4 and 26.4.5). The result is bit-identical on
+/// every machine. Returns NaN if `df` is 0 or if `value` is NaN. Cost: O(`df`).
 ///
 /// ```
 /// use infinite_arcade_statistics::chi_squared_p;
@@ -18,7 +18,8 @@ pub fn chi_squared_p(value: f64, df: u64) -> f64 {
         return 1.0;
     }
     let half = value / 2.0;
-    // The density's terms x^k e^(−x) / Γ(k + 1), from k = 0, or from k = 1/2 for odd degrees of freedom.
+    // The terms of the series are x^k e^(−x) / Γ(k + 1). The series begins at k = 0, or at k = 1/2 for odd
+    // degrees of freedom.
     let is_odd = df % 2 == 1;
     let root = half.sqrt();
     let (mut sum, mut k) = if is_odd { (libm::erfc(root), 0.5) } else { (0.0, 0.0) };

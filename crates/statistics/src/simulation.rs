@@ -1,5 +1,6 @@
-//! Simulated evaluations under the model of [`Design`], which measure the coverage of intervals and the error rates
-//! of tests. `cargo xtask simulate` prints full tables; the tests of this crate run small simulations.
+//! Simulated evaluations under the model of [`Design`]. They measure the coverage of intervals and the error
+//! rates of tests. `cargo xtask simulate` prints full tables, and the tests of this crate run small
+//! simulations.
 
 use crate::comparisons::stratified::{Stratum, stratified};
 use crate::intervals::clustered::clustered_mean;
@@ -8,39 +9,41 @@ use crate::intervals::wilson::{Z95, wilson};
 use crate::planning::design::{Design, Spread, logistic};
 use crate::planning::draws::Draws;
 
-/// The fractions of simulated evaluations whose nominal 95% interval contains the true win rate.
+/// The coverage of several intervals, which is the fraction of simulated evaluations whose nominal 95%
+/// interval contains the true win rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coverage {
     /// The coverage of [`rate_over_games`].
     pub over_games: f64,
     /// The coverage of the percentile bootstrap over whole games.
     pub bootstrap: f64,
-    /// The coverage of [`wilson`] with episodes treated as independent.
+    /// The coverage of [`wilson`], which treats episodes as independent.
     pub episodes: f64,
 }
 
-/// The fractions of simulated evaluations in which a test at 5% distinguishes two players.
+/// The power of several tests, which is the fraction of simulated evaluations in which a test at the 5% level
+/// distinguishes two players.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detections {
-    /// The fraction for [`paired_over_games`].
+    /// The power of [`paired_over_games`].
     pub over_games: f64,
-    /// The fraction for the exact test within levels, [`stratified`].
+    /// The power of the exact test within levels, [`stratified`].
     pub within_levels: f64,
 }
 
-/// The dependence between a player's episodes on the same level.
+/// The dependence between the episodes of a player on the same level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Episodes {
-    /// The episodes are independent, given the probability to win.
+    /// The episodes are independent for a given probability of winning.
     Independent,
-    /// The episodes are copies of the first, as for a greedy player on a deterministic level.
+    /// All episodes are copies of the first one, as for a greedy player on a deterministic level.
     Copies,
 }
 
 /// The number of bootstrap resamples.
 const RESAMPLES: usize = 400;
 
-/// A stream of evaluations that is determined by its seed.
+/// A random stream of evaluations that is determined by its seed.
 pub struct Simulation {
     draws: Draws,
     design: Design,
@@ -53,7 +56,8 @@ impl Simulation {
         Simulation { draws: Draws::new(seed), design, spread }
     }
 
-    /// Returns the coverage for a player with this win rate. Cost: O(trials · (episodes + games · resamples)).
+    /// Returns the coverage of the intervals for a player with the given win rate.
+    /// Cost: O(trials · (episodes + games · resamples)).
     pub fn coverage(&mut self, rate: f64, trials: u64) -> Coverage {
         let ability = self.spread.ability(rate);
         let mut covered = [0u64; 3];
@@ -84,7 +88,8 @@ impl Simulation {
         Coverage { over_games, bootstrap, episodes }
     }
 
-    /// Returns how often two players with these win rates are distinguished. Cost: O(trials · episodes²).
+    /// Returns the fraction of evaluations in which two players with the given win rates are distinguished.
+    /// Cost: O(trials · episodes²).
     pub fn detections(&mut self, rates: [f64; 2], episodes: Episodes, trials: u64) -> Detections {
         let abilities = rates.map(|rate| self.spread.ability(rate));
         let mut found = [0u64; 2];
@@ -106,7 +111,7 @@ impl Simulation {
         Detections { over_games, within_levels }
     }
 
-    /// Simulates an evaluation of two players, and returns the results on the levels of each game.
+    /// Simulates an evaluation of two players. Returns the results on the levels of each game.
     fn evaluation(&mut self, abilities: [f64; 2], episodes: Episodes) -> Vec<Vec<Stratum>> {
         let Design { games, levels, runs } = self.design;
         let game = |this: &mut Simulation| {
@@ -137,7 +142,7 @@ mod tests {
         Simulation::new(Design { games, levels: 5, runs: 5 }, Spread { matches, ..Spread::default() }, 30)
     }
 
-    /// The fraction over a thousand evaluations has a standard error of 0.7 points at 95%.
+    /// A fraction of 95% over a thousand evaluations has a standard error of 0.7 percentage points.
     #[test]
     fn intervals_cover_from_six_games_on() {
         for (rate, games) in [(0.07, 6), (0.07, 18), (0.5, 6), (0.5, 18), (0.9, 6), (0.9, 30)] {
@@ -147,8 +152,8 @@ mod tests {
         }
     }
 
-    /// The limit is five points plus two standard errors of 0.7. The test within levels makes claims about these
-    /// levels only.
+    /// The limit is five points plus two standard errors of 0.7 points. The test within levels makes claims
+    /// only about the played levels.
     #[test]
     fn equal_players_are_seldom_told_apart() {
         for (games, episodes) in [(6, Episodes::Independent), (18, Episodes::Copies)] {

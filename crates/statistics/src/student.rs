@@ -1,15 +1,14 @@
 //! Student's t distribution ("Student", "The probable error of a mean", 1908).
 //!
-//! Unlike in the rest of this crate, p-values come from a library that uses the platform's logarithm, so their last
-//! digits may differ between machines. They are meant for reports, never for minted content. Quantiles for intervals
-//! are the same on every machine, see [`student_quantile`].
+//! P-values come from a library that uses the platform's logarithm, so their last digits may differ between
+//! machines. They are intended for reports, and must not be used in minted content. Quantiles for intervals
+//! are the same on every machine (see [`student_quantile`]).
 
 use statrs::function::beta::beta_reg;
 
-/// Returns the probability that a t variable with `df` degrees of freedom is at least as far from 0 as `t`, which is
-/// the two-sided p-value. Tiny values keep their relative precision. Cost: O(1).
-///
-/// NaN if `t` is NaN, or if `df` is not positive and finite.
+/// Returns the two-sided p-value of `t`, which is the probability that a t variable with `df` degrees of
+/// freedom is at least as far from 0. Tiny values keep their relative precision. Returns NaN if `t` is NaN,
+/// or if `df` is not positive and finite. Cost: O(1).
 ///
 /// ```
 /// use infinite_arcade_statistics::student_p;
@@ -22,18 +21,19 @@ pub fn student_p(t: f64, df: f64) -> f64 {
     if t.is_infinite() {
         return 0.0;
     }
-    // The tail is computed directly, because 1 minus the rest would lose all digits.
+    // The tail is computed directly, because subtracting the rest from 1 would lose all digits.
     beta_reg(df / 2.0, 0.5, df / (df + t * t)).clamp(0.0, 1.0)
 }
 
-/// Returns the t with `df` degrees of freedom that is exceeded in absolute value with probability `p`: 2.57 for a `p`
-/// of 0.05 and a `df` of 5. Cost: about sixty evaluations of [`student_p`], or O(`df`).
+/// Returns the value that a t variable with `df` degrees of freedom exceeds in absolute value with
+/// probability `p`. For example, the value is 2.57 for a `p` of 0.05 and a `df` of 5. Returns NaN if `p` is
+/// not within 0..1, or if `df` is not positive and finite.
 ///
-/// For a whole `df` up to a million and `p` from 0.0001 on, as in the intervals of releases, the result is
-/// bit-identical on every machine. It comes from the finite series for whole degrees of freedom (M. Abramowitz and I.
-/// A. Stegun, *Handbook of Mathematical Functions*, 1964, 26.7.3 and 26.7.4), which lose digits for smaller `p`.
-///
-/// NaN if `p` is not within 0..1, or if `df` is not positive and finite.
+/// The result is bit-identical on every machine for a whole `df` up to a million and `p` from 0.0001 on. The
+/// intervals of releases are within this range, in which the result comes from the finite series for whole
+/// degrees of freedom (M. Abramowitz and I. A. Stegun, *Handbook of Mathematical Functions*, 1964, 26.7.3 and
+/// 26.7.4). The series loses digits for smaller `p`. Cost: about sixty evaluations of [`student_p`], or
+/// O(`df`).
 ///
 /// ```
 /// use infinite_arcade_statistics::student_quantile;
@@ -49,7 +49,7 @@ pub fn student_quantile(p: f64, df: f64) -> f64 {
     while tail(high) > p && high < f64::MAX / 4.0 {
         high *= 2.0;
     }
-    // Bisect until the middle equals one of the ends.
+    // The bisection ends when the middle equals one of the ends.
     let mut low = 0.0;
     loop {
         let middle = (low + high) / 2.0;
@@ -64,12 +64,13 @@ pub fn student_quantile(p: f64, df: f64) -> f64 {
     }
 }
 
-/// Returns the two-sided p-value for whole degrees of freedom. The error is about one rounding per degree of freedom.
+/// Returns the two-sided p-value for whole degrees of freedom. The result has an error of about one rounding
+/// error per degree of freedom.
 fn series(t: f64, df: f64) -> f64 {
     let square = df / (df + t * t);
     let sine = t / (df + t * t).sqrt();
     let is_odd = df % 2.0 == 1.0;
-    // The powers of the squared cosine, each with its factor.
+    // Each term is a power of the squared cosine, multiplied by its factor.
     let (mut term, mut sum) = (1.0, 0.0);
     let mut at = if is_odd { 1.0 } else { 0.0 };
     while at < df - 1.0 {
@@ -94,19 +95,20 @@ mod tests {
         assert!((found - expect).abs() <= 1e-8 * expect, "t {t}, df {df}: {found}, not {expect}");
     }
 
-    /// The vectors of `spec/06` §3.1 (0.00488943 and 0.234674), with more digits from decimal arithmetic.
+    /// The test vectors are those of `spec/06` §3.1 (0.00488943 and 0.234674). More digits were computed with
+    /// decimal arithmetic.
     #[test]
     fn published_vectors() {
         check(2.83, 400.0, 0.00488943350331646);
         check(-1.19, 450.0, 0.234673825204481);
     }
 
-    /// With one and with two degrees of freedom, there are closed formulas.
+    /// For one and for two degrees of freedom, there are closed formulas.
     #[test]
     fn formulas() {
         check(1.0, 1.0, 0.5);
         for t in [0.1, 1.5, 7.0, 1000.0] {
-            // This is 1 − s without cancellation.
+            // This expression equals 1 − s without cancellation.
             let root: f64 = t * t + 2.0;
             check(t, 2.0, 2.0 / (root + t * root.sqrt()));
         }
@@ -118,7 +120,7 @@ mod tests {
         assert_eq!(student_p(f64::NEG_INFINITY, 7.0), 0.0);
     }
 
-    /// The 97.5% points of printed tables.
+    /// The expected values are the 97.5% points of printed tables.
     #[test]
     fn quantiles() {
         for (df, expect) in [(1.0, 12.7062047), (2.0, 4.30265273), (5.0, 2.57058184), (29.0, 2.04522964)] {

@@ -1,11 +1,12 @@
-//! Summaries of a sample of scores in five numbers.
+//! Summarises a sample of scores in five numbers.
 
-/// The count, mean, extremes and median of a sample.
+/// A summary of a sample, with its count, mean, extremes and median.
 ///
-/// The summary does not depend on the order of the values, so shards and threads may deliver them in any order.
+/// The summary does not depend on the order of the values, so shards and threads may deliver the values in
+/// any order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// The number of values, at least 1.
+    /// The number of values, which is at least 1.
     pub count: usize,
     /// The arithmetic mean, within `min..=max`.
     pub mean: f64,
@@ -13,17 +14,18 @@ pub struct Summary {
     pub min: f64,
     /// The largest value.
     pub max: f64,
-    /// The middle value, or the mean of the middle two.
+    /// The middle value, or the mean of the two middle values.
     pub median: f64,
 }
 
 impl Summary {
-    /// Returns the summary of `values`, or `None` if there are no values or a value is not finite, because no number
-    /// would be correct, and "missing" is not 0.
+    /// Returns the summary of `values`. Returns `None` if there are no values, or if a value is not finite,
+    /// because then no summary would be correct.
     ///
-    /// The mean is the sum divided by the count. The values are added one by one from the smallest to the largest
-    /// (`f64::total_cmp`). Values are expected to stay far enough below `f64::MAX` for a finite sum. If the sum is
-    /// infinite, the mean and the median are the extreme of that sign. Cost: O(n log n) and one copy.
+    /// The mean is the sum divided by the count. The values are added one by one from the smallest to the
+    /// largest (`f64::total_cmp`). Values are expected to be far enough below `f64::MAX` for a finite sum. If
+    /// the sum is infinite, the mean and the median are the extreme with the same sign. Cost: O(n log n) and
+    /// one copy.
     pub fn of(values: &[f64]) -> Option<Summary> {
         if !values.iter().all(|value| value.is_finite()) {
             return None;
@@ -33,7 +35,7 @@ impl Summary {
         let (min, max) = (*sorted.first()?, *sorted.last()?);
         let count = sorted.len();
         let sum = sorted[1..].iter().fold(min, |sum, value| sum + value);
-        // A mean beyond the extremes is a rounding error: three times 0.1 exceeds 0.3.
+        // A mean beyond the extremes is a rounding error. For example, three times 0.1 exceeds 0.3.
         let mean = (sum / count as f64).clamp(min, max);
         let (below, above) = (sorted[(count - 1) / 2], sorted[count / 2]);
         let median = if count % 2 == 1 { below } else { ((below + above) / 2.0).clamp(below, above) };
@@ -67,7 +69,7 @@ mod tests {
         }
     }
 
-    /// If summed in the given order, the mean would depend on the order.
+    /// If the values were summed in the given order, the mean would depend on that order.
     #[test]
     fn order_does_not_matter() {
         let values = [1e16, 1.0, -1e16, 1.0, 0.1, 0.7];
@@ -79,14 +81,14 @@ mod tests {
             turned.reverse();
             assert_eq!(Summary::of(&turned), Some(expect));
         }
-        // Summed from the smallest, -1e16 absorbs the small values one by one. In the given order, the sum would be
-        // 1.8.
+        // If the values are summed from the smallest, -1e16 absorbs the small values one by one. In the given
+        // order, the sum would be 1.8.
         assert_eq!(expect.mean, 0.0);
     }
 
     #[test]
     fn the_mean_stays_between_the_extremes() {
-        // (0.1 + 0.1 + 0.1) / 3.0 is 0.10000000000000002.
+        // The computed value of (0.1 + 0.1 + 0.1) / 3.0 is 0.10000000000000002.
         check(&[0.1; 3], 0.1, 0.1, 0.1, 0.1);
         check(&[f64::MAX; 2], f64::MAX, f64::MAX, f64::MAX, f64::MAX);
     }

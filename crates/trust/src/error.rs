@@ -4,18 +4,18 @@ use base::MessagePath;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A reason why an operation fails.
+/// The reason why an operation of this crate failed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrustError {
-    /// The file system refuses.
+    /// A file or folder cannot be accessed.
     #[error("cannot {action} `{}`", path.in_message())]
     Io {
-        /// The verb of the failed operation.
+        /// The verb for the failed operation.
         action: &'static str,
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
-        /// The cause.
+        /// The error of the file system.
         source: io::Error,
     },
     /// A text is not a key.
@@ -24,9 +24,9 @@ pub enum TrustError {
     /// A document is malformed.
     #[error("`{place}`: {fault}")]
     Document {
-        /// The file.
+        /// The name of the document.
         place: String,
-        /// The fault, and the recommended next step.
+        /// A sentence about the fault, and the recommended next step.
         fault: String,
     },
     /// A request cannot be fulfilled.
@@ -35,7 +35,7 @@ pub enum TrustError {
 }
 
 impl TrustError {
-    /// Returns a function that converts an I/O error of an operation.
+    /// Returns a function that converts the I/O error of an operation on a path.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> TrustError {
         let path = path.to_path_buf();
         move |source| TrustError::Io { action, path, source }

@@ -1,4 +1,4 @@
-//! Ed25519 keys in minisign files.
+//! Ed25519 keys and signatures in minisign files.
 
 use crate::error::TrustError;
 use minisign::{KeyPair, SecretKeyBox, SignatureBox};
@@ -8,23 +8,23 @@ use std::io::Cursor;
 /// The maximum size of a key or signature file, in bytes.
 pub const MAX_KEY_FILE: u64 = 4096;
 
-/// A public key.
+/// A public key for verifying signatures.
 #[derive(Clone, PartialEq, Eq)]
 pub struct PublicKey(minisign::PublicKey);
 
-/// A secret key, decrypted.
+/// A decrypted secret key for signing.
 #[derive(Clone)]
 pub struct SecretKey(minisign::SecretKey);
 
-/// The contents of a new key's files.
+/// A new public key, and the content of its secret file.
 pub struct NewKey {
-    /// The public key.
+    /// The new public key.
     pub public: PublicKey,
-    /// The content of the secret file.
+    /// The content of the file with the secret key.
     pub secret_file: String,
 }
 
-/// Generates a key. The secret file is encrypted if a password is given.
+/// Generates a key. If a password is given, the secret file is encrypted.
 ///
 /// # Errors
 /// Returns an error if the system provides no random bytes, or if the password is too long.
@@ -43,7 +43,7 @@ pub fn generate(password: Option<&str>) -> Result<NewKey, TrustError> {
 }
 
 impl PublicKey {
-    /// Parses the content of a public key file, or only its base64 line.
+    /// Parses the content of a public key file, or the base64 line of the file alone.
     ///
     /// # Errors
     /// Returns an error if the text is not a minisign public key.
@@ -63,7 +63,7 @@ impl PublicKey {
         }
     }
 
-    /// Returns the identifier as minisign prints it: 16 hexadecimal digits.
+    /// Returns the key's identifier as 16 hexadecimal digits, as minisign prints it.
     pub fn id(&self) -> String {
         id(self.0.keynum())
     }
@@ -78,10 +78,10 @@ impl PublicKey {
         format!("untrusted comment: minisign public key {}\n{}\n", self.id(), self.to_base64())
     }
 
-    /// Checks a minisign signature of a message, and returns its trusted comment.
+    /// Checks a minisign signature of a message, and returns the trusted comment of the signature.
     ///
     /// # Errors
-    /// Returns the fault as a sentence.
+    /// Returns a sentence about the fault.
     pub fn verify(&self, message: &[u8], signature: &str) -> Result<String, String> {
         let found = parse_signature(signature)?;
         minisign::verify(&self.0, &found, Cursor::new(message), true, false, false)
@@ -95,7 +95,7 @@ impl PublicKey {
         ed25519_compact::Signature::from_slice(signature).is_ok_and(|s| key.verify(message, &s).is_ok())
     }
 
-    /// Returns the 32 bytes of the point.
+    /// Returns the 32 bytes of the key's curve point.
     pub(crate) fn point(&self) -> [u8; 32] {
         let bytes = self.0.to_bytes();
         bytes[bytes.len() - 32..].try_into().expect("a public key ends with 32 bytes")
@@ -111,12 +111,12 @@ impl fmt::Debug for PublicKey {
 const NOT_PUBLIC: &str = "not a minisign public key: use the file `NAME.pub` that `arcade trust keygen` or \
                           `minisign -G` wrote";
 
-/// Parses a signature. Only one textual form is accepted.
+/// Parses a signature. Each signature has only one accepted textual form.
 fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     if text.len() as u64 > MAX_KEY_FILE {
         return Err("it is not a minisign signature: it is too long".to_owned());
     }
-    // Different programs write different comments, but the same lines.
+    // Different programs write different comments, but the same signature lines.
     let found = SignatureBox::from_string(text).map_err(|error| error.to_string().to_lowercase())?;
     match found.to_string().trim_end() == text.replace("\r\n", "\n").trim_end() {
         true => Ok(found),
@@ -124,7 +124,7 @@ fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     }
 }
 
-/// Returns the identifier of the key that a signature states, without checking the signature.
+/// Returns the identifier of the key that a signature names, without checking the signature.
 pub(crate) fn signer_of(signature: &str) -> Option<String> {
     parse_signature(signature).ok().map(|found| id(found.keynum()))
 }
@@ -136,13 +136,14 @@ fn id(keynum: &[u8]) -> String {
 /// Returns `true` if the content of a secret file is encrypted.
 ///
 /// # Errors
-/// Returns an error if the content is not a key's secret file.
+/// Returns an error if the content is not that of a secret key's file.
 pub fn is_encrypted(secret_file: &str) -> Result<bool, TrustError> {
     let bytes = secret_bytes(secret_file)?;
     Ok(bytes[2..4] == *b"Sc")
 }
 
-/// Decodes the bytes of a secret file: algorithm, key derivation, checksum, salt, limits, identifier, key, checksum.
+/// Decodes the bytes of a secret file. They contain the algorithm, the key derivation, the checksum
+/// algorithm, the salt, the limits, the identifier, the key and the checksum.
 fn secret_bytes(secret_file: &str) -> Result<Vec<u8>, TrustError> {
     use base64::Engine;
     let line = secret_file.lines().nth(1).unwrap_or_default().trim();
@@ -158,20 +159,21 @@ fn secret_bytes(secret_file: &str) -> Result<Vec<u8>, TrustError> {
 }
 
 const SECRET_BYTES: usize = 158;
-/// The position of the key's 64 bytes among the bytes of a secret file.
+/// The position of the key's 64 bytes in the bytes of a secret file.
 const SECRET_KEY_AT: usize = 62;
 
 impl SecretKey {
-    /// Opens the content of a secret file.
+    /// Decrypts a secret key from the content of its file.
     ///
     /// # Errors
-    /// Returns an error if the content is not a key's secret file, if it is encrypted and no password is given, or if
-    /// the password is wrong.
+    /// Returns an error if the content is not that of a secret key's file, if the key is encrypted and no
+    /// password is given, or if the password is wrong.
     pub fn open(secret_file: &str, password: Option<&str>) -> Result<SecretKey, TrustError> {
         let bytes = secret_bytes(secret_file)?;
         let failed = |error: minisign::PError| TrustError::Key(error.to_string().to_lowercase());
         let key = match (is_encrypted(secret_file)?, password) {
-            // Not parsed as a box, which requires a checksum that the C program omits from such files.
+            // The file is not parsed as a box, because a box must have a checksum, which the C program omits
+            // from such files.
             (false, _) => minisign::SecretKey::from_bytes(&bytes).map_err(failed)?,
             (true, Some(password)) => SecretKeyBox::from_string(secret_file)
                 .and_then(|found| found.into_secret_key(Some(password.to_owned())))
@@ -179,7 +181,7 @@ impl SecretKey {
             (true, None) => return Err(TrustError::Key("the secret key requires a password".to_owned())),
         };
         let key = SecretKey(key);
-        // The second half of the key follows from the first half.
+        // The second half of the key is derived from the first half.
         let seed = ed25519_compact::Seed::from_slice(&key.bytes()[..32]).expect("32 bytes");
         let point = ed25519_compact::KeyPair::from_seed(seed).pk;
         match *point == key.bytes()[32..] {
@@ -188,7 +190,7 @@ impl SecretKey {
         }
     }
 
-    /// Returns the 64 bytes of the key.
+    /// Returns the 64 bytes of the secret key.
     fn bytes(&self) -> [u8; 64] {
         self.0.to_bytes()[SECRET_KEY_AT..SECRET_KEY_AT + 64].try_into().expect("64 bytes")
     }
@@ -198,7 +200,7 @@ impl SecretKey {
         PublicKey(minisign::PublicKey::from_secret_key(&self.0).expect("the key was read"))
     }
 
-    /// Signs a message, and returns the content of a `.minisig` file.
+    /// Signs a message. Returns the content of a `.minisig` file.
     ///
     /// # Errors
     /// Returns an error if the system provides no random bytes.
@@ -210,7 +212,7 @@ impl SecretKey {
         Ok(signed.map_err(failed)?.into_string())
     }
 
-    /// Signs a message, and returns the 64 bytes of a bare Ed25519 signature, which is deterministic.
+    /// Signs a message. Returns the 64 bytes of a bare Ed25519 signature. The signature is deterministic.
     pub fn sign_bare(&self, message: &[u8]) -> [u8; 64] {
         let key = ed25519_compact::SecretKey::from_slice(&self.bytes()).expect("64 bytes");
         *key.sign(message, None)
@@ -227,7 +229,7 @@ impl fmt::Debug for SecretKey {
 mod tests {
     use super::*;
 
-    /// The example key and signature that the authors of minisign publish.
+    /// The key and signature are the example that the authors of minisign publish.
     #[test]
     fn files_of_minisign_are_read() {
         let public = "untrusted comment: minisign public key E7620F1842B4E81F\n\
@@ -277,7 +279,7 @@ mod tests {
         assert!(new.public.verify(b"x", &signature).is_ok());
     }
 
-    /// An unencrypted key that the C program wrote (`minisign -G -W`, 0.11), with a checksum of zero.
+    /// The key was written unencrypted by the C program (`minisign -G -W`, 0.11). Its checksum is zero.
     #[test]
     fn unencrypted_keys_of_minisign_are_read() {
         let file = "untrusted comment: minisign secret key\nRWQAAEIyAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAADegafHvtXWV820KbUwav+ci2ohY43Mz7uULM5bq1z92Q0FRBjBj1v6IaKXeR3OHhv8j550W5XAb65Cyuvv7OQAYMrWLWMww8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA=\n";

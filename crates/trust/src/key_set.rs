@@ -1,7 +1,9 @@
-//! Sets of keys, which determine who may sign for a publisher, how many keys must sign, and which keys are revoked.
+//! Sets of keys. A set determines who may sign for a publisher, how many keys must sign, and which keys are
+//! revoked.
 //!
-//! A set is a file `keys-N.json` of canonical JSON. Each set states the digest of the previous one, and is signed by
-//! enough keys of both. Whoever knows one set can therefore follow all later ones.
+//! A set is stored in a file `keys-N.json` of canonical JSON. Each set contains the digest of the previous
+//! set, and must be signed by sufficiently many keys of both sets. Therefore, a reader who trusts one set can
+//! verify all later sets.
 
 use crate::error::TrustError;
 use crate::key::PublicKey;
@@ -10,34 +12,34 @@ use base::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The maximum number of keys in a set, and of its revoked keys.
+/// The maximum number of keys in a set, and the maximum number of its revoked keys.
 pub const MAX_KEYS: usize = 64;
-/// The version of the format.
+/// The version of the format of key sets.
 const FORMAT: u32 = 1;
 
 /// A set of keys that may sign.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeySet {
-    /// The version of this format: 1.
+    /// The version of this format, which is 1.
     pub format: u32,
-    /// The number of the set, counted from 1.
+    /// The number of the set. The first set has number 1.
     pub version: u32,
     /// The number of keys that must sign.
     pub threshold: u32,
-    /// The keys.
+    /// The keys that may sign.
     pub keys: Vec<NamedKey>,
-    /// The revoked keys, which do not count regardless of their signatures.
+    /// The revoked keys. Their signatures do not count.
     pub revoked: Vec<RevokedKey>,
-    /// The digest of the previous set's file; `None` for the first set.
+    /// The digest of the previous set's file, or `None` for the first set.
     pub previous: Option<Digest>,
 }
 
-/// A key of a set with the name of its holder.
+/// A key of a set, with the name of its holder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NamedKey {
-    /// The name of the key's holder: lower-case letters, digits and `-`.
+    /// The name of the key's holder, which consists of lower-case letters, digits and `-`.
     pub name: String,
     /// The public key, in minisign's base64 form.
     pub key: String,
@@ -56,10 +58,10 @@ pub struct RevokedKey {
 }
 
 impl KeySet {
-    /// Makes the set that follows `previous`, or the first set.
+    /// Creates the set that follows `previous`, or the first set if there is no previous set.
     ///
     /// # Errors
-    /// Returns an error if the resulting set is unsound.
+    /// Returns an error if the resulting set is invalid.
     pub fn next(
         previous: Option<&KeySet>,
         threshold: Option<u32>,
@@ -91,14 +93,14 @@ impl KeySet {
     /// Parses and checks the file of a set.
     ///
     /// # Errors
-    /// Returns an error if the file is not a set, or if the set is unsound.
+    /// Returns an error if the file does not contain a set of keys, or if the set is invalid.
     pub fn parse(bytes: &[u8], place: &str) -> Result<KeySet, TrustError> {
         let set: KeySet = canonical(bytes, place)?;
         set.check().map_err(|fault| TrustError::document(place, fault))?;
         Ok(set)
     }
 
-    /// Checks the values of the set.
+    /// Checks the values of the set, and returns a sentence about the first fault.
     fn check(&self) -> Result<(), String> {
         if self.format != FORMAT {
             return Err(format!("has format {}; this arcade reads format {FORMAT}", self.format));
@@ -146,30 +148,30 @@ impl KeySet {
         Ok(())
     }
 
-    /// Returns the bytes of the file, which are the signed bytes.
+    /// Returns the bytes of the set's file, which are the signed bytes.
     ///
     /// # Errors
-    /// Never fails for a set that was parsed or made here.
+    /// Never returns an error for a set that was parsed or created by this module.
     pub fn to_bytes(&self) -> Result<Vec<u8>, TrustError> {
         let text = to_canonical_json(self).map_err(|error| TrustError::Refused(error.to_string()))?;
         Ok(text.into_bytes())
     }
 
-    /// Returns the digest of the file.
+    /// Returns the digest of the set's file.
     ///
     /// # Errors
-    /// See [`KeySet::to_bytes`].
+    /// Returns an error in the same cases as [`KeySet::to_bytes`].
     pub fn digest(&self) -> Result<Digest, TrustError> {
         Ok(Digest::of(&self.to_bytes()?))
     }
 
-    /// Returns the name of the file.
+    /// Returns the name of the set's file.
     pub fn file(&self) -> String {
         format!("keys-{}.json", self.version)
     }
 
-    /// Returns the names of this set's keys that signed a message, and the faults of signatures that claim to be made
-    /// with them. Each key counts once.
+    /// Returns the names of this set's keys that have signed a message. Each key counts once. Also returns
+    /// the faults of invalid signatures that name a key of this set.
     pub fn signers(&self, message: &[u8], signatures: &[String]) -> Signers {
         let mut signers = Signers::default();
         for NamedKey { name, key } in &self.keys {
@@ -186,12 +188,13 @@ impl KeySet {
         signers
     }
 
-    /// Returns the revoked key with the same public key, if there is one.
+    /// Returns the revoked key that equals the given key, if there is one.
     fn revokes(&self, key: &NamedKey) -> Option<&RevokedKey> {
         self.revoked.iter().find(|revoked| revoked.key == key.key)
     }
 
-    /// Returns this set without the keys that a later set revokes, and the reason for each revocation.
+    /// Returns this set without the keys that a later set revokes. Also returns the reason for each
+    /// revocation.
     pub(crate) fn unrevoked(&self, later: &KeySet) -> (KeySet, Vec<String>) {
         let mut gone = Vec::new();
         let mut set = self.clone();
@@ -203,7 +206,7 @@ impl KeySet {
         (set, gone)
     }
 
-    /// Checks that the set `next` may follow this one, given the signatures of its file.
+    /// Checks that the set `next` may follow this set. `signatures` are the signatures of the file of `next`.
     ///
     /// # Errors
     /// Returns the reasons why the set may not follow.
@@ -236,28 +239,28 @@ impl KeySet {
     }
 }
 
-/// The result of checking the signatures of a message.
+/// The result of checking all signatures of a message.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Signers {
     /// The names of the keys whose signatures are valid.
     pub names: Vec<String>,
-    /// The faults of the other signatures.
+    /// The faults of the invalid signatures.
     pub faults: Vec<String>,
 }
 
 impl Signers {
-    /// Joins the names for a message.
+    /// Joins the names of the signers for a message.
     pub(crate) fn listed(&self) -> String {
         if self.names.is_empty() { "none".to_owned() } else { self.names.join(", ") }
     }
 
-    /// Joins the faults for the end of a message.
+    /// Formats the faults as the end of a message.
     pub(crate) fn excuse(&self) -> String {
         self.faults.iter().map(|fault| format!("; {fault}")).collect()
     }
 }
 
-/// Parses canonical JSON.
+/// Parses a document of canonical JSON.
 pub(crate) fn canonical<T: Serialize + for<'a> Deserialize<'a>>(
     bytes: &[u8],
     place: &str,

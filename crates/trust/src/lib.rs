@@ -1,11 +1,12 @@
-//! Trust between strangers: signed roots, sets of keys, and append-only logs.
+//! Trust between parties that do not know each other, through signed roots, sets of keys, and append-only
+//! logs.
 //!
-//! A publisher signs a [`Statement`] about the root of a release with keys in minisign files. A [`KeySet`] determines
-//! how many keys must sign, and which keys are revoked. [`Signatures`] judges the content of a folder, starting from
-//! an [`Anchor`] that its reader got from a different source. A [`log`] records in public the commitments and
-//! releases, in an order that nobody can change unnoticed.
+//! A publisher signs a [`Statement`] about the root of a release with keys in minisign files. A [`KeySet`]
+//! determines how many keys must sign, and which keys are revoked. [`Signatures`] checks the documents in a
+//! folder, based on an [`Anchor`] that the reader got from a different source. A [`log`] publicly records
+//! commitments and releases, in an order that nobody can change without detection.
 //!
-//! Nothing in this crate reads a clock. Every written file is either complete or absent: see [`disk::Disk`].
+//! Nothing in this crate reads a clock. Every written file is either complete or absent (see [`disk::Disk`]).
 
 mod beacon;
 mod error;

@@ -1,4 +1,5 @@
-//! A folder of statements, sets of keys and their signatures, which signers write and readers judge without trust.
+//! Folders of signed documents, which are statements and sets of keys. Signers write the documents, and
+//! readers check them without trusting the folder.
 
 use crate::error::TrustError;
 use crate::key::{MAX_KEY_FILE, PublicKey, SecretKey};
@@ -17,15 +18,15 @@ use std::path::Path;
 const MAX_FILES: usize = 1000;
 /// The maximum size of a document, in bytes.
 const MAX_DOCUMENT: u64 = 1 << 16;
-/// The suffix of a signature file's name.
+/// The suffix of the names of signature files.
 const SIGNATURE_END: &str = ".minisig";
 
-/// The root of trust, which a user gets from a different source.
+/// A root of trust, which a user must get from a different source than the signed documents.
 #[derive(Clone, Debug)]
 pub enum Anchor {
-    /// A single key, which must have signed.
+    /// A single key, which must sign every release.
     Key(PublicKey),
-    /// A set of keys, which later sets can follow.
+    /// A set of keys, which later sets can replace.
     Set(Box<KeySet>),
 }
 
@@ -33,7 +34,7 @@ impl Anchor {
     /// Parses a public key or a set of keys.
     ///
     /// # Errors
-    /// Returns an error if the bytes are neither.
+    /// Returns an error if the bytes are neither a public key nor a set of keys.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Anchor, TrustError> {
         const NEXT_STEP: &str =
             "pass the NAME.pub of `arcade trust keygen`, or the keys-N.json of `arcade trust keys`";
@@ -57,39 +58,40 @@ impl Anchor {
     }
 }
 
-/// The result of judging who signed a root.
+/// The result of checking who has signed a root.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Signed {
-    /// The names of the keys that signed, or the identifier of a single key.
+    /// The names of the keys that have signed, or the identifier of a single key.
     pub signers: Vec<String>,
     /// The number of keys that must sign.
     pub threshold: u32,
-    /// The number of the newest set of keys that was followed.
+    /// The number of the newest trusted set of keys, if the anchor is a set.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keys: Option<u32>,
-    /// The commit of the sources that the signed statement states.
+    /// The commit of the source code, as stated in the signed statement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The digest of `Cargo.lock` that the signed statement states, which no root covers.
+    /// The digest of `Cargo.lock`, as stated in the signed statement. No root covers this file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lockfile: Option<Digest>,
-    /// The reasons why the root is not signed as required; empty if it is.
+    /// The reasons why the root is not signed as required. The list is empty if the root is signed as
+    /// required.
     pub problems: Vec<String>,
 }
 
-/// The documents of a folder.
+/// The signed documents in a folder.
 #[derive(Clone, Debug, Default)]
 pub struct Signatures {
-    /// The sets of keys, by file name, or the fault of a set that cannot be read.
+    /// The sets of keys, by file name. If a set cannot be read, its fault is stored instead.
     sets: BTreeMap<String, Result<KeySet, String>>,
-    /// The statements, by file name, or the fault of a statement that cannot be read.
+    /// The statements, by file name. If a statement cannot be read, its fault is stored instead.
     statements: BTreeMap<String, Result<Statement, String>>,
     /// The signatures, by the name of the signed file.
     signatures: BTreeMap<String, Vec<String>>,
 }
 
 impl Signatures {
-    /// Reads the documents of a folder. Other files in it are ignored.
+    /// Reads the signed documents in a folder. Other files in the folder are ignored.
     ///
     /// # Errors
     /// Returns an error if the folder or a document cannot be read.
@@ -112,7 +114,8 @@ impl Signatures {
             let path = folder.join(&name);
             let bytes = read_bounded(&path, MAX_DOCUMENT)?;
             if let Some(signed) = name.strip_suffix(SIGNATURE_END) {
-                // Names have the form NAME.json.IDENTIFIER.minisig, or NAME.json.minisig as in minisign.
+                // Names of signature files have the form NAME.json.IDENTIFIER.minisig, or the form
+                // NAME.json.minisig that minisign uses.
                 let end = signed.find(".json").map_or(signed.len(), |at| at + ".json".len());
                 let text = String::from_utf8_lossy(&bytes).into_owned();
                 found.signatures.entry(signed[..end].to_owned()).or_default().push(text);
@@ -127,8 +130,8 @@ impl Signatures {
         Ok(found)
     }
 
-    /// Returns the files of the sets of keys up to a number, with their signatures. They can be copied in this order:
-    /// each set comes after its signatures.
+    /// Returns the files of all sets of keys up to the number `newest`, with their signatures. The files are
+    /// in a suitable order for copying, because each set comes after its signatures.
     ///
     /// # Errors
     /// Returns an error if the folder or a file cannot be read.
@@ -147,27 +150,28 @@ impl Signatures {
                 names.insert((number, !name.ends_with(SIGNATURE_END), name));
             }
         }
-        // The signatures come first, because `false` sorts before `true`.
+        // The signatures of a set come before the set, because `false` sorts before `true`.
         let read = |(_, _, name): (u32, bool, String)| {
             Ok((name.clone(), read_bounded(&folder.join(&name), MAX_DOCUMENT)?))
         };
         names.into_iter().map(read).collect()
     }
 
-    /// Returns the signatures of a document.
+    /// Returns the signatures of the document with the given file name.
     pub fn of(&self, file: &str) -> &[String] {
         self.signatures.get(file).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the set of keys with this number, which may come from anybody.
+    /// Returns the set of keys with the given number. The set is not trusted, because anyone may have written
+    /// it.
     pub fn set(&self, version: u32) -> Option<&KeySet> {
         self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
     }
 
-    /// Returns the newest set that follows from a trusted set.
+    /// Returns the newest set in the chain of valid sets that follow a trusted set.
     fn newest(&self, anchor: &KeySet, problems: &mut Vec<String>) -> KeySet {
         let mut newest = anchor.clone();
-        // This terminates, because each set has a higher number and its own file.
+        // The loop terminates, because each set has a higher number than the previous set, and its own file.
         while let Some(next) = self.sets.get(&format!("keys-{}.json", newest.version.saturating_add(1))) {
             match next {
                 Ok(next) => match newest.admits(next, self.of(&next.file())) {
@@ -186,7 +190,7 @@ impl Signatures {
         newest
     }
 
-    /// Returns the set with this number and digest, if it belongs to the history of `newest`, which is trusted.
+    /// Returns the set with the given number and digest, if it is an ancestor of the trusted set `newest`.
     fn ancestor(&self, newest: &KeySet, version: u32, digest: Digest) -> Option<KeySet> {
         let mut set = newest.clone();
         while set.version > version {
@@ -199,7 +203,7 @@ impl Signatures {
         (set.version == version && set.digest().ok()? == digest).then_some(set)
     }
 
-    /// Judges whether the root of a release is signed, as far as the holder of this anchor can verify.
+    /// Checks whether the root of a release is signed as required by the given anchor.
     pub fn judge(&self, release: &str, root: &Digest, anchor: &Anchor) -> Signed {
         let mut faults = Vec::new();
         let mut best: Option<Signed> = None;
@@ -229,10 +233,11 @@ impl Signatures {
         })
     }
 
-    /// Returns the digest of the statement about a root that has the most signatures; `None` if there is none.
+    /// Returns the digest of a statement about the given root, or `None` if there is no such statement. If
+    /// there are several statements, the one with the most signatures is used.
     ///
     /// # Errors
-    /// Never fails, because a statement is plain data.
+    /// Never returns an error, because a statement is plain data.
     pub fn statement_of(&self, root: &Digest) -> Result<Option<Digest>, TrustError> {
         let about = |(file, statement): (&String, &Result<Statement, String>)| {
             let statement = statement.as_ref().ok().filter(|statement| statement.root == *root)?;
@@ -242,7 +247,7 @@ impl Signatures {
         most.map(|(_, statement)| Ok(Digest::of(&statement.to_bytes()?))).transpose()
     }
 
-    /// Judges one statement of the folder like [`Signatures::judge`].
+    /// Checks a single statement of the folder, in the same way as [`Signatures::judge`].
     pub fn judge_file(&self, file: &str, anchor: &Anchor) -> Signed {
         match self.statements.get(file) {
             Some(Ok(statement)) => self.judge_statement(file, statement, anchor),
@@ -267,7 +272,7 @@ impl Signatures {
         let (set, newest) = match anchor {
             Anchor::Key(key) => {
                 let alone = single(key);
-                // A set that contains the key determines who may replace it.
+                // If a set contains the key, the set determines who may replace the key.
                 let sets = self.sets.values().filter_map(|set| set.as_ref().ok());
                 let with = sets.filter(|set| set.keys.iter().any(|named| named.key == key.to_base64()));
                 let newest = with.min_by_key(|set| set.version).map(|set| self.newest(set, &mut problems));
@@ -338,15 +343,17 @@ impl Signatures {
     }
 }
 
-/// Returns a set of one key, whose name is its identifier.
+/// Returns a set that contains a single key, whose name is its identifier.
 fn single(key: &PublicKey) -> KeySet {
     let keys = vec![NamedKey { name: key.id(), key: key.to_base64() }];
     KeySet { format: 1, version: 1, threshold: 1, keys, revoked: Vec::new(), previous: None }
 }
 
-/// Signs a document with each key, and writes the document into a folder. The signatures are written first and the
-/// document last, so that an existing document has all signatures of the run that wrote it. Existing valid signatures
-/// are kept. Returns the files written.
+/// Signs a document with each of the keys, and writes the document to a folder. Returns the names of the
+/// written files.
+///
+/// The signatures are written before the document. Therefore, a document that exists has all signatures of
+/// the run that wrote it. Existing valid signatures are kept.
 ///
 /// # Errors
 /// Returns an error if a file system operation fails, or if the system provides no random bytes.
@@ -381,7 +388,7 @@ pub fn sign_into(
     Ok(written)
 }
 
-/// Writes a whole file. Its folder is created if absent.
+/// Writes a file completely or not at all. The folder of the file is created if it does not exist.
 pub(crate) fn write_document(path: &Path, bytes: &[u8], disk: &Disk) -> Result<(), TrustError> {
     let written = disk.create_folder(path.parent().unwrap_or(Path::new("")));
     written.and_then(|()| disk.write(path, bytes, Access::Shared)).map_err(TrustError::io("write", path))
@@ -390,7 +397,7 @@ pub(crate) fn write_document(path: &Path, bytes: &[u8], disk: &Disk) -> Result<(
 /// Reads a file of at most `limit` bytes.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read, or is larger.
+/// Returns an error if the file cannot be read, or is larger than the limit.
 pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
     let shown = || path.in_message().to_string();
     match disk::read(path, limit) {

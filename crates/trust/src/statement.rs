@@ -1,5 +1,5 @@
-//! The statement that a publisher signs about a release: its name and root, the keys in force, and the software that
-//! made it.
+//! The statements that publishers sign about releases. A statement contains the name and root of a release,
+//! the keys in force, and the software that minted the release.
 
 use crate::error::TrustError;
 use crate::key_set::canonical;
@@ -14,46 +14,46 @@ const FORMAT: u32 = 1;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Statement {
-    /// The version of this format: 1.
+    /// The version of this format, which is 1.
     pub format: u32,
     /// The name of the release.
     pub release: String,
     /// The root of the release.
     pub root: Digest,
-    /// The set of keys in force; `None` if a single key signs.
+    /// The set of keys in force, or `None` if the publisher signs with a single key.
     pub keys: Option<KeysInForce>,
-    /// The software that made the release.
+    /// The software that minted the release.
     pub provenance: Provenance,
 }
 
-/// A reference to a set of keys.
+/// A reference to the set of keys in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeysInForce {
     /// The number of the set.
     pub version: u32,
-    /// The digest of the set's file.
+    /// The digest of the file of the set.
     pub digest: Digest,
 }
 
-/// The software that made a release.
+/// The software with which a release was minted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// The version of arcade that the manifest states, such as `0.13.0`.
+    /// The version of arcade that the release's manifest states, such as `0.13.0`.
     pub version: Option<String>,
-    /// The generation of the generators.
+    /// The version of the generators (their generation).
     pub generation: u32,
-    /// The semantics of the engine.
+    /// The version of the engine's semantics.
     pub semantics: u32,
     /// The digest of `Cargo.lock`.
     pub lockfile: Digest,
-    /// The commit of the sources, according to the publisher.
+    /// The commit of the source code, as stated by the publisher.
     pub commit: Option<String>,
 }
 
 impl Statement {
-    /// Makes a statement about a release.
+    /// Creates a statement about a release.
     pub fn new(
         release: String,
         root: Digest,
@@ -66,7 +66,7 @@ impl Statement {
     /// Parses the file of a statement.
     ///
     /// # Errors
-    /// Returns an error if the bytes are not a statement.
+    /// Returns an error if the bytes are not a valid statement.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Statement, TrustError> {
         let statement: Statement = canonical(bytes, place)?;
         match statement.format {
@@ -77,25 +77,26 @@ impl Statement {
         }
     }
 
-    /// Returns the bytes of the file, which are the signed bytes.
+    /// Returns the bytes of the statement's file, which are the signed bytes.
     ///
     /// # Errors
-    /// Never fails, because a statement is plain data.
+    /// Never returns an error, because a statement is plain data.
     pub fn to_bytes(&self) -> Result<Vec<u8>, TrustError> {
         let text = to_canonical_json(self).map_err(|error| TrustError::Refused(error.to_string()))?;
         Ok(text.into_bytes())
     }
 
-    /// Returns the name of the file, which contains a digest. Different statements therefore have different files,
-    /// and a signature is never beside a statement that it does not belong to.
+    /// Returns the name of the statement's file, which contains a digest of the statement. Therefore,
+    /// different statements have different files, and a signature never gets mixed up with a different
+    /// statement.
     ///
     /// # Errors
-    /// See [`Statement::to_bytes`].
+    /// Returns an error in the same cases as [`Statement::to_bytes`].
     pub fn file(&self) -> Result<String, TrustError> {
         Ok(format!("root-{}.json", &Digest::of(&self.to_bytes()?).to_string()[..16]))
     }
 
-    /// Returns the comment in the statement's signatures, for human readers.
+    /// Returns the comment for people that is part of the statement's signatures.
     pub fn comment(&self) -> String {
         format!("release {} root {}", self.release, self.root)
     }

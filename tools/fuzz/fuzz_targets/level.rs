@@ -1,4 +1,4 @@
-//! Treats any bytes as a level of a valid game: parses and starts it, and plays a few ticks.
+//! Interprets arbitrary bytes as a level of a valid game. Parses the level, starts it, and plays a few ticks.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

@@ -1,4 +1,4 @@
-//! Treats any bytes as a valid game, its level and actions, and plays them, checking every state.
+//! Derives a valid game, a level and actions from arbitrary bytes. Plays the actions and checks every state.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

@@ -1,4 +1,4 @@
-//! Parses, compiles and prints any bytes.
+//! Interprets arbitrary bytes as the text of a game. Parses, compiles and prints the game.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| tests::robustness::text(bytes));

@@ -1,4 +1,4 @@
-"""Opens the two exports of a snapshot and checks that they say the same, in the types that their dataset cards state.
+"""Opens the two exports of a snapshot, and checks that their content is the same and has the types that their dataset cards state.
 
     check.py SNAPSHOT JSONL_EXPORT PARQUET_EXPORT
 """
@@ -24,14 +24,14 @@ TYPES = {
 
 
 def front(export):
-    """The YAML of the dataset card."""
+    """Returns the YAML of a dataset card."""
     text = (export / "README.md").read_text(encoding="utf-8")
     assert text.startswith("---\n"), "the card has no YAML"
     return yaml.safe_load(text.split("---\n")[1]), text
 
 
 def arrow_type(feature):
-    """What a feature of the card is in Arrow."""
+    """Returns the Arrow type of a feature in the card."""
     if "dtype" in feature:
         return TYPES[feature["dtype"]]
     inside = feature["list"]
@@ -41,7 +41,7 @@ def arrow_type(feature):
 
 
 def plain(kind):
-    """The type without what a list's element is called and what may be null, in which readers differ."""
+    """Returns a type without the names of list elements and without nullability, in which readers differ."""
     if pyarrow.types.is_list(kind) or pyarrow.types.is_large_list(kind):
         return pyarrow.list_(plain(kind.value_type))
     if pyarrow.types.is_struct(kind):
@@ -50,7 +50,9 @@ def plain(kind):
 
 
 def levels_of(snapshot):
-    """What the release itself holds: game folder, level number, level text, VGDL, card."""
+    """Yields the content of the release for each level: the card, the level's number, its entry in the card, the
+    VGDL, the level's text and the witness.
+    """
     for card_file in sorted(snapshot.glob("games/*/card.json")):
         card = json.loads(card_file.read_text(encoding="utf-8"))
         vgdl = (card_file.parent / "game.vgdl").read_text(encoding="utf-8")
@@ -77,7 +79,7 @@ def main():
         assert split["name"] == "test" and split["num_examples"] == len(truth), split
         expected = pyarrow.schema([(feature["name"], arrow_type(feature)) for feature in info["features"]])
 
-        # As users of `datasets` do: the card says where the rows are and of which types.
+        # The dataset is opened as users of `datasets` open it. The card states the locations and types of the rows.
         loaded = datasets.load_dataset(str(export), split="test")
         assert loaded.num_rows == len(truth), (loaded.num_rows, len(truth))
         assert loaded.column_names == expected.names, loaded.column_names
@@ -87,7 +89,7 @@ def main():
         assert loaded.info.splits["test"].num_examples == len(truth)
         rows_of[export] = loaded.to_list()
 
-        # As users of pandas do.
+        # The dataset is opened as users of pandas open it.
         if data["path"].endswith(".parquet"):
             schema = pyarrow.parquet.read_schema(export / data["path"])
             for field in expected:

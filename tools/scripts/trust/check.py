@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Checks a log, its releases and their signatures from the documents alone, independently of `arcade`.
+"""Checks a log, its releases and their signatures, using only the documents and independently of `arcade`.
 
     pip install cryptography py_ecc
     python3 tools/scripts/trust/check.py --log log --log-key log.pub --keys trust/keys-1.json --releases releases
 
-Everything but Ed25519 is the standard library; BLAKE3 is below, from its paper. The package py_ecc checks the signatures of
-drand rounds; without it, only that each value is the hash of its signature, which the last line says. Prints every problem, then
-what was checked; exits with 1 if there is a problem. It replays no episode and mints nothing: `arcade verify` and `arcade regenerate` do.
+Only Ed25519 requires a package outside the standard library. BLAKE3 is implemented below, based on its paper. The package py_ecc
+checks the signatures of drand rounds. Without py_ecc, the script checks only that each value is the hash of its signature, and the
+last line of the output says so.
+
+Prints every problem, followed by the checked items. The exit status is 1 if there is a problem. The script replays no episodes and
+mints nothing, because `arcade verify` and `arcade regenerate` do so.
 """
 
 import argparse
@@ -96,7 +99,7 @@ def derive(context, data):
 
 
 class Number(str):
-    """A number, as it is written."""
+    """A number that keeps its original text."""
 
 
 def unique(pairs):
@@ -146,7 +149,7 @@ def document(data):
 
 
 def unbase(text):
-    """The bytes of a text in base64, in its one form."""
+    """Decodes a text in base64, which must be in its canonical form."""
     data = base64.b64decode(text, validate=True)
     if base64.b64encode(data).decode() != text:
         raise ValueError("is not base64 in its one form")
@@ -173,7 +176,7 @@ class Key:
             return False
 
     def signed(self, message, signature):
-        """Whether the text of a .minisig file is a signature of the message by this key."""
+        """Returns whether the text of a .minisig file is a signature of the message under this key."""
         try:
             _, line, comment, whole = signature.rstrip("\n").split("\n")
             data, whole = unbase(line), unbase(whole)
@@ -187,7 +190,7 @@ class Key:
 
 
 class Keys:
-    """The sets of keys that follow from one that is trusted."""
+    """The sets of keys that follow from a trusted set."""
 
     def __init__(self, path, problems):
         path = Path(path)
@@ -218,7 +221,7 @@ class Keys:
         return sum(any(key.signed(message, text) for text in signatures) for key in keys)
 
     def accept(self, statement, message, signatures):
-        """The reason why a statement is not signed as it has to be."""
+        """Returns the reason why a statement is not signed as required, if there is one."""
         keys = statement["keys"]
         found, digest = self.sets.get(int(keys["version"]), (None, None)) if keys else (None, None)
         if found is None or digest != keys["digest"]:
@@ -266,7 +269,7 @@ def tiles(count):
 
 
 def read_log(folder, key, problems):
-    """The entries of a log, as bytes."""
+    """Returns the entries of a log as bytes."""
     folder = Path(folder)
     body, _, signatures = (folder / "checkpoint").read_bytes().decode().partition("\n\n")
     origin, size, root = body.split("\n")
@@ -328,7 +331,7 @@ def chain_hash(chain):
 
 @functools.cache
 def holds_on_curve(scheme, key, message, signature):
-    """Whether a BLS signature on the curve BLS12-381 holds."""
+    """Returns whether a BLS signature on the curve BLS12-381 is valid."""
     try:
         if scheme != "bls-unchained-g1-rfc9380":
             return len(signature) == 96 and G2Basic.Verify(key, message, signature)
@@ -345,7 +348,7 @@ def holds_on_curve(scheme, key, message, signature):
 
 
 def fault_of_round(source, number, value, proof):
-    """The reason why a value is not that of a round."""
+    """Returns the reason why a value does not belong to a round, if there is one."""
     if proof and hashlib.sha256(bytes.fromhex(proof["signature"])).hexdigest() != value:
         return "the value is not the hash of the signature"
     if "drand" not in source.lower():
@@ -374,7 +377,7 @@ def fault_of_round(source, number, value, proof):
 
 
 def check_history(entries, problems):
-    """The rules of the entries together; returns the roots by name."""
+    """Checks the rules that the entries must obey together. Returns the roots by name."""
     keys, commitments, beacons, roots, results = None, {}, {}, {}, set()
     for number, entry in enumerate(entries):
         kind, name = entry["kind"], entry.get("release")
@@ -493,7 +496,7 @@ def check_release(folder, roots, keys, problems):
         elif (statement["release"], statement["root"]) != (name, manifest["root"]):
             faults.append(f"{path.name}: it is about another release")
         else:
-            # A statement whose signers were revoked counts no longer, and is still the one that the log has.
+            # A statement whose signers were revoked no longer counts, but the log still contains its digest.
             stated.add(blake3(data).hex())
             fault = keys.accept(statement, data, signatures_of(path))
             if statement["provenance"]["lockfile"] != manifest["lockfile"]:
@@ -517,7 +520,7 @@ def check_beacons(folder, entries, problems):
         found = parse(path.read_bytes())
         value = found.get("value") or found.get("randomness")
         proof = {key: found[key] for key in ("signature", "previous_signature", "chain") if key in found}
-        # The log has been checked: a file that agrees with it is sound.
+        # The log has already been checked, so a file that agrees with the log is valid.
         if known.get((found["source"], int(found["round"]))) != (value, proof or None):
             problems.append(f"{path.name}: the log has no such value")
     return len(files)

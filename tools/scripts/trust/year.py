@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Makes a year of sealed months as its publisher would, and attacks it.
+"""Mints a year of sealed months as a publisher would, and attacks the result.
 
     pip install cryptography py_ecc
     cargo build --release
     python3 tools/scripts/trust/year.py --arcade target/release/arcade --out year --mutations 1000
 
-Each month is committed to, entered in the log, waits for a beacon, is minted, signed by two of three keys, revealed and entered
-again; in July a key is lost and replaced. Then `check.py` beside this file checks all of it, and each kind of document is
-altered at random places; every alteration has to be refused. The beacons of January to April are real rounds of drand, of long
-ago; later ones are of a network whose key is made here (without py_ecc: values without a signature).
+For each month, the script logs a commitment, waits for a beacon, mints the release, signs it with two of three keys, reveals its
+secret, and logs the release. In July, a key is lost and replaced.
+
+Then, `check.py` in the same folder checks all documents. Each kind of document is altered at random positions, and every alteration
+must be rejected. The beacons of January to April are old, real rounds of drand. Later beacons belong to a network whose key the script
+creates. Without py_ecc, these beacons are values without a signature.
 """
 
 import argparse
@@ -65,7 +67,7 @@ SECRET = 31415926535
 
 
 def beacon(number):
-    """The file of the value that a month waits for."""
+    """Returns the file with the value for which a month waits."""
     if number <= len(ROUNDS):
         source, round, signature, *previous = ROUNDS[number - 1]
         more = {"previous_signature": previous[0]} if previous else {}
@@ -118,7 +120,7 @@ class Year:
         self.run("trust", "keys", "trust", "--revoke", "bo=lost", "--add", "di=di.pub", "--secret", *secrets)
         self.signers, self.set = ("ada", "di"), "trust/keys-2.json"
         self.append("--keys", self.set)
-        # What the lost key signed counts no longer.
+        # Signatures with the lost key no longer count.
         for folder in sorted((self.out / "releases").iterdir()):
             self.sign(f"releases/{folder.name}")
 
@@ -160,11 +162,11 @@ class Year:
 
 
 def documents(out):
-    """The files of each kind, with the first byte that something covers."""
+    """Returns the files of each kind, with the index of the first byte that a signature or digest covers."""
     after_line = lambda path: path.read_bytes().index(b"\n") + 1
     papers = "releases/*/papers/signatures/"
     size = int((out / "log/checkpoint").read_text().split("\n")[1])
-    # The log keeps the tiles of earlier sizes, which its checkpoint does not name.
+    # The log keeps the tiles of earlier sizes, which its checkpoint does not cover.
     log = [out / "log/checkpoint"]
     log += [out / "log" / check.tile_path(kind, *tile) for kind in ("entries", 0) for tile in check.tiles(size)]
     return {
@@ -180,12 +182,12 @@ def documents(out):
 
 
 def attack(year, mutations, chance):
-    """Alters documents; returns the alterations that were accepted."""
-    # Nearly all files are the same each time.
+    """Alters documents. Returns the alterations that were accepted."""
+    # Nearly all files are the same in each attempt.
     check.blake3 = functools.cache(check.blake3)
     accepted = []
     for kind, files in documents(year.out).items():
-        # The first six months need no second set of keys.
+        # The first six months do not need a second set of keys.
         if not files:
             continue
         refused = 0

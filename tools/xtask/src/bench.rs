@@ -1,8 +1,10 @@
-//! `cargo xtask bench`: measures the speed of the engine, game by game, and compares it with the reference.
+//! `cargo xtask bench` measures the speed of the engine for each game, and compares it with the speed of the
+//! reference.
 //!
-//! The method is that of the reference's own figures: level 0, with actions drawn uniformly from those of the avatar except NIL.
-//! Episodes start from copies made outside the measurement. Whole steps are measured, including the hash of the state after each
-//! step. Time is the CPU time of the stepping thread.
+//! The method is that of the reference's own figures. Level 0 is played, with actions drawn uniformly from
+//! all actions of the avatar except NIL. Episodes start from copies made outside the measurement. Whole steps
+//! are measured, including the hash of the state after each step. Time is the CPU time of the stepping
+//! thread.
 
 use crate::episode_run::{EpisodeRun, Subject, first_digest, subjects};
 use crate::instructions;
@@ -19,12 +21,14 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The number of states in a batch whose speedup is measured.
+/// The number of states in the batch with which the speedup is measured.
 const BATCH: usize = 1024;
-/// The number of states in a batch whose rate is measured, which is as many as learners step together.
+/// The number of states in the batch with which the rate is measured. Learners step the same number of states
+/// together.
 const LARGE_BATCH: usize = 4096;
 
-/// Reports ticks per second, the time of a copy, and the ratio to the reference, for every game in a folder.
+/// Reports the ticks per second, the duration of a copy, and the ratio to the reference, for every game in a
+/// folder.
 ///
 /// Example: cargo xtask bench --games gvgai/games --reference gvgai/java-speed.csv --csv speed.csv
 #[derive(clap::Args)]
@@ -38,14 +42,14 @@ pub(crate) struct Args {
     /// The reference's figures: a CSV with the columns game and ticks_per_s
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
-    /// Seconds of stepping for each game, after a warm-up that takes a fifth of that time
+    /// Seconds of stepping for each game, in addition to a warm-up of a fifth of that time
     #[arg(long, value_name = "SECONDS", default_value_t = 5.0)]
     seconds: f64,
     /// Also measure the forward-model calls per second of MCTS
     #[arg(long)]
     mcts: bool,
-    /// Also measure the rate of one thread at stepping a batch of 4096 states, one tick at a time, and the speedup of two threads
-    /// over one at stepping 1024 states, one tick and 32 ticks at a time
+    /// Also measure the rate of one thread that steps a batch of 4096 states, one tick at a time, and the
+    /// speedup of two threads over one thread for a batch of 1024 states, one tick and 32 ticks at a time
     #[arg(long)]
     batch: bool,
     /// Also count the instructions per tick, if valgrind is installed
@@ -113,7 +117,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Measures the ticks per second after a warm-up.
+/// Measures the ticks per second of a game after a warm-up.
 fn speed(subject: &Subject, seconds: f64) -> f64 {
     let [_, speed] = [seconds / 5.0, seconds].map(|seconds| {
         let mut episode_run = EpisodeRun::new(subject);
@@ -133,7 +137,7 @@ fn summarise(kind: &str, mut ratios: Vec<f64>) {
     }
 }
 
-/// Reads the reference's ticks per second, by game.
+/// Reads the reference's ticks per second for each game.
 fn figures(path: &Path) -> anyhow::Result<Vec<(String, f64)>> {
     let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let row = |line: &str| {
@@ -143,7 +147,7 @@ fn figures(path: &Path) -> anyhow::Result<Vec<(String, f64)>> {
     Ok(text.lines().skip(1).filter_map(row).collect())
 }
 
-/// Measures the duration of a warm `clone_from` in seconds.
+/// Measures the duration of a `clone_from` to a warm copy, in seconds.
 fn clone_time(start: &State) -> f64 {
     let mut copy = start.clone();
     let mut best = f64::INFINITY;
@@ -159,7 +163,7 @@ fn clone_time(start: &State) -> f64 {
     best
 }
 
-/// Measures the forward-model calls per second of MCTS along an episode, including the copies.
+/// Measures the forward-model calls per second of MCTS during an episode, including the copies of states.
 fn mcts_calls(subject: &Subject) -> f64 {
     let mut planner = Mcts::new(MctsConfig::default(), Seed::from_text("bench"));
     let mut state = subject.start.clone();
@@ -182,15 +186,15 @@ pub(crate) fn now() -> Instant {
     Instant::now()
 }
 
-/// Returns the ticks per second of CPU time with which one thread steps a batch of [`LARGE_BATCH`] states, as the best of three
-/// runs.
+/// Returns the ticks per second of CPU time with which one thread steps a batch of [`LARGE_BATCH`] states.
+/// The result is the best of three runs.
 fn batch_rate(subject: &Subject) -> f64 {
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("threads can be started");
     (0..3).map(|_| pool.install(|| batch_speed(subject, LARGE_BATCH, 1)[1])).fold(0.0, f64::max)
 }
 
-/// Returns the speedup of two threads over one at stepping a batch by `ticks` at a time, from the best of three alternating runs
-/// each.
+/// Returns the speedup of two threads over one thread for a batch that is stepped by `ticks` ticks at a time.
+/// The result is computed from the best of three alternating runs with each number of threads.
 fn speedup(subject: &Subject, ticks: usize) -> f64 {
     let pools = [1, 2].map(|threads| {
         ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
@@ -204,7 +208,8 @@ fn speedup(subject: &Subject, ticks: usize) -> f64 {
     best[1] / best[0]
 }
 
-/// Returns the ticks per second of wall-clock time and of the calling thread's CPU time, including the starts of new episodes.
+/// Returns the ticks per second of wall-clock time, and the ticks per second of the calling thread's CPU
+/// time. Both include the starts of new episodes.
 fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
     let seed = Seed::from_text(&subject.name);
     let mut batch = Batch::fork(&subject.game, &subject.start, size, seed);
@@ -218,11 +223,12 @@ fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
             batch.reset_over();
         }
     };
-    // Let the buffers grow, the threads start and the episodes drift apart.
+    // Before the measurement, the buffers must grow, the threads must start, and the episodes must diverge.
     round(512 / ticks);
     let (clock, own) = (now(), ThreadTime::now());
     let mut rounds = 0;
-    // The speed of a game depends on which part of its episodes is played. A large batch plays the same part as learners do.
+    // The speed of a game depends on the part of its episodes that is played. A large batch plays the same
+    // part as learners play.
     let least = if size == LARGE_BATCH { 640 } else { 1 };
     while rounds * ticks < least || clock.elapsed() < Duration::from_millis(300) {
         round(1);

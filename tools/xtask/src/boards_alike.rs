@@ -1,4 +1,4 @@
-//! `cargo xtask boards-alike`: finds boards of new games that somebody could already know.
+//! `cargo xtask boards-alike` finds boards of new games that resemble boards that already existed.
 
 use anyhow::{Context, bail};
 use engine::analysis::Role;
@@ -10,13 +10,16 @@ use snapshots::released::{Released, ReleasedGame};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Compares the levels of releases' new games with the boards that existed before, and prints the fraction of similar levels.
+/// Compares the levels of releases' new games with the boards that existed before, and prints the fraction of
+/// similar levels.
 ///
-/// The similarity of two boards is that of their best match over the eight symmetries and all shifts with which the other board
-/// covers at least half of the board: the number of cells that are not floor in both, divided by the number of cells that are not
-/// floor in at least one. Above 0.8, a board is exactly or nearly the other one. A level is compared with the levels of all other
-/// releases, with those of earlier games in its own release, with the corpus, and with the drawings of the kernels that have at
-/// least 5 x 7 cells.
+/// The similarity of two boards is that of their best match. A match is one of the eight symmetries with any
+/// shift at which the other board covers at least half of the board. Its similarity is the number of cells
+/// that are not floor in both boards, divided by the number of cells that are not floor in at least one of
+/// them. With a similarity above 0.8, the boards are equal or nearly equal.
+///
+/// A level is compared with the levels of all other releases, with the levels of earlier games in its own
+/// release, with the corpus, and with the drawings of the kernels that have at least 5 x 7 cells.
 ///
 /// Example: cargo xtask boards-alike releases/2027-01 releases/2027-02
 #[derive(clap::Args)]
@@ -30,20 +33,20 @@ pub(crate) struct Args {
     /// Folder of kernels with drawings
     #[arg(long, value_name = "DIR", default_value = "generators/kernels")]
     kernels: PathBuf,
-    /// Print each similar level with its similarity and the board that it resembles
+    /// Print each similar level, its similarity, and the board that it resembles
     #[arg(long)]
     list: bool,
 }
 
-/// The similarity above which two boards count as the same.
+/// The similarity above which two boards count as equal.
 const ALIKE: f64 = 0.8;
-/// The minimum size of a drawing.
+/// The minimum numbers of rows and columns in a drawing.
 const LEAST: (usize, usize) = (5, 7);
 
-/// The kinds of boards that a level is compared with.
+/// The kinds of boards with which a level is compared.
 const KINDS: [&str; 3] = ["releases", "corpus", "drawings"];
 
-/// A board, represented by its cells that are not floor.
+/// A board, represented by the cells that are not floor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Board {
     columns: usize,
@@ -79,8 +82,8 @@ impl Board {
         self.lines[y] >> x & 1 == 1
     }
 
-    /// Returns the eight images of the board: bit 0 mirrors left and right, bit 1 mirrors up and down, and bit 2 swaps columns
-    /// and rows.
+    /// Returns the eight images of the board under its symmetries. Bit 0 exchanges left and right, bit 1
+    /// exchanges top and bottom, and bit 2 exchanges columns and rows.
     fn images(&self) -> impl Iterator<Item = Board> + '_ {
         (0..8).map(|symmetry| {
             let is_turned = symmetry & 4 != 0;
@@ -99,7 +102,8 @@ impl Board {
         })
     }
 
-    /// Returns the maximum similarity over all shifts with which the other board covers half of this board.
+    /// Returns the maximum similarity over all shifts at which the other board covers at least half of this
+    /// board.
     fn best_shift(&self, other: &Board) -> f64 {
         let [columns, rows, wide, high] =
             [self.columns, self.rows(), other.columns, other.rows()].map(|side| side as i64);
@@ -129,11 +133,12 @@ impl Board {
     }
 }
 
-/// An existing board, with its name and all its images.
+/// An existing board with its name and its eight images.
 struct Known {
     name: String,
     kind: usize,
-    /// The indices of the board's release and of its game in the release.
+    /// The index of the board's release and the index of its game in the release, if the board belongs to a
+    /// release.
     place: Option<(usize, usize)>,
     images: Vec<Board>,
 }
@@ -149,7 +154,7 @@ impl Known {
         Known { name, kind, place, images }
     }
 
-    /// Returns `true` if the board existed before a game of a release.
+    /// Returns `true` if the board existed before the given game of a release.
     fn is_before(&self, (release, game): (usize, usize)) -> bool {
         self.place.is_none_or(|(other, at)| other != release || at < game)
     }
@@ -198,7 +203,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The maximum similarity of a board to a board of each kind, with the name of that board.
+/// For each kind of boards, the maximum similarity of a board to any of them, and the name of the most
+/// similar board.
 type Likest<'a> = [(f64, &'a str); KINDS.len()];
 
 fn table(args: &Args, new: &[New], best: &[Likest<'_>]) -> Table {
@@ -270,7 +276,8 @@ fn corpus(folder: &Path) -> anyhow::Result<Vec<Known>> {
     Ok(known)
 }
 
-/// Returns the kernels' drawings that are large enough: the texts in each file that are boards, with floor written as `.`.
+/// Returns the drawings of kernels that are large enough. The drawings are all texts in a kernel's file that
+/// are boards, with floor written as `.`.
 fn drawings(folder: &Path) -> anyhow::Result<Vec<Known>> {
     let mut known = Vec::new();
     for path in files(folder)?.into_iter().filter(|path| path.extension().is_some_and(|end| end == "toml")) {
@@ -316,18 +323,19 @@ mod tests {
         assert_eq!(likeness(drawn, drawn), 1.0);
         assert_eq!(likeness(drawn, "#..#/..b#/.###"), 1.0);
         assert_eq!(likeness(drawn, "###/#a./#../..#"), 1.0);
-        // The other board has a margin around it.
+        // The other board has an additional margin.
         assert_eq!(likeness(drawn, "....../.#..#./.#a.../.###../......"), 1.0);
     }
 
     #[test]
     fn cells_that_differ_count() {
-        // Eight cells are in both boards, and nine in one. No shift that covers half avoids the hole.
+        // Eight cells are in both boards, and a ninth cell is in only one board. All shifts that cover half
+        // of the board include the hole.
         assert_eq!(likeness("###/###/###", "###/#.#/###"), 8.0 / 9.0);
         assert_eq!(likeness("....", "...."), 0.0);
     }
 
-    /// A match of a small part says nothing about a board.
+    /// A match with a small part of a board is not evidence of similarity.
     #[test]
     fn the_other_covers_half() {
         assert_eq!(likeness("##....../........", "##"), 0.0);

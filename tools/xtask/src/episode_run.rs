@@ -1,4 +1,4 @@
-//! Random episodes of a game, one after the other, for measurements of time and instructions.
+//! Plays random episodes of a game one after another, in order to measure time and instructions.
 
 use crate::levels::folders;
 use anyhow::{Context, bail};
@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// The maximum number of ticks of an episode, as in the reference's figures.
+/// The maximum number of ticks in an episode, which is the same as in the reference's figures.
 const EPISODE: usize = 2001;
 /// The number of episodes that are prepared together, outside the measurement.
 const BATCH: usize = 16;
@@ -17,14 +17,14 @@ const BATCH: usize = 16;
 /// The number of random numbers drawn in advance.
 const DRAWS: usize = 1 << 16;
 
-/// A game at the start of its level 0, loaded as the reference loads it.
+/// A game at the start of its level 0, loaded in the same way as by the reference.
 pub(crate) struct Subject {
     pub(crate) name: String,
     pub(crate) game: Game,
     pub(crate) start: State,
 }
 
-/// Returns the games in the subfolders of a folder, by name, or all of them if `only` is empty.
+/// Returns the games with the given names in the subfolders of a folder, or all games if `only` is empty.
 pub(crate) fn subjects(games: &Path, only: &[String]) -> anyhow::Result<Vec<Subject>> {
     let folders = folders(games, only)?;
     if folders.is_empty() {
@@ -43,7 +43,7 @@ fn subject(name: String, folder: &Path) -> anyhow::Result<Subject> {
     Ok(Subject { name, game, start })
 }
 
-/// A sequence of random episodes of a game.
+/// A sequence of random episodes of one game.
 pub(crate) struct EpisodeRun<'a> {
     subject: &'a Subject,
     episodes: u64,
@@ -52,7 +52,7 @@ pub(crate) struct EpisodeRun<'a> {
     pub(crate) ticks: u64,
     /// The CPU time spent on stepping.
     pub(crate) time: Duration,
-    /// The digest of the hashes of all visited states, in order.
+    /// The digest of the hashes of all visited states, in the order of the visits.
     pub(crate) digest: u128,
 }
 
@@ -64,7 +64,7 @@ impl<'a> EpisodeRun<'a> {
         EpisodeRun { subject, episodes: 0, states, draws, ticks: 0, time: Duration::ZERO, digest }
     }
 
-    /// Plays `ticks` ticks of the first episodes outside the measurement, so that the buffers of the states grow to the required
+    /// Plays `ticks` ticks outside the measurement, so that the buffers of the states grow to their final
     /// size.
     pub(crate) fn warm_up(&mut self, ticks: u64) {
         self.prepare();
@@ -87,7 +87,7 @@ impl<'a> EpisodeRun<'a> {
         self.time += clock.elapsed();
     }
 
-    /// Plays the measured part. Instruction counting selects it by the function's name.
+    /// Plays the measured part of a batch. Instruction counting selects this function by its name.
     #[inline(never)]
     fn play_measured(&mut self, ticks: u64) {
         self.play(ticks);
@@ -118,7 +118,8 @@ fn chain(digest: u128, hash: u128) -> u128 {
     (digest.rotate_left(5) ^ hash).wrapping_mul(0x2360_ED05_1FC6_5DA4_4385_DF64_9FCC_F645)
 }
 
-/// Returns the digest of the states of the first batch, after checking that it equals the digest of hashes computed from scratch.
+/// Returns the digest of the states visited in the first batch. Also checks that the digest equals one that
+/// is computed from scratch.
 pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
     const TICKS: u64 = 300;
     let mut episode_run = EpisodeRun::new(subject);

@@ -1,8 +1,10 @@
-//! `cargo xtask fidelity`: tests whether our planners play like the reference's own.
+//! `cargo xtask fidelity` tests whether the planners of this suite play as well as the reference's own
+//! planners.
 //!
-//! The reference's episodes are recorded, one per row: game, level, agent, run, calls per decision, outcome, ticks, score. Ours
-//! are played in the same cells, with the same budgets and the same tick limit (`spec/04` §10.2). Nothing is fitted: a deviation
-//! means that there is a difference in the rules, which must be found.
+//! The reference's episodes are recorded, with one row per episode: game, level, agent, run, calls per
+//! decision, outcome, ticks and score. The planners of this suite play the same games and levels with the
+//! same budgets and tick limit (`spec/04` §10.2). No parameter is fitted, so a deviation means that the rules
+//! differ, and the difference must be found.
 
 use crate::levels::load;
 use agents::{Budget, Limits, PlannerSpec, Play, play};
@@ -14,11 +16,12 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Plays our MCTS, OLETS and RHEA in the cells for which the reference's episodes were recorded, and compares wins, scores and
-/// ticks.
+/// Plays the planners MCTS, OLETS and RHEA in the cells for which episodes of the reference were recorded,
+/// and compares wins, scores and ticks.
 ///
-/// Exit status 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5%), the win rates differ by more
-/// than 10 points on average, or a mean score in aliens or boulderdash differs by more than 20%.
+/// The exit status is 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5%), if
+/// the win rates differ by more than 10 points on average, or if a mean score in aliens or boulderdash
+/// differs by more than 20%.
 ///
 /// Example: cargo xtask fidelity --games gvgai/games --recorded agents-1000.csv
 #[derive(clap::Args)]
@@ -26,7 +29,7 @@ pub(crate) struct Args {
     /// Folder of game folders, each with game.txt or game.vgdl and lvl*.txt
     #[arg(long, value_name = "DIR")]
     games: PathBuf,
-    /// The reference's episodes: a CSV
+    /// CSV file with the reference's episodes
     #[arg(long, value_name = "FILE")]
     recorded: PathBuf,
     /// Published win rates to show for comparison: a CSV with the columns agent, setting and the games
@@ -38,13 +41,13 @@ pub(crate) struct Args {
     /// Maximum number of ticks per episode
     #[arg(long, value_name = "N", default_value_t = 1000)]
     ticks: usize,
-    /// Text that all seeds are derived from
+    /// Text from which all seeds are derived
     #[arg(long, value_name = "TEXT", default_value = "fidelity")]
     seed: String,
     /// Only these games
     #[arg(long, value_name = "NAME")]
     game: Vec<String>,
-    /// Only this one of our planners
+    /// Only this planner
     #[arg(long, value_name = "NAME")]
     planner: Option<String>,
     /// Number of threads, or 0 for all cores. Does not affect the figures
@@ -52,26 +55,30 @@ pub(crate) struct Args {
     jobs: usize,
 }
 
-/// Our planner for each recorded agent.
+/// For each recorded agent, the planner of this suite that corresponds to it.
 const PAIRS: [(&str, &str); 3] = [("sampleMCTS", "mcts"), ("olets", "olets"), ("sampleRHEA", "rhea")];
-/// The thresholds.
+/// The false discovery rate of the tests.
 const FALSE_DISCOVERIES: f64 = 0.05;
+/// The maximum mean difference between the win rates.
 const MEAN_DIFFERENCE: f64 = 0.10;
+/// The maximum relative difference between the mean scores in [`SCORED_GAMES`].
 const SCORE_DIFFERENCE: f64 = 0.20;
+/// The games whose mean scores are compared.
 const SCORED_GAMES: [&str; 2] = ["aliens", "boulderdash"];
 
-/// The compared figures of an episode.
+/// The figures of an episode that are compared.
 #[derive(Clone, Copy)]
 struct Result {
     level: usize,
     won: bool,
     ticks: f64,
     score: f64,
-    /// The mean number of calls per decision. The overshoot of a search over its budget shows how deep it looks.
+    /// The mean number of calls per decision. The amount by which a search exceeds its budget shows how deep
+    /// it searches.
     calls: f64,
 }
 
-/// The episodes of an agent in a game.
+/// The recorded episodes of an agent in a game, and the episodes of the corresponding planner.
 struct Cell {
     game: String,
     agent: &'static str,
@@ -125,7 +132,7 @@ fn play_cell(args: &Args, cell: &Cell, game: &Game, levels: &[Level]) -> anyhow:
     Ok(results.collect())
 }
 
-/// Prints the table and the thresholds, and returns `true` if all are met.
+/// Prints the table and the thresholds. Returns `true` if all thresholds are met.
 fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     println!(
         "{:<12} {:<7} {:>9} {:>9} {:>6} {:>6} {:>6}  {:>15}  {:>13}  {:>15}  wins by level",
@@ -211,13 +218,13 @@ fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     Ok(cells)
 }
 
-/// Reads the published win rates of search agents, in percent, with agent and game.
+/// Reads the published win rates of search agents. Each rate is given with its agent and game, in percent.
 fn published(path: &Path) -> anyhow::Result<Vec<(String, String, f64)>> {
     let mut rates = Vec::new();
     for line in csv::Reader::from_path(path)?.deserialize::<BTreeMap<String, String>>() {
         let line = line.with_context(|| path.display().to_string())?;
         let agent = line.get("agent").with_context(|| format!("{}: no agents", path.display()))?;
-        // The other columns are games.
+        // All other columns are games.
         let games = line.iter().filter(|(name, _)| !["agent", "setting"].contains(&name.as_str()));
         for (game, rate) in games {
             rates.push((agent.clone(), game.clone(), rate.parse()?));

@@ -1,5 +1,5 @@
-//! `cargo xtask instructions`: tests whether a step has become slower. It counts instructions instead of measuring time. The
-//! counts are the same on a busy machine, so a change of a few percent is visible.
+//! `cargo xtask instructions` tests whether a step has become slower. The task counts instructions instead of
+//! measuring time. The counts are the same on a busy machine, so a change of a few percent is visible.
 
 use crate::episode_run::{Subject, subjects};
 use anyhow::{Context, bail};
@@ -11,11 +11,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-/// Counts the instructions per tick for the games in a folder, and compares them with a file.
+/// Counts the instructions per tick for the games in a folder, and compares the counts with a file.
 ///
-/// This needs valgrind. Without valgrind, or if the expected counts are for a different compiler, it says so and passes, because
-/// different compilers emit different instructions. The recorded counts are those of the development profile, as CI tests it:
-/// build with CARGO_INCREMENTAL=0, and rewrite the file with --bless after an update of the toolchain.
+/// The task requires valgrind. Without valgrind, or if the expected counts are for a different compiler, it
+/// prints a message and passes, because different compilers emit different instructions.
+///
+/// The expected counts are for the development profile, which CI tests. Build with CARGO_INCREMENTAL=0, and
+/// rewrite the file with --bless after an update of the toolchain.
 ///
 /// Example: CARGO_INCREMENTAL=0 cargo run --locked --package xtask -- instructions
 #[derive(clap::Args)]
@@ -23,16 +25,16 @@ pub(crate) struct Args {
     /// Folder of game folders
     #[arg(long, value_name = "DIR", default_value = "corpora")]
     games: PathBuf,
-    /// The expected counts: a CSV with the columns game and instructions_per_tick
+    /// CSV file with the expected counts, in the columns game and instructions_per_tick
     #[arg(long, value_name = "FILE", default_value = "tools/xtask/instructions.csv")]
     expected: PathBuf,
-    /// Tolerated increase of the cost of a tick, in percent
+    /// Tolerated increase in the cost of a tick, in percent
     #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
     tolerance: f64,
-    /// Write the file instead
+    /// Write the file of expected counts instead of comparing with it
     #[arg(long)]
     bless: bool,
-    /// Count only one game out of this many
+    /// Count only one of every NUMBER games
     #[arg(long, value_name = "NUMBER", default_value = "1", conflicts_with = "bless")]
     every: NonZeroUsize,
 }
@@ -89,7 +91,8 @@ fn compiler() -> anyhow::Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// Returns the number of instructions of a warm tick of a game's level 0, including the hash, or `None` without valgrind.
+/// Returns the number of instructions in a warm tick of a game's level 0, including the hash. Returns `None`
+/// if valgrind is not installed.
 pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--collect-atstart=no"])
@@ -107,7 +110,7 @@ pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> 
     let text = String::from_utf8_lossy(&output.stderr);
     let collected =
         text.lines().find_map(|line| line.split_once("Collected :")?.1.trim().parse::<u64>().ok());
-    // An interrupted run ends with a count of 0, which would be below any expected count.
+    // An interrupted run ends with a count of 0, which is below any expected count.
     let collected = collected.filter(|&count| count > 0 && output.status.success());
     let collected = collected.with_context(|| format!("{name}: valgrind reported no count:\n{text}"))?;
     Ok(Some(collected / TICKS))

@@ -1,4 +1,4 @@
-//! `cargo xtask inventions`: invents games, and finds out why other attempts fail.
+//! `cargo xtask inventions` invents games, and reports why other attempts fail.
 
 use anyhow::Context;
 use base::{Seed, SeedPath};
@@ -11,7 +11,8 @@ use snapshots::Recipe;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Invents games under the criteria of a recipe, writes the accepted ones, and counts the reasons why the others fail.
+/// Invents games under the criteria of a recipe, writes the accepted games, and counts the reasons why other
+/// attempts fail.
 ///
 /// Cost: a minute or two of one core per game.
 ///
@@ -27,10 +28,10 @@ pub(crate) struct Args {
     /// Number of rule sets to try per game
     #[arg(long, value_name = "N", default_value_t = 12)]
     attempts: u32,
-    /// Method of making the levels: constructive, search, evolutionary
+    /// Method for generating the levels: constructive, search, evolutionary
     #[arg(long, value_name = "NAME", default_value_t = Method::Constructive)]
     method: Method,
-    /// Text that all seeds are derived from
+    /// Text from which all seeds are derived
     #[arg(long, value_name = "TEXT", default_value = "inventions")]
     seed: String,
     /// Folder for the games

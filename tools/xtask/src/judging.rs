@@ -1,4 +1,4 @@
-//! `cargo xtask judging`: compares the sequential judging of candidates with full judging.
+//! `cargo xtask judging` compares the sequential judging of candidates with full judging.
 
 use anyhow::Context;
 use base::Seed;
@@ -12,12 +12,12 @@ use report::{Share, Table, TableCell};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::{Criteria, Criterion, CriterionSet, Effort, Judging, Panel, Report};
 
-/// Judges candidates for levels of generated games sequentially and in full, with the same randomness, and counts the verdicts
-/// that differ.
+/// Judges candidates for levels of generated games both sequentially and in full, with the same randomness,
+/// and counts the verdicts that differ.
 ///
-/// Minting stops random play once it is certain that the level is rejected, and the ladder's episodes once the answer is almost
-/// certain. Prints a table of the verdicts, one row per kind, and the number of calls of both methods. Cost: about a second of
-/// one core per candidate.
+/// Minting stops random play once it is certain that the level is rejected, and stops the ladder's episodes
+/// once the answer is almost certain. Prints a table of the verdicts, with one row per kind, and the number
+/// of calls of both methods. Cost: about a second of one core per candidate.
 ///
 /// Example: cargo xtask judging --candidates 2000
 #[derive(clap::Args)]
@@ -25,7 +25,7 @@ pub(crate) struct Args {
     /// Number of candidates to judge
     #[arg(long, value_name = "N", default_value_t = 200)]
     candidates: u64,
-    /// Text that all seeds are derived from
+    /// Text from which all seeds are derived
     #[arg(long, value_name = "TEXT", default_value = "judging")]
     seed: String,
 }
@@ -35,18 +35,18 @@ const DEMANDS: usize = 5;
 
 /// The result of one method of judging.
 struct Answer {
-    /// The criterion that the level fails, or `None` if it passes all.
+    /// The criterion that the level fails, or `None` if the level passes all criteria.
     obstacle: Option<Criterion>,
     calls: u64,
 }
 
-/// The results of both methods.
+/// The results of judging a level with both methods.
 struct Compared {
     in_full: Answer,
     sequential: Answer,
 }
 
-/// The judges of both methods. The search for a win is the same, so it is done once.
+/// The judges of both methods. The search for a win is the same in both methods, so it runs only once.
 struct Judges {
     search: Panel,
     in_full: Panel,

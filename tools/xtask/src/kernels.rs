@@ -1,4 +1,4 @@
-//! `cargo xtask kernels`: finds out why games of each kernel fail.
+//! `cargo xtask kernels` reports why games of each kernel fail.
 
 use anyhow::{Context, bail};
 use base::Seed;
@@ -14,11 +14,12 @@ use std::fs;
 use std::path::PathBuf;
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// Attempts games of each kernel under the criteria of a recipe, counts the accepted ones, and counts the reasons why the others
-/// fail.
+/// Attempts games of each kernel under the criteria of a recipe. Counts the accepted games, and the reasons
+/// why the other games fail.
 ///
-/// If a kernel rarely passes, other kernels get its turns, so a release has many games from few kernels. Attempts are
-/// independent, so the games of a kernel may be close to each other. Cost: 1 to 15 seconds of one core per attempt.
+/// If a kernel rarely passes, other kernels take its turns, so that a release has many games from few
+/// kernels. Attempts are independent, so the games of a kernel may be similar to each other. Cost: 1 to 15
+/// seconds of one core per attempt.
 ///
 /// Example: cargo xtask kernels seeds/2026-12.toml --kernel one-pull
 #[derive(clap::Args)]
@@ -32,18 +33,19 @@ pub(crate) struct Args {
     /// The only form to attempt; `plain` for kernels without a form [default: all]
     #[arg(long, value_name = "NAME")]
     form: Option<String>,
-    /// Print the distance between the rules of each form and those of the nearest other form of its kernel, and attempt nothing
+    /// Print the distance from the rules of each form to the nearest other form of its kernel, and attempt
+    /// nothing
     #[arg(long, conflicts_with = "form")]
     distances: bool,
     /// Number of attempts per kernel
     #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..))]
     attempts: u32,
-    /// Text that all seeds are derived from
+    /// Text from which all seeds are derived
     #[arg(long, value_name = "TEXT", default_value = "kernels")]
     seed: String,
 }
 
-/// The name of a kernel without a form, among its forms.
+/// The name used for a kernel without a form.
 const PLAIN: &str = "plain";
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -103,7 +105,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the distance from each form of a kernel, with and without variants, to the nearest other form.
+/// Returns a table with the distance from each form of a kernel, with and without variants, to the nearest
+/// other form.
 fn distances(kernel: &str) -> Table {
     let built = KernelGenome::all_of(kernel).into_iter().filter_map(|genome| genome.build().ok());
     let forms: Vec<(String, GameForm)> = built

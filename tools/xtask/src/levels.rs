@@ -1,11 +1,12 @@
-//! Games in folders, with their levels.
+//! Loads games and their levels from folders.
 
 use anyhow::Context;
 use engine::{Game, Level};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Returns the folders in a folder with their names, sorted, or all of them if `only` is empty.
+/// Returns the subfolders of a folder with the given names, or all subfolders if `only` is empty. They are
+/// sorted by name.
 pub(crate) fn folders(games: &Path, only: &[String]) -> anyhow::Result<Vec<(String, PathBuf)>> {
     let mut folders: Vec<PathBuf> = fs::read_dir(games)
         .with_context(|| games.display().to_string())?
@@ -20,7 +21,7 @@ pub(crate) fn name_of(folder: &Path) -> String {
     folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// Loads a game and its levels as the reference does.
+/// Loads a game and its levels in the same way as the reference.
 pub(crate) fn load(folder: &Path) -> anyhow::Result<(Game, Vec<Level>)> {
     let file = ["game.vgdl", "game.txt"].map(|file| folder.join(file)).into_iter().find(|path| path.exists());
     let file = file.with_context(|| format!("{}: no game.vgdl or game.txt", folder.display()))?;

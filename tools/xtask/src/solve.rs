@@ -1,4 +1,4 @@
-//! `cargo xtask solve`: determines which levels in a folder of games the portfolio wins.
+//! `cargo xtask solve` determines which levels of the games in a folder the portfolio of planners wins.
 
 use crate::bench::now;
 use crate::levels::{folders, load};
@@ -13,8 +13,10 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-/// Searches for a win of every level of every game with the portfolio of planners, and lists the results: won (every win is
-/// replayed), proven impossible, unknown, or no win that the rules allow the avatar to reach.
+/// Searches for a win of every level of every game with the portfolio of planners, and lists the results.
+///
+/// A result is one of: won (every win is replayed), proven impossible, unknown, or no win that the rules
+/// allow the avatar to reach.
 ///
 /// Example: cargo xtask solve --games gvgai/games --csv solved.csv
 #[derive(clap::Args)]
@@ -25,13 +27,13 @@ pub(crate) struct Args {
     /// Forward-model calls per level
     #[arg(long, value_name = "CALLS", default_value_t = PortfolioConfig::default().budget)]
     budget: u64,
-    /// Fraction of the calls for finding the shortest win, in deterministic games
+    /// Fraction of the calls that is used to find the shortest win, in deterministic games
     #[arg(long, value_name = "SHARE", default_value_t = PortfolioConfig::default().shortest)]
     shortest: f64,
-    /// Number of bytes that a systematic search may use
+    /// Maximum memory of a systematic search, in bytes
     #[arg(long, value_name = "BYTES", default_value_t = PortfolioConfig::default().bytes)]
     bytes: usize,
-    /// Text that all seeds are derived from
+    /// Text from which all seeds are derived
     #[arg(long, value_name = "TEXT", default_value = "solve")]
     seed: String,
     /// Only these games
@@ -43,7 +45,8 @@ pub(crate) struct Args {
     /// Number of threads, or 0 for all cores. Does not affect the results
     #[arg(long, value_name = "N", default_value_t = 0)]
     jobs: usize,
-    /// Write one line per level to this file: game, level, found, ticks, whether proven shortest, calls, seconds
+    /// Write one line per level to this file, with the columns game, level, found, ticks, whether proven
+    /// shortest, calls, seconds
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 }
@@ -55,7 +58,7 @@ struct Entry<'a> {
     analysis: &'a Analysis,
 }
 
-/// The result for a level.
+/// The result of the search on a level.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Found {
     Won,

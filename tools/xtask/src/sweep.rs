@@ -1,11 +1,11 @@
-//! `cargo xtask sweep`: runs all tests with every case of the randomised ones, including the slow ones.
+//! `cargo xtask sweep` runs all tests, including the slow tests, with every case of the randomised tests.
 
 use anyhow::{Context, bail};
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Runs all tests at full size: every case of the randomised ones, with a fresh seed, and the mints and recorded episodes that an
-/// ordinary run leaves out.
+/// Runs all tests at full size. Randomised tests run every case with a fresh seed. The mints and recorded
+/// episodes that an ordinary run skips are included.
 ///
 /// Takes about an hour on two cores. `--seed` repeats a failure.
 ///
@@ -20,8 +20,9 @@ pub(crate) struct Args {
     times: usize,
 }
 
-/// The environment variables that the tests read, like `tests::sweep::VARIABLE` and `TIMES`.
+/// The environment variable that the tests read (`tests::sweep::VARIABLE`).
 const VARIABLE: &str = "ARCADE_SWEEP";
+/// The environment variable with the factor for the number of random games (`tests::sweep::TIMES`).
 const TIMES: &str = "ARCADE_SWEEP_TIMES";
 
 #[expect(

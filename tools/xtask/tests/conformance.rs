@@ -9,7 +9,8 @@ use std::process::{Command, Output};
 
 const SIX: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
 
-/// Compares with these flags, and expects that everything is identical or that something differs.
+/// Runs the comparison with the given flags, and checks whether it reports that all episodes are identical,
+/// or that some differ.
 #[track_caller]
 fn conformance(folder: &Path, args: &[&str], is_identical: bool) -> Output {
     let xtask = env!("CARGO_BIN_EXE_xtask");
@@ -24,8 +25,8 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// Returns the reference's games and traces, which are not part of the repository. Prints a note and returns `None` if they are
-/// missing.
+/// Returns the folders with the reference's games and traces, which are not part of the repository. If they
+/// are missing, prints a note and returns `None`.
 #[allow(clippy::print_stdout, reason = "a skipped test says so")]
 fn reference() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/gvgai");
@@ -52,7 +53,7 @@ fn the_six_games_are_identical_in_every_field_of_every_tick() {
     assert_eq!(text(&output.stdout).lines().last(), Some("identical: 60 of 60 episodes"));
 }
 
-/// Compares all 1,122 recorded episodes of the public games in a sweep, and otherwise one episode of each game.
+/// Compares one recorded episode of each public game, or all 1,122 recorded episodes in a sweep.
 #[test]
 fn every_public_game_is_identical() {
     let Some(reference) = reference() else { return };
@@ -80,7 +81,8 @@ fn every_public_game_is_identical() {
     assert_eq!(last, format!("identical: {episodes} of {episodes} episodes"));
 }
 
-/// Compares the games in `corpora/`, recorded by the reference (`tests/ref/traces/README.md`).
+/// Compares the games in `corpora/` with traces that were recorded by the reference
+/// (`tests/ref/traces/README.md`).
 #[test]
 fn the_corpus_is_identical_in_every_field_of_every_tick() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -108,7 +110,7 @@ fn a_missing_game_or_trace_is_named() {
     assert!(text(&output.stderr).contains("lvl0.cut1"), "{}", text(&output.stderr));
 }
 
-/// A trace as lines of JSON, to be altered.
+/// A trace as lines of JSON, in which fields can be altered.
 struct Trace {
     lines: Vec<Value>,
 }
@@ -121,7 +123,7 @@ impl Trace {
         Trace { lines: plain.lines().map(|line| serde_json::from_str(line).unwrap()).collect() }
     }
 
-    /// Returns the first tick, from `from` on, that satisfies a condition.
+    /// Returns the first tick at or after `from` that satisfies a condition.
     fn tick(&self, from: usize, condition: impl Fn(&Value) -> bool) -> usize {
         let found = self.lines[from + 2..].iter().position(condition);
         from + found.expect("the trace has such a tick")
@@ -131,7 +133,8 @@ impl Trace {
         &mut self.lines[tick + 2]
     }
 
-    /// Alters one field at a tick, and expects it to be reported at that tick, first and with that name.
+    /// Alters one field at a tick. Checks that the comparison first reports a difference at that tick and in
+    /// that field.
     #[track_caller]
     fn check(&self, reference: &Path, tick: usize, field: &str, alter: impl FnOnce(&mut Value)) {
         let mut altered = Trace { lines: self.lines.clone() };
@@ -213,7 +216,7 @@ fn an_altered_field_is_reported_at_its_tick() {
     });
 }
 
-/// −0.0 and 0.0 are equal numbers but different fields.
+/// −0.0 and 0.0 are equal as numbers, but count as different fields.
 #[test]
 fn the_sign_of_zero_counts() {
     let Some(reference) = reference() else { return };
@@ -223,8 +226,8 @@ fn the_sign_of_zero_counts() {
     trace.check(&reference, tick, "orientation.x", |line| line["mod"][0][6] = json!(-0.0));
 }
 
-/// The games are one with its own counters, one that crashes the reference, and one that the reference ends because of its
-/// messages.
+/// There are three games: one with its own counters, one that crashes the reference, and one that the
+/// reference ends because of its messages.
 #[test]
 fn counters_notes_and_errors_of_the_reference_are_compared() {
     let folder = tempfile::tempdir().unwrap();

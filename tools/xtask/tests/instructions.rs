@@ -1,13 +1,14 @@
-//! The number of instructions per tick in corpus games: tests whether a step has become slower.
+//! Counts the instructions per tick in corpus games, to test whether a step has become slower.
 
 use std::path::Path;
 use std::process::Command;
 
-/// `CARGO_INCREMENTAL=0 BLESS=1 cargo test --workspace --test instructions` records the counts again; review the diff like code.
+/// `CARGO_INCREMENTAL=0 BLESS=1 cargo test --workspace --test instructions` records the counts again. Review
+/// the resulting diff like code.
 ///
-/// Counts a fifth of the games, or all of them in a sweep (`cargo xtask sweep`). Without valgrind, the test is skipped with a
-/// message. It is also skipped in incremental builds, whose code is divided into different units; `.ci/run` does not build
-/// incrementally.
+/// The test counts a fifth of the games, or all games in a sweep (`cargo xtask sweep`). Without valgrind, the
+/// test is skipped with a message. It is also skipped in incremental builds, whose code is divided into
+/// different units. `.ci/run` does not build incrementally.
 #[test]
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn no_tick_costs_more_instructions_than_recorded() {

@@ -1,4 +1,4 @@
-//! Detection of the decisions that an answer states, from the last one backwards.
+//! Finds the decisions that an answer states, searching backwards from its end.
 
 use super::phrase::{self, Context, Phrase};
 use super::text::boundary;
@@ -8,13 +8,13 @@ use regex::{Captures, Regex};
 use std::ops::Range;
 use std::sync::LazyLock;
 
-/// The number of lines at the end of an answer that are searched for loose words.
+/// The number of trailing lines that are searched for an action stated without the word "action".
 const LAST_LINES: usize = 5;
 
-/// The number of bytes of a line that are examined.
+/// The maximum number of bytes of a line to examine.
 pub(super) const MAX_SCANNED: usize = 400;
 
-/// The maximum number of decisions to examine, from the end.
+/// The maximum number of decisions to examine, counted from the end of the answer.
 const DECISIONS: usize = 100;
 
 /// The start of a marked decision: a tag, a box, or a word with a sign after it.
@@ -58,7 +58,7 @@ static STATED: LazyLock<Regex> = LazyLock::new(|| {
     ))
 });
 
-/// A decision, as far as it can be read.
+/// The result of reading one decision.
 #[derive(Clone, Copy, Debug)]
 enum Found<'a> {
     Plain(Action, Stage),
@@ -88,7 +88,7 @@ impl Kind {
     }
 }
 
-/// A decision and its position.
+/// A decision and its position in the answer.
 #[derive(Clone, Copy, Debug)]
 struct Decision<'a> {
     found: Found<'a>,
@@ -98,8 +98,8 @@ struct Decision<'a> {
     kind: Kind,
 }
 
-/// Reads a folded answer that does not follow the format. Marked decisions are read first, then the text that follows
-/// them, or the whole answer if there are no marked decisions.
+/// Reads a normalised answer that does not follow the requested format. Marked decisions are read first. The
+/// text after the last marked decision is read next, or the whole answer if there are no marked decisions.
 pub(super) fn read<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)> {
     let places: Vec<usize> = MARK.find_iter(said).map(|found| found.start()).collect();
     let marks = &places[places.len().saturating_sub(DECISIONS)..];
@@ -123,7 +123,7 @@ pub(super) fn read<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, 
 }
 
 impl<'a> Decision<'a> {
-    /// Returns the choice, unless the text after it retracts it.
+    /// Returns the decision's choice, or [`Chosen::Unclear`] if the text after the decision retracts it.
     fn chosen(&self, said: &str) -> (Chosen<'a>, Stage) {
         match self.found {
             Found::Plain(_, stage) if self.kind != Kind::Json && phrase::retracts(&said[self.end..]) => {
@@ -137,7 +137,7 @@ impl<'a> Decision<'a> {
     }
 }
 
-/// Reads the decision after a mark; `None` if no decision follows.
+/// Reads the decision that follows a mark. Returns `None` if no decision follows.
 fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Option<Decision<'a>> {
     let whole = mark.get(0)?;
     let name = mark.name("tag").or(mark.name("key")).map_or("", |name| name.as_str()).to_ascii_lowercase();
@@ -161,7 +161,7 @@ fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Optio
             let text = (1..value.len()).find_map(|group| value.get(group))?;
             (text.start(), text.as_str())
         }
-        // Inside quotation marks, only the text up to the closing one.
+        // Inside quotation marks, the decision ends at the closing quotation mark.
         Kind::Word | Kind::Alone if line.matches('"').count() % 2 == 1 => {
             (0, near.split(['"', '\n']).next()?)
         }
@@ -184,7 +184,7 @@ fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Optio
     };
     let context = match kind {
         Kind::Json => phrase::context(&name),
-        // The word itself may say that the action is a past one.
+        // The word itself may show that the action is a past action.
         _ => phrase::context(&said[at - line.len()..at + name.len()]),
     };
     match context {
@@ -208,12 +208,12 @@ fn in_object(text: &str) -> Phrase<'_> {
     }
 }
 
-/// Reads a tag with several lines. The decision may be on a line that has its own mark.
+/// Reads a tag that spans several lines. The decision may be on a line with its own mark.
 fn in_several_lines(text: &str) -> Phrase<'_> {
     if phrase::names_other(text, None) { Phrase::Unclear } else { Phrase::Empty }
 }
 
-/// Reads an action at `word` that has no sign before it; the decision starts at `at`.
+/// Reads the action at `word`, which has no mark before it. The decision starts at `at`.
 fn unmarked<'a>(
     said: &'a str,
     at: usize,
@@ -269,8 +269,8 @@ fn words<'a>(said: &'a str, from: usize) -> Option<Decision<'a>> {
     settle(said, &found)
 }
 
-/// Returns the last of several decisions, or `Several` if a related decision differs. Decisions are related if they
-/// are on the same line, or are both tags, both boxes or both actions alone on a line.
+/// Returns the last of several decisions, or [`Found::Several`] if a related decision differs. Decisions are
+/// related if they are on the same line, or are all tags, all boxes or all actions alone on a line.
 fn settle<'a>(said: &str, found: &[Decision<'a>]) -> Option<Decision<'a>> {
     let (last, earlier) = found.split_last()?;
     let Found::Plain(choice, _) = last.found else { return Some(*last) };
@@ -287,7 +287,7 @@ fn settle<'a>(said: &str, found: &[Decision<'a>]) -> Option<Decision<'a>> {
     Some(Decision { found: if differs { Found::Several } else { last.found }, ..*last })
 }
 
-/// Returns the start of the last non-empty lines.
+/// Returns the byte offset at which the last [`LAST_LINES`] non-empty lines start.
 fn last_lines(said: &str) -> usize {
     let from = boundary(said, said.len().saturating_sub(MAX_SCANNED * LAST_LINES));
     let mut starts = vec![from];

@@ -1,10 +1,10 @@
-//! Reading actions from the answers of players.
+//! Reads actions from the answers of players.
 //!
-//! The requested format is strict: that of a single action is defined here, that of several actions in `plan.rs`. An
-//! answer that does not follow it is read with a named tolerance (`decisions.rs`). The log records the tolerance,
-//! which never guesses: the last decision counts, not the first. A decision is invalid if it negates its action,
-//! judges it or states a second action. A number is an action only directly after the word "action". The test vectors
-//! are those of `spec/06` §1.5.
+//! The requested format is strict. This module defines the format for a single action, and `plan.rs` defines
+//! the format for several actions. The rules in `decisions.rs` read an answer in any other format, and the
+//! log records the rule that applied. No rule guesses. The last decision in an answer counts. A decision is
+//! invalid if it negates its action, judges it or states a second action. A number is an action only directly
+//! after the word "action". The test vectors are those of `spec/06` §1.5.
 
 mod decisions;
 mod phrase;
@@ -19,15 +19,15 @@ use engine::Action;
 use regex::Regex;
 use std::sync::LazyLock;
 
-/// The number of characters quoted from an answer that is not understood.
+/// The maximum number of characters quoted from an answer that is not understood.
 const QUOTED: usize = 40;
 
-/// The requested answer format.
+/// The answer format that a prompt requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// The last line is `ACTION: left`.
     Word,
-    /// Some line is `Action:2`, with the number of the action in the list. The last such line counts.
+    /// Some line is `Action:2`, where 2 is the action's number in the list. The last such line counts.
     Number,
 }
 
@@ -38,38 +38,39 @@ base::named_enum! {
         Json = "json",
         /// A tag around an action: `<answer>left</answer>`.
         Tag = "tag",
-        /// A word such as "action" or "final answer", directly followed by an action: `**Action:** left`, `action 2`.
+        /// A word such as "action" or "final answer", directly followed by an action, such as
+        /// `**Action:** left` or `action 2`.
         Marker = "marker",
-        /// The same, with words that lead to the action: `Action: I move left`.
+        /// A word such as "action", followed by other words and an action, such as `Action: I move left`.
         Line = "line",
         /// The reference's spelling, `ACTION_LEFT`.
         Reference = "reference",
-        /// An action alone on a line or in quotes, or a statement of a move: `I go up`.
+        /// An action alone on a line or in quotes, or a statement of a move, such as `I go up`.
         Words = "words",
     }
 }
 
-/// The interpretation of an answer, which is an action or the actions of a plan.
+/// The result of reading an answer: an action, or the actions of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reading<T = Action> {
     /// A choice in the requested format.
     Strict(T),
     /// A choice in a different format.
     Tolerant {
-        /// The choice.
+        /// The choice that the answer states.
         choice: T,
-        /// The rule that found it.
+        /// The rule that found the choice.
         stage: Stage,
     },
-    /// No choice, or an impossible one.
+    /// The answer states no choice, or an impossible choice.
     Invalid {
-        /// The reason, as a clause about the answer: `it names no action`.
+        /// The reason, as a clause whose subject is the answer, such as `it names no action`.
         why: String,
     },
 }
 
 impl<T> Reading<T> {
-    /// Returns the choice, if there is one.
+    /// Returns the choice that the answer states, if there is one.
     pub fn choice(self) -> Option<T> {
         match self {
             Reading::Strict(choice) | Reading::Tolerant { choice, .. } => Some(choice),
@@ -77,7 +78,7 @@ impl<T> Reading<T> {
         }
     }
 
-    /// Converts the choice.
+    /// Converts the choice with a function, and keeps how it was read.
     pub fn map<U>(self, convert: impl FnOnce(T) -> U) -> Reading<U> {
         match self {
             Reading::Strict(choice) => Reading::Strict(convert(choice)),
@@ -87,14 +88,14 @@ impl<T> Reading<T> {
     }
 }
 
-/// The apparent choice of an answer.
+/// The choice that an answer seems to state.
 enum Chosen<'a> {
     Action(Action),
-    /// An unknown word or number.
+    /// A word or number that stands for no known action.
     Unknown(&'a str),
     /// More than one action.
     Several,
-    /// An action that is negated, judged or retracted.
+    /// An action that the answer negates, judges or retracts.
     Unclear,
 }
 
@@ -107,9 +108,9 @@ impl Chosen<'_> {
     }
 }
 
-/// Reads an answer. `listed` holds the actions in the order of their numbers, from 0; `offered` holds the actions
-/// that can be chosen now. The last decision counts. If it is not among `offered`, no earlier decision replaces it.
-/// Cost: O(bytes).
+/// Reads an answer. `listed` holds the actions in the order of their numbers, from 0. `offered` holds the
+/// actions that can be chosen now. The last decision counts. If its action is not among `offered`, no earlier
+/// decision replaces it. Cost: O(bytes).
 pub fn read(text: &str, format: Format, listed: &[Action], offered: &[Action]) -> Reading {
     let said = without_reasoning(text).trim();
     if said.is_empty() {
@@ -139,10 +140,10 @@ fn pattern(text: &str) -> Regex {
     Regex::new(text).expect("a pattern of ours")
 }
 
-/// A line in the format of words.
+/// A line in the [`Format::Word`] format.
 static WORD_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^ACTION:[ \t]*([a-z]+)$"));
 
-/// A line in the format of numbers.
+/// A line in the [`Format::Number`] format.
 static NUMBER_LINE: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"(?im)^[ \t]*Action:[ \t]*([0-9]+)[ \t]*\r?$"));
 
@@ -153,14 +154,15 @@ fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen
     };
     let word = found?.get(1)?.as_str();
     match format {
-        // Other words for an action, and other languages, are left to the tolerant rules.
+        // Synonyms of an action and words of other languages are left to the tolerant rules.
         Format::Word => listed.iter().find(|action| word.eq_ignore_ascii_case(&action.to_string())).copied(),
         Format::Number => named(word, listed).action(),
     }
     .map(Chosen::Action)
 }
 
-/// Returns an action by its name, by its name in the reference, or by a different word for doing nothing.
+/// Returns the action with a given name. The name may be the reference engine's, or a synonym for doing
+/// nothing.
 fn action_of(word: &str) -> Option<Action> {
     let word = word.to_ascii_lowercase();
     let word = word.strip_prefix("action_").unwrap_or(&word);
@@ -184,7 +186,7 @@ fn is_number(word: &str) -> bool {
     word.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// Returns the beginning of a word, short enough to quote in a message.
+/// Returns the first [`QUOTED`] characters of a word, for use in a message.
 fn quoted(word: &str) -> String {
     word.chars().take(QUOTED).collect()
 }
@@ -469,7 +471,7 @@ mod tests {
             prop_assert_eq!(read(&text, Format::Word, &LISTED, &LISTED), Reading::Strict(action));
         }
 
-        /// A choice of two actions is no choice, however they are joined and marked.
+        /// An answer that states two actions has no choice, however the actions are joined and marked.
         #[test]
         fn two_choices_are_none(one in 0_usize..6, other in 0_usize..6, join in 0_usize..12, frame in 0_usize..10) {
             const JOINS: [&str; 12] =
@@ -486,7 +488,7 @@ mod tests {
             prop_assert!(matches!(reading, Reading::Invalid { .. }), "{text:?}: {reading:?}");
         }
 
-        /// Text inside reasoning tags never counts.
+        /// Text inside reasoning tags never affects the choice.
         #[test]
         fn thoughts_never_count(thought in "(ACTION: |left|up|<answer>|</answer>|\n|\\{\"action\": \"use\"\\}|so |I go ){0,12}", tag in 0_usize..6) {
             const TAGS: [(&str, &str); 6] = [

@@ -1,33 +1,34 @@
-//! The phrase after the word "action", in a tag or in a JSON value: words that lead to an action, the action, and an
-//! end or an explanation. A phrase with any other word is not understood, so that nothing is guessed.
+//! Reads the phrase after the word "action", in a tag or in a JSON value. A phrase consists of words that
+//! lead to an action, the action, and an end or an explanation. A phrase with any other word is not
+//! understood, so that nothing is guessed.
 
 use super::{action_of, pattern};
 use engine::Action;
 use regex::{Match, Regex};
 use std::sync::LazyLock;
 
-/// The choice of a phrase.
+/// The result of reading a phrase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Phrase<'a> {
     Plain {
         choice: Action,
-        /// `true` if words lead to the action: `move left`.
+        /// `true` if words lead to the action, as in `move left`.
         is_led: bool,
     },
     /// The phrase states several actions.
     Several,
-    /// The phrase states an action, but negates or judges it, or says something else about it.
+    /// The phrase states an action, but negates it, judges it, or makes some other statement about it.
     Unclear,
     /// The phrase begins with this word or number, and states no action.
     Unknown(&'a str),
     Empty,
 }
 
-/// The words around a phrase, as far as they negate it.
+/// The effect of the words around a phrase on its action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Context {
     Free,
-    /// The phrase is not about the next action.
+    /// The phrase is not about the player's next action.
     Aside,
     Negated,
 }
@@ -37,7 +38,7 @@ static TOKEN: LazyLock<Regex> =
 
 static LETTERS: LazyLock<Regex> = LazyLock::new(|| pattern("[A-Za-z]+"));
 
-/// Words that retract an action. `wait` and `no` are matched with their sign.
+/// Words that retract an action or a plan.
 static RETRACTION: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r"(?i)\b(?:actually|scratch that|on second thought|correction|never ?mind|oops|let me (?:reconsider|rethink|correct)|instead[ \t]*(?:[,.;:!]|$))",
@@ -185,7 +186,7 @@ const NEGATIONS: [&str; 29] = [
     "refuse",
 ];
 
-/// Words that mark an action as past, or as one of a list.
+/// Words that mark an action as past, or as an item of a list.
 const ASIDES: [&str; 15] = [
     "previous",
     "last",
@@ -215,7 +216,7 @@ fn words(text: &str) -> impl Iterator<Item = String> + '_ {
     })
 }
 
-/// Returns `true` if a text states an action other than `choice`, or any action if there is no choice.
+/// Returns `true` if a text states an action other than `choice`. If `choice` is `None`, any action counts.
 pub(super) fn names_other(text: &str, choice: Option<Action>) -> bool {
     let mut named = LETTERS.find_iter(text).filter_map(|word| action_of(word.as_str()));
     named.any(|action| choice != Some(action))
@@ -226,12 +227,14 @@ pub(super) fn retracts(text: &str) -> bool {
     retracts_plan(text) || SECOND_THOUGHT.is_match(text)
 }
 
-/// Returns `true` if a text retracts the plan before it. `wait` can be one of the plan's actions.
+/// Returns `true` if a text retracts the plan before it. `wait` alone does not retract a plan, because it can
+/// be one of the plan's actions.
 pub(super) fn retracts_plan(text: &str) -> bool {
     RETRACTION.is_match(text)
 }
 
-/// Reads a phrase. `listed` holds the actions that numbers stand for, if a number can be a choice here.
+/// Reads a phrase. `listed` holds the actions that numbers stand for. It is `None` if a number cannot be a
+/// choice in this phrase.
 pub(super) fn read<'a>(text: &'a str, listed: Option<&[Action]>) -> Phrase<'a> {
     let (mut unknown, mut is_led, mut is_minus) = (None, false, false);
     for token in TOKEN.captures_iter(text) {
@@ -274,7 +277,7 @@ pub(super) fn read<'a>(text: &'a str, listed: Option<&[Action]>) -> Phrase<'a> {
         Some(_) => Phrase::Unclear,
         None => match unknown.filter(|word| !word.is_empty()) {
             Some(word) => Phrase::Unknown(word),
-            // Words that lead to an action, without an action.
+            // The phrase has words that lead to an action, but no action.
             None => TOKEN
                 .captures_iter(text)
                 .find_map(|token| token.name("word"))
@@ -283,7 +286,7 @@ pub(super) fn read<'a>(text: &'a str, listed: Option<&[Action]>) -> Phrase<'a> {
     }
 }
 
-/// Returns `false` if a number continues after its first digits: `3,4`, `2.5`.
+/// Returns `false` if a number continues after its first digits, as in `3,4` or `2.5`.
 fn is_whole(rest: &str) -> bool {
     let rest = rest.trim_start_matches([' ', '\t']);
     let mut signs = rest.chars();
@@ -337,7 +340,7 @@ fn reason<'a>(after: &str, choice: Action) -> Option<Phrase<'a>> {
     }
 }
 
-/// Checks the text after a sign, which is a separate sentence or the rest of the same one.
+/// Checks the text after a punctuation mark, which is a separate sentence or the rest of the same sentence.
 fn explanation<'a>(text: &str, choice: Action, is_sentence: bool) -> Option<Phrase<'a>> {
     let flaw = || if names_other(text, Some(choice)) { Phrase::Several } else { Phrase::Unclear };
     let first = words(text).next()?;
@@ -373,8 +376,8 @@ pub(super) fn context(before: &str) -> Context {
     context
 }
 
-/// Returns `true` if the clause at the end of `before` leads to an action of the player: `So I will`, but not
-/// `the ghost will`.
+/// Returns `true` if the clause at the end of `before` leads to an action of the player. `So I will` does,
+/// and `the ghost will` does not.
 pub(super) fn leads(before: &str) -> bool {
     let words: Vec<String> = words(clause(before)).collect();
     let person = words.iter().rposition(|word| {

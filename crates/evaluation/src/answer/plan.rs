@@ -1,4 +1,4 @@
-//! Reading plans, which consist of several actions, from the answers of players.
+//! Reads plans, which consist of several actions, from the answers of players.
 
 use super::decisions::{MAX_SCANNED, line_before};
 use super::phrase::{self, Context};
@@ -8,32 +8,32 @@ use engine::Action;
 use regex::{Captures, Regex};
 use std::sync::LazyLock;
 
-/// The number of markers to examine, from the end.
+/// The maximum number of markers to examine, counted from the end of the answer.
 const MARKERS: usize = 100;
 
-/// A line in the requested format.
+/// A plan in the requested format, on a line by itself.
 static PLAN_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^PLAN:[ \t]*(\S.*)$"));
 
-/// An item of a plan in the requested format: an action and its number of repetitions.
+/// An item of a plan in the requested format, with an action and its number of repetitions.
 static ITEM: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^([a-z]+)(?:[ \t]+x[ \t]?([0-9]{1,9}))?$"));
 
-/// The start of a plan: a tag, a box, or a word such as "plan" or "actions" with a sign.
+/// The start of a plan: a tag, a box, or a word such as "plan" or "actions" with a punctuation mark.
 static MARKER: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?:<\|?(?P<tag>(?:final[_ ]?)?(?:plan|answer|actions?|moves?))\|?>|\\boxed\{|(?-u:\b)(?P<word>plan|(?:final[_ ])?answer|actions?|moves?)(?P<quote>["']?)[*`]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒))[ \t]*[*`]{0,3}"#,
     )
 });
 
-/// A part of a list: a count, the number of an item, a word, the end of a line, or any other sign.
+/// A part of a list: a count, an item's number, a word, a line break, or any other sign.
 static PART: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r"(?i)(?P<count>[ \t]*(?:(?-u:\b)x|[×*])[ \t]?(?P<times>[0-9]{1,9})(?-u:\b))|(?P<number>[0-9]+[.)][ \t])|(?P<word>[a-z0-9_]+)|(?P<line>\n)|(?P<end><[/|])|(?P<sign>[,;<>\[\](){}\\`*\x22' \t\r.\-→⇒+&]|(?P<other>[^\n]))",
     )
 });
 
-/// Reads a plan of at most `due` actions; further actions are dropped. `listed` holds the actions of the game. The
-/// last plan counts. A word in it that is not an action makes it unusable, and no earlier plan replaces it. Cost:
-/// O(bytes + due).
+/// Reads a plan of at most `due` actions, and drops any further actions. `listed` holds the actions of the
+/// game. The last plan in the answer counts. A plan with a word that is not an action is unusable, and no
+/// earlier plan replaces it. Cost: O(bytes + due).
 pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>> {
     let said = without_reasoning(text).trim();
     if said.is_empty() {
@@ -63,19 +63,20 @@ pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>
             _ => Stage::Marker,
         };
         match list(rest, due, listed) {
-            // These are objects with one action each, whose other keys may give counts and order.
+            // The markers belong to objects with one action each, whose other keys may give counts and order.
             List::Plan(_) if is_json && is_one_of_several(marker, &markers) => return none(),
             List::Plan(_) if !is_json && phrase::retracts_plan(rest) => return none(),
             List::Plan(choice) => return Reading::Tolerant { choice, stage },
             List::Unknown(word) => {
                 return Reading::Invalid { why: format!("`{}` is not an action of the list", quoted(word)) };
             }
-            // Words around actions do not form a list, and no earlier plan replaces them.
+            // Words around actions do not form a list, so the answer has no plan. An earlier plan does not
+            // replace it.
             List::None if phrase::names_other(first_line(rest), None) => break,
             List::None => {}
         }
     }
-    // Without a marker, only a last line that consists of actions counts.
+    // Without a marker, only the last line counts, and only if it consists of actions.
     let (before, last) = said.trim_end().rsplit_once('\n').unwrap_or(("", said));
     let before = before.trim_end();
     match list(last, due, listed) {
@@ -112,7 +113,7 @@ fn strict(said: &str, due: u64, listed: &[Action]) -> Option<Vec<Action>> {
     Some(plan)
 }
 
-/// The beginning of a text, read as a list of actions.
+/// The beginning of a text, interpreted as a list of actions.
 enum List<'a> {
     Plan(Vec<Action>),
     /// A word that is not an action, in the first line or after an action on the same line.
@@ -120,7 +121,7 @@ enum List<'a> {
     None,
 }
 
-/// Reads a list up to the first line that is not part of it.
+/// Reads a list of actions up to the first line that is not part of it.
 fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
     let (mut plan, mut last, mut is_line_begun, mut is_known) = (Vec::new(), None, false, false);
     for part in PART.captures_iter(text) {
@@ -135,7 +136,7 @@ fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
         } else if let Some(word) = part.name("word").or(part.name("times")).or(part.name("other")) {
             let action = match named(word.as_str(), listed) {
                 Chosen::Action(action) if action_of(word.as_str()).is_some() => action,
-                // Prose after the list, or a text without any list.
+                // The word belongs to prose after the list, or to a text without any list.
                 _ if is_known && !is_line_begun => break,
                 _ if is_known => return List::Unknown(word.as_str()),
                 _ => return List::None,
@@ -147,7 +148,7 @@ fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
     if is_known { List::Plan(plan) } else { List::None }
 }
 
-/// Adds an action several times, up to a total of `due` actions.
+/// Adds an action to a plan the given number of times, up to a total of `due` actions.
 fn extend(plan: &mut Vec<Action>, action: Action, times: u64, due: u64) {
     let room = due.saturating_sub(plan.len() as u64);
     plan.extend(std::iter::repeat_n(action, times.min(room) as usize));
@@ -161,8 +162,8 @@ mod tests {
 
     const LISTED: [Action; 6] = [Nil, Up, Left, Down, Right, Use];
 
-    /// Checks the reading of an answer when 6 actions are due. `expect` has the initials of the actions, and the rule
-    /// that read them.
+    /// Checks the reading of an answer when 6 actions are due. `expect` holds the initials of the expected
+    /// actions and the rule that must read them.
     #[track_caller]
     fn check(text: &str, expect: &str) {
         let initials = |plan: &[Action]| {

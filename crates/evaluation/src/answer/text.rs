@@ -1,4 +1,5 @@
-//! The normalised text of an answer: without its reasoning, and with one spelling of each sign.
+//! Normalises the text of an answer. The normalisation removes the reasoning, and replaces all variants of a
+//! sign with the same spelling.
 
 use super::pattern;
 use regex::Regex;
@@ -21,12 +22,12 @@ static OPENING: LazyLock<Regex> = LazyLock::new(|| {
     ))
 });
 
-/// LaTeX commands that only change the look of a word.
+/// LaTeX commands that change only the appearance of a word.
 static LATEX: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"\\(?:text(?:bf|tt|it|rm)?|math(?:bf|tt|it|rm))\{"));
 
-/// Returns the answer without its reasoning. The text up to the last closing tag is dropped, and so is the text after
-/// an unclosed opening tag. Cost: O(bytes).
+/// Returns the answer without its reasoning. Drops the text up to the last closing tag and the text after an
+/// unclosed opening tag. Cost: O(bytes).
 pub fn without_reasoning(text: &str) -> &str {
     let end = CLOSING.find_iter(text).last().map_or(0, |tag| tag.end());
     let rest = &text[end..];

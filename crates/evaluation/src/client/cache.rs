@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A folder of cached answers, which several programs may use at once. The folder must be trusted: a server's answer
-/// cannot be distinguished from one that somebody wrote there.
+/// A folder of cached answers, which several programs may use at once. The folder must be trusted, because a
+/// forged entry cannot be distinguished from a server's answer.
 #[derive(Debug)]
 pub(super) struct Cache {
     folder: PathBuf,
 }
 
-/// The maximum size of an entry, in bytes. Longer answers are not cached.
+/// The maximum size of a cache entry, in bytes. Longer answers are not cached.
 const MAX_ENTRY: u64 = 16 << 20;
 
 #[derive(Serialize, Deserialize)]
@@ -30,11 +30,15 @@ struct Entry {
 
 /// Returns the cache key of a request.
 ///
-/// The key covers everything that reaches the server: the provider, the URL, and every byte of the body, with the
-/// model, the conversation and the decoding as they are sent. A client that formats a request differently gets a
-/// different key. The key also covers the draw ([`ChatRequest::sample`]), because equal requests at a nonzero
-/// temperature need different answers, but the same ones when everything is run again. At temperature 0, all draws
-/// share one answer. The key does not cover the API key, time limits and caps, which do not affect answers.
+/// The key covers everything that reaches the server: the provider, the URL, and every byte of the body,
+/// including the model, the conversation and the decoding. A client that formats a request differently gets a
+/// different key.
+///
+/// The key also covers the draw ([`ChatRequest::sample`]). At a nonzero temperature, equal requests need
+/// different answers, but a repeated run must get the same answers. At temperature 0, all draws share one
+/// answer.
+///
+/// The key does not cover the API key, time limits and caps, which do not affect answers.
 pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequest) -> Digest {
     let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 cached reply");
     let mut add = |part: &[u8]| {
@@ -50,7 +54,7 @@ pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequ
 }
 
 impl Cache {
-    /// Opens the cache in a folder, which is created if it does not exist.
+    /// Opens the cache in a folder, and creates the folder if it does not exist.
     ///
     /// # Errors
     /// Returns an error if the folder cannot be written.
@@ -61,14 +65,14 @@ impl Cache {
         Ok(cache)
     }
 
-    /// Returns the answer if it is present and intact.
+    /// Returns the cached answer for a key, if it is present and intact.
     pub(super) fn get(&self, key: Digest) -> Option<ChatReply> {
         let bytes = disk::read_no_follow(&self.path(key), MAX_ENTRY).ok()??;
         let entry: Entry = serde_json::from_slice(&bytes).ok()?;
         (entry.key == key && entry.check == check(&entry.reply)).then_some(entry.reply)
     }
 
-    /// Stores an answer. Write errors are ignored, because the disk may be full but the answer is still usable.
+    /// Stores an answer. Ignores write errors, because the answer is usable even if the disk is full.
     pub(super) fn put(&self, key: Digest, reply: &ChatReply) {
         let reply = ChatReply { failures: Vec::new(), ..reply.clone() };
         let entry = Entry { key, check: check(&reply), reply };
@@ -80,8 +84,8 @@ impl Cache {
         }
     }
 
-    /// Returns the path of an entry. Entries are spread over folders by the first two digits of their keys, because
-    /// there may be a million entries.
+    /// Returns the path of an entry. Entries are spread over folders by the first two digits of their keys,
+    /// because a cache may hold a million entries.
     fn path(&self, key: Digest) -> PathBuf {
         let name = key.to_string();
         self.folder.join(&name[..2]).join(format!("{name}.json"))
@@ -166,7 +170,7 @@ mod tests {
         assert_eq!(cache.get(Digest::of(b"other")), None, "an answer to another question");
     }
 
-    /// Anyone who shares the folder can replace an entry by arbitrary content.
+    /// Anyone who shares the folder can replace an entry with arbitrary content.
     #[cfg(unix)]
     #[test]
     fn only_plain_files_of_a_bounded_size_are_read() {
@@ -189,7 +193,7 @@ mod tests {
         large.resize(MAX_ENTRY as usize + 1, b' ');
         fs::write(&path, large).unwrap();
         assert_eq!(cache.get(key), None);
-        // A stored answer replaces the existing file, whatever it is.
+        // Storing an answer replaces an existing file with any content.
         cache.put(key, &reply());
         assert_eq!(cache.get(key), Some(reply()));
     }

@@ -7,34 +7,34 @@ use crate::log::Event;
 use crate::tokens;
 use std::sync::{Mutex, MutexGuard};
 
-/// The spending limits; `None` means no limit.
+/// The limits on spending. `None` means that there is no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// The maximum cost, according to the table of prices.
+    /// The maximum cost, computed from the price table.
     pub cost: Option<Usd>,
     /// The maximum number of tokens in prompts and answers.
     pub tokens: Option<u64>,
-    /// The maximum number of answered requests. The tries of one request count once.
+    /// The maximum number of answered requests. All tries of one request count as one request.
     pub requests: Option<u64>,
 }
 
-/// The amounts spent.
+/// The amounts that an evaluation has spent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spent {
     /// The number of answered requests.
     pub requests: u64,
     /// The number of tokens in prompts and answers.
     pub tokens: u64,
-    /// The cost, as far as prices are known.
+    /// The total cost of the requests whose prices are known.
     pub cost: Usd,
 }
 
-/// The enforcement of an evaluation's limits.
+/// Enforces the limits of an evaluation.
 ///
-/// A request is allowed if the sum of its prompt, the prompts in flight and the amounts spent stays within all
-/// limits. It is charged once, by the usage in its reply, or by a local count of its text if the reply reports no
-/// usage. The cost of an answer is not known in advance, so the answers in flight when a limit is reached can exceed
-/// it. Failed tries are not charged, because their cost is not reported.
+/// A request is allowed if its prompt, the prompts in flight and the amounts spent add up to no more than the
+/// limits. The request is charged once, by the usage in its reply, or by a local count of its text if the
+/// reply reports no usage. The cost of an answer is not known in advance, so the answers in flight when a
+/// limit is reached can exceed it. Failed tries are not charged, because their cost is not reported.
 #[derive(Debug)]
 pub struct Caps {
     limits: Limits,
@@ -45,23 +45,23 @@ pub struct Caps {
 #[derive(Debug, Default)]
 struct Ledger {
     spent: Spent,
-    /// The requests in flight, with their prompts.
+    /// The amounts reserved for the prompts of the requests in flight.
     reserved: Spent,
 }
 
 impl Caps {
-    /// Creates caps with these limits. `price` is the model's price, if it is known.
+    /// Creates caps with the given limits. `price` is the model's price, if it is known.
     pub fn new(limits: Limits, price: Option<Price>) -> Caps {
         Caps { limits, price, ledger: Mutex::default() }
     }
 
-    /// Returns the amounts spent so far, without requests in flight.
+    /// Returns the amounts spent so far, excluding requests in flight.
     pub fn spent(&self) -> Spent {
         self.ledger().spent
     }
 
-    /// Charges the amounts that an episode's log records from earlier runs of the program. Cached answers cost
-    /// nothing.
+    /// Charges the amounts that an episode's log records from earlier runs of the program. Cached answers
+    /// cost nothing.
     pub fn charge_logged(&self, events: &[Event]) {
         let mut prompt = 0;
         for event in events {
@@ -80,7 +80,7 @@ impl Caps {
     /// Admits a request with a prompt of about `prompt` tokens.
     ///
     /// # Errors
-    /// Returns a message with the limit that forbids the request.
+    /// Returns a message with the limit that the request would exceed.
     pub(super) fn reserve(&self, prompt: u64) -> Result<Reservation<'_>, String> {
         let usage = Usage { input_tokens: Some(prompt), output_tokens: Some(0), ..Usage::default() };
         let cost = self.price.as_ref().and_then(|price| price.cost(&usage)).unwrap_or_default();
@@ -88,8 +88,8 @@ impl Caps {
         let mut ledger = self.ledger();
         let reserved = ledger.reserved.plus(amount);
         if let Some(problem) = self.limits.exceeded(&ledger.spent.plus(reserved)) {
-            // The message omits the amount spent, because requests in flight are still unpaid. The final report has
-            // the amount.
+            // The message omits the amount spent, because requests in flight are not charged yet. The final
+            // report states the amount.
             return Err(format!("the next request would exceed {problem}"));
         }
         ledger.reserved = reserved;
@@ -118,7 +118,7 @@ impl Caps {
 }
 
 impl Limits {
-    /// Returns the limit that these amounts would exceed, as its option on the command line.
+    /// Returns the limit that the given amounts would exceed, in the form of its command-line option.
     fn exceeded(&self, spent: &Spent) -> Option<String> {
         if let Some(limit) = self.cost.filter(|limit| spent.cost > *limit) {
             return Some(format!("--max-cost {limit}"));
@@ -130,8 +130,8 @@ impl Limits {
         Some(format!("--max-requests {limit}"))
     }
 
-    /// Returns the limit that a whole evaluation would exceed according to its estimate, as its option on the command
-    /// line, for a dry run.
+    /// Returns the limit that a whole evaluation would exceed according to its estimate, in the form of its
+    /// command-line option. Dry runs report this limit.
     pub fn exceeded_by_estimate(&self, estimate: &Estimate) -> Option<String> {
         let tokens = estimate.input_tokens.saturating_add(estimate.output_tokens);
         self.exceeded(&Spent { requests: estimate.requests, tokens, cost: estimate.cost.unwrap_or_default() })
@@ -156,7 +156,8 @@ impl Spent {
     }
 }
 
-/// A request in flight. It costs nothing if it is dropped without a charge.
+/// A reservation for a request in flight. Nothing is charged if the reservation is dropped before it is
+/// settled.
 #[derive(Debug)]
 #[must_use]
 pub(super) struct Reservation<'a> {
@@ -168,7 +169,8 @@ pub(super) struct Reservation<'a> {
 impl Reservation<'_> {
     pub(super) fn settle(mut self, usage: &Usage, text: &str, reasoning: Option<&str>) {
         let charge = self.caps.charge(usage, self.prompt, text, reasoning);
-        // Both happen in one step, so that the request is never counted both as in flight and as paid.
+        // Releasing the reservation and charging the request happen in one step, so that the request is never
+        // counted twice.
         let amount = std::mem::take(&mut self.amount);
         let mut ledger = self.caps.ledger();
         ledger.reserved = ledger.reserved.minus(amount);

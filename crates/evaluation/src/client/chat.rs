@@ -1,4 +1,4 @@
-//! Requests to a model, and its answers.
+//! Requests to a model, and the answers of the model.
 
 use base::Seed;
 use serde::{Deserialize, Serialize};
@@ -8,32 +8,32 @@ pub trait Model: Sync + Send {
     /// Requests one answer. Retries after transient failures, and returns the failure of each try.
     ///
     /// # Errors
-    /// Returns an error if no answer could be obtained: see [`ChatErrorKind`].
+    /// Returns an error if no answer could be obtained. See [`ChatErrorKind`] for the causes.
     fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError>;
 }
 
 /// A request to a model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChatRequest {
-    /// The conversation, oldest message first: an optional system message, followed by alternating messages of user
-    /// and assistant.
+    /// The conversation, oldest message first. An optional system message is followed by alternating messages
+    /// of user and assistant.
     pub messages: Vec<ChatMessage>,
     /// The sampling settings for the answer.
     pub decoding: Decoding,
-    /// The seed of this draw. Equal requests that need independent answers have different seeds, which are derived,
-    /// for example, from the episode's seed, run, step and attempt. The seed determines the jitter of waits and,
-    /// unless the temperature is 0, the cached answer. It is not sent.
+    /// The seed of this draw, which is not sent. Equal requests that need independent answers have different
+    /// seeds, derived from values such as the episode's seed, run, step and attempt. The seed determines the
+    /// jitter of waits. Unless the temperature is 0, it also selects the cached answer.
     pub sample: Seed,
 }
 
 /// A message of a conversation.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ChatMessage {
-    /// The author.
+    /// The author of the message.
     pub role: Role,
-    /// The text.
+    /// The text of the message.
     pub text: String,
-    /// An image beside the text, in PNG format.
+    /// An image that accompanies the text, in PNG format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<Vec<u8>>,
 }
@@ -42,15 +42,16 @@ pub struct ChatMessage {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
-    /// The instructions of the conversation.
+    /// The author of the instructions at the start of a conversation.
     System,
-    /// The client.
+    /// The client that sends the requests.
     User,
-    /// The model.
+    /// The model that answers.
     Assistant,
 }
 
-/// The sampling settings for an answer. `None` is not sent, so that the provider's default applies.
+/// The sampling settings for an answer. A setting of `None` is not sent, so that the provider's default
+/// applies.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Decoding {
@@ -62,33 +63,33 @@ pub struct Decoding {
     pub max_output_tokens: Option<u32>,
     /// The provider's sampling seed.
     pub seed: Option<u64>,
-    /// The reasoning effort: `low`, `medium`, `high`, or a different value of the provider.
+    /// The reasoning effort: `low`, `medium`, `high`, or a provider-specific value.
     pub reasoning_effort: Option<String>,
 }
 
 /// A model's answer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChatReply {
-    /// The text.
+    /// The text of the answer.
     pub text: String,
-    /// The reasoning, if the provider returns it.
+    /// The model's reasoning, if the provider returns it.
     pub reasoning: Option<String>,
     /// The reason why the answer ended.
     pub finish: Finish,
-    /// The tokens used.
+    /// The token counts of the request and its answer.
     pub usage: Usage,
     /// The name that the provider uses for the model that answered.
     pub served_by: Option<String>,
-    /// The failed tries before this one.
+    /// The failed tries before the successful try.
     pub failures: Vec<Failure>,
-    /// The time from the request to the complete answer, without earlier tries and waits, in milliseconds.
+    /// The time from the request to the complete answer, in milliseconds, excluding earlier tries and waits.
     pub latency_ms: f64,
     /// `true` if the answer comes from the cache and cost nothing.
     pub cached: bool,
 }
 
 impl ChatReply {
-    /// Creates an answer with a text and a finish reason only.
+    /// Creates an answer that has only a text and a finish reason.
     pub fn new(text: String, finish: Finish) -> ChatReply {
         ChatReply { text, finish, ..ChatReply::default() }
     }
@@ -102,21 +103,22 @@ pub enum Finish {
     Stop,
     /// The token limit was reached.
     Length,
-    /// The model or its provider declined (content filter, refusal).
+    /// The model or its provider declined to answer, for example because of a content filter.
     Refusal,
-    /// The provider stated a different reason, or no reason.
+    /// The provider stated some other reason, or no reason.
     #[default]
     Other,
 }
 
-/// The token counts that the provider reports. Unreported counts are `None`, never 0.
+/// The token counts that the provider reports. A count that is not reported is `None`, never 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Usage {
-    /// The number of tokens in the prompt, including cached ones.
+    /// The number of tokens in the prompt, including cached tokens.
     pub input_tokens: Option<u64>,
     /// The number of prompt tokens read from the provider's prefix cache.
     pub cached_input_tokens: Option<u64>,
-    /// The number of prompt tokens written to the provider's prefix cache, if writing costs more than reading.
+    /// The number of prompt tokens written to the provider's prefix cache. Some providers charge extra for
+    /// these tokens.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cache_write_tokens: Option<u64>,
     /// The number of tokens in the answer, including reasoning.
@@ -142,24 +144,24 @@ impl Usage {
     }
 }
 
-/// A failed try.
+/// A failed try of a request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
-    /// The HTTP status, if there was a reply at all.
+    /// The HTTP status of the reply, if there was a reply.
     pub status: Option<u16>,
     /// The error message. It never contains a key, and has at most a few hundred characters.
     pub message: String,
-    /// The wait after the try, in milliseconds.
+    /// The time waited after the try, in milliseconds.
     pub waited_ms: u64,
 }
 
-/// The error for a missing answer.
+/// The error returned if no answer could be obtained.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct ChatError {
     /// The kind of error.
     pub kind: ChatErrorKind,
-    /// The error message, which includes the server and the next step.
+    /// The error message, which includes the server and the recommended next step.
     pub message: String,
     /// The failures of all tries.
     pub failures: Vec<Failure>,
@@ -171,8 +173,8 @@ pub struct ChatError {
 pub enum ChatErrorKind {
     /// The network or the server failed in every try.
     Infrastructure,
-    /// A cap on cost, tokens or requests forbids the request.
+    /// A cap on cost, tokens or requests would be exceeded by the request.
     Budget,
-    /// The server rejects the request (400, 401, 403, 404, 422), so a retry would not help.
+    /// The server rejected the request (400, 401, 403, 404, 422), so a retry would not help.
     Rejected,
 }

@@ -1,27 +1,27 @@
-//! The time source of the client, which reads clocks nowhere else.
+//! The client's only source of time.
 
 use std::time::{Duration, Instant, SystemTime};
 
-/// A clock. Tests provide their own, which advances on command.
+/// A source of time. Tests provide a clock that advances on command.
 pub trait Clock: Send + Sync {
-    /// Returns the time since a fixed moment, which never decreases.
+    /// Returns the time since a fixed moment. The returned time never decreases.
     fn elapsed(&self) -> Duration;
 
-    /// Returns the date, for comparison with the dates of servers.
+    /// Returns the current date, for comparison with the dates that servers send.
     fn date(&self) -> SystemTime;
 
     /// Blocks for the given time.
     fn sleep(&self, time: Duration);
 }
 
-/// The machine's clock.
+/// The clock of this machine.
 #[derive(Debug)]
 pub struct SystemClock {
     start: Instant,
 }
 
 impl SystemClock {
-    /// Creates a clock that starts now.
+    /// Creates a clock whose elapsed time starts at zero now.
     #[expect(clippy::disallowed_methods, reason = "waits and latencies are told, and decide no action")]
     pub fn start() -> SystemClock {
         SystemClock { start: Instant::now() }

@@ -1,4 +1,4 @@
-//! Connecting to a model with the user's options.
+//! Connects to a model with the user's options.
 
 use super::cache::Cache;
 use super::caps::{Caps, Limits};
@@ -20,20 +20,22 @@ use std::sync::Arc;
 use std::time::Duration;
 
 base::with_defaults! {
-    /// The user's options for a model. They contain no API key, because keys are read from the environment.
+    /// The user's options for a model. The options contain no API key, because keys are read from the
+    /// environment.
     #[derive(Clone, Debug)]
     pub struct ModelOptions {
-        /// The model: `openai:…`, `anthropic:…`, `gemini:…`, or any name with a base URL.
+        /// The model ID: `openai:…`, `anthropic:…`, `gemini:…`, or any name with a base URL.
         pub model: String = String::new(),
-        /// The server's base URL, if it is not the provider's own.
+        /// The server's base URL, if it differs from the provider's own URL.
         pub base_url: Option<String> = None,
-        /// The name of the environment variable that holds the key, if it is not the provider's default.
+        /// The name of the environment variable that holds the key, if it differs from the provider's
+        /// default.
         pub key_variable: Option<String> = None,
         /// The sampling settings for answers.
         pub decoding: Decoding = Decoding::default(),
         /// The caps on spending.
         pub limits: Limits = Limits::default(),
-        /// A table of prices that takes precedence over the embedded one.
+        /// The path of a price table that takes precedence over the embedded table.
         pub prices: Option<PathBuf> = None,
         /// The folder of the response cache, if enabled.
         pub cache: Option<PathBuf> = None,
@@ -45,7 +47,7 @@ base::with_defaults! {
         pub tokens_per_minute: Option<NonZeroU64> = None,
         /// The maximum number of tries per request.
         pub tries: NonZeroU32 = NonZeroU32::new(8).expect("not zero"),
-        /// The time limit for one try, from the first byte to the last.
+        /// The time limit for one try, up to the last byte of the reply.
         pub timeout: Duration = Duration::from_secs(600),
         /// The time limit for opening a connection.
         pub connect_timeout: Duration = Duration::from_secs(10),
@@ -55,8 +57,10 @@ base::with_defaults! {
 }
 
 impl ModelOptions {
-    /// Creates the options for a model, with defaults for everything else: four concurrent requests, eight tries, ten
-    /// minutes per try and ten seconds for its connection, replies of up to 4 MiB, no caps, and no cache.
+    /// Creates the options for a model, with default values for everything else.
+    ///
+    /// The defaults are four concurrent requests, eight tries, ten minutes per try, ten seconds per
+    /// connection, replies of up to 4 MiB, no caps, and no cache.
     pub fn new(model: &str) -> ModelOptions {
         ModelOptions { model: model.to_owned(), ..ModelOptions::default() }
     }
@@ -64,9 +68,9 @@ impl ModelOptions {
 
 /// A model that is ready to answer.
 pub struct Connection {
-    /// The model. It may be shared by all threads.
+    /// The model, which all threads may share.
     pub model: Box<dyn Model>,
-    /// The amounts spent so far, and the limits.
+    /// The spending limits and the amounts spent so far.
     pub caps: Arc<Caps>,
     /// The part of the configuration that is stored with the results.
     pub settings: ModelSettings,
@@ -74,29 +78,31 @@ pub struct Connection {
     pub price: Option<Price>,
 }
 
-/// The part of the configuration that affects the answers and is stored with the results. Caps, rates, tries and the cache
-/// do not affect them.
+/// The part of the configuration that affects the answers and is stored with the results. Caps, rates, tries
+/// and the cache do not affect answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelSettings {
-    /// The API.
+    /// The API that the server uses.
     pub provider: Provider,
-    /// The host of the server, including the port if one is given.
+    /// The host of the server, with its port if the URL contains a port.
     pub server: String,
     /// The name that the server uses for the model.
     pub model: String,
-    /// The sampling settings for answers, including the ones that the provider requires. Requests must use them.
+    /// The sampling settings for answers, including the settings that the provider requires. All requests
+    /// must use these settings.
     pub decoding: Decoding,
 }
 
 impl ModelSettings {
-    /// Returns a digest that distinguishes settings.
+    /// Returns a digest of the settings. Different settings have different digests.
     pub fn digest(&self) -> Digest {
         Digest::of(&serde_json::to_vec(self).expect("settings are plain data"))
     }
 }
 
-/// Returns the settings for these options. It opens no connection and needs no key, so dry runs can use it too.
+/// Returns the settings for the given options. Opens no connection and needs no key, so that dry runs can
+/// call it.
 ///
 /// # Errors
 /// Returns an error if the options are malformed, or use a feature that the provider does not have.
@@ -127,8 +133,8 @@ pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     Ok(price)
 }
 
-/// Creates the model for these options. Nothing is sent yet, so only the first request shows whether the server
-/// answers.
+/// Creates the model for the given options. Nothing is sent yet, so only the first request shows whether the
+/// server answers.
 ///
 /// # Errors
 /// Returns an error if the options are malformed, a key is missing, or a file or folder cannot be accessed.
@@ -136,10 +142,11 @@ pub fn connect(options: &ModelOptions) -> Result<Connection, EvaluationError> {
     connect_with(options, &environment, Arc::new(SystemClock::start()))
 }
 
-/// Connects like [`connect`], with the given environment and clock, for tests without keys and real time.
+/// Connects like [`connect`], but with the given environment and clock, so that tests need no keys and no
+/// real time.
 ///
 /// # Errors
-/// See [`connect`].
+/// Returns an error in the same cases as [`connect`].
 pub fn connect_with(
     options: &ModelOptions,
     environment: &dyn Fn(&str) -> Option<String>,
@@ -162,7 +169,8 @@ pub fn connect_with(
     Ok(Connection { model: Box::new(remote), caps, settings, price })
 }
 
-/// Rejects anything that is not a variable name, without repeating it, because it may be the key itself.
+/// Rejects a value that is not a variable name. The message does not repeat the value, because it may be the
+/// key itself.
 fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     let is_name = |name: &str| {
         let plain = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
@@ -176,8 +184,8 @@ fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     Err(EvaluationError::Malformed(problem.to_owned()))
 }
 
-/// Returns the key to send. Unless the user specifies the variable, a server on this machine gets no key, and no
-/// other server gets one unencrypted.
+/// Returns the key to send. Unless the user specifies the variable, no key is sent to a server on this
+/// machine or over an unencrypted connection.
 fn key(
     options: &ModelOptions,
     spec: &ModelSpec,

@@ -7,8 +7,8 @@ use crate::tokens;
 /// The number of tokens counted for an image whose size cannot be read.
 const PICTURE: u64 = 1000;
 
-/// Estimates the number of tokens in a request's prompt with a local count, because the vocabularies of models
-/// differ.
+/// Estimates the number of tokens in a request's prompt with a local count. The estimate is rough, because
+/// the vocabularies of models differ.
 pub(super) fn prompt_tokens(request: &ChatRequest) -> u64 {
     let picture =
         |png: &Vec<u8>| size(png).map_or(PICTURE, |(width, height)| tokens::of_picture(width, height));
@@ -18,20 +18,20 @@ pub(super) fn prompt_tokens(request: &ChatRequest) -> u64 {
     request.messages.iter().map(message).sum()
 }
 
-/// Returns the width and height of a PNG, which are the first words of its first chunk.
+/// Returns the width and height of a PNG image, read from its first chunk.
 fn size(png: &[u8]) -> Option<(u32, u32)> {
     let word = |at: usize| Some(u32::from_be_bytes(png.get(at..at + 4)?.try_into().ok()?));
     Some((word(16)?, word(20)?))
 }
 
-/// Expected requests whose prompts share a prefix, such as those of an episode.
+/// A group of expected requests whose prompts share a prefix, such as the requests of an episode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch {
     /// The number of requests.
     pub requests: u64,
     /// The number of tokens in the common prefix of all prompts.
     pub stable_tokens: u64,
-    /// The average number of further tokens per prompt.
+    /// The average number of tokens per prompt after the common prefix.
     pub changing_tokens: u64,
     /// The average number of tokens per answer, including reasoning.
     pub output_tokens: u64,
@@ -40,23 +40,23 @@ pub struct Batch {
 /// The estimate for a whole evaluation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Estimate {
-    /// The number of requests, if no request is repeated.
+    /// The number of requests, assuming that no request is repeated.
     pub requests: u64,
     /// The number of tokens in all prompts.
     pub input_tokens: u64,
-    /// The number of prompt tokens that the provider may have in its cache: the prefixes of all requests of a batch
-    /// except the first.
+    /// The number of prompt tokens that the provider may have in its cache. They are the prefixes of all
+    /// requests in a batch except the first.
     pub cacheable_tokens: u64,
     /// The number of tokens in all answers.
     pub output_tokens: u64,
-    /// The cost if the provider's cache is never used; `None` if the price is unknown.
+    /// The cost if the provider's cache is never used, or `None` if the price is unknown.
     pub cost: Option<Usd>,
-    /// The cost if the cache is used as much as possible.
+    /// The cost if the provider's cache is used as much as possible.
     pub cost_if_cached: Option<Usd>,
 }
 
 impl Estimate {
-    /// Estimates the tokens and costs of these requests.
+    /// Estimates the tokens and costs of the given batches of requests.
     pub fn of(batches: &[Batch], price: Option<&Price>) -> Estimate {
         let mut all = Estimate::default();
         let mut written = 0u64;

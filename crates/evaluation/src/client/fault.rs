@@ -1,4 +1,4 @@
-//! Classification of HTTP replies into answers, transient failures and final refusals.
+//! Classifies HTTP replies as answers, transient failures or final rejections.
 
 use super::chat::{ChatReply, Finish};
 use super::provider::Provider;
@@ -7,28 +7,28 @@ use itertools::Itertools;
 use serde_json::Value;
 use std::time::{Duration, SystemTime};
 
-/// The reason why a try has no answer.
+/// The reason why a try produced no answer.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Fault {
-    /// Another try may succeed.
+    /// A temporary failure, after which another try may succeed.
     Transient {
         /// The HTTP status, if there was a reply.
         status: Option<u16>,
         message: String,
         wait: Option<Duration>,
     },
-    /// The server will never answer this request.
+    /// A permanent failure: the server will never answer this request.
     Final {
         status: u16,
-        /// The reason, as worded by the server.
+        /// The reason in the server's own words.
         message: String,
     },
 }
 
-/// The maximum number of characters kept of a server's message.
+/// The maximum number of characters kept from a server's message.
 const MAX_MESSAGE: usize = 300;
 
-/// Classifies a reply received at `date`.
+/// Classifies a reply that was received at `date`.
 pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) -> Result<ChatReply, Fault> {
     let status = reply.status;
     let transient = |message: String, wait| Fault::Transient { status: Some(status), message, wait };
@@ -55,7 +55,7 @@ pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) 
     Err(Fault::Final { status, message: words })
 }
 
-/// Returns a description of a body that no model server would send; `None` for other bodies.
+/// Returns a description of a body that no model server would send, or `None` for any other body.
 fn body_kind(body: &str) -> Option<&'static str> {
     let body = body.trim_start();
     if body.is_empty() {
@@ -64,11 +64,11 @@ fn body_kind(body: &str) -> Option<&'static str> {
     body.starts_with('<').then_some("a page of HTML")
 }
 
-/// The maximum wait that is accepted from a header or a body: one year.
+/// The maximum wait accepted from a header or a body, which is one year.
 const MAX_RETRY_AFTER: Duration = Duration::from_secs(365 * 24 * 60 * 60);
 
-/// Parses the wait in a `Retry-After` header, which is a number of seconds, with any number of digits, or a date. The
-/// result is at most [`MAX_RETRY_AFTER`].
+/// Parses the wait in a `Retry-After` header. The value is a date or a number of seconds with any number of
+/// digits. The result is at most [`MAX_RETRY_AFTER`].
 fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
     let value = value.trim();
     if !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit()) {
@@ -120,7 +120,7 @@ fn seconds(text: &str) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds.min(MAX_RETRY_AFTER.as_secs_f64())).ok()
 }
 
-/// Shortens a text and puts it on one line, without control characters.
+/// Shortens a text to [`MAX_MESSAGE`] characters and puts it on one line, without control characters.
 pub(super) fn shorten(text: &str) -> String {
     let plain = text.replace(char::is_control, " ");
     let line = plain.split_whitespace().join(" ");
@@ -208,7 +208,7 @@ mod tests {
         check("Tue, 01 Dec 2026 07:00:00 GMT", Some(0));
         check("soon", None);
         check("", None);
-        // Numbers of more than 64 bits are also capped.
+        // Numbers that do not fit in 64 bits are also capped.
         for much in ["99999999999", "18446744073709551616", "99999999999999999999999999"] {
             check(much, Some(MAX_RETRY_AFTER.as_secs()));
         }
@@ -249,7 +249,7 @@ mod tests {
         }
     }
 
-    /// A reply that is cut off at any byte is not an answer.
+    /// A reply that is truncated at any byte is not an answer.
     #[test]
     fn truncated_replies_are_rejected() {
         for (provider, body) in [

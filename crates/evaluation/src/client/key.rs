@@ -1,20 +1,21 @@
-//! API keys, which are read from the environment and shown only to the provider.
+//! API keys, which are read from the environment and sent only to the provider.
 
 use crate::error::EvaluationError;
 use std::fmt;
 use ureq::http::HeaderValue;
 
-/// An API key, without `Display` and with a `Debug` that hides it.
+/// An API key. The type has no `Display` implementation, and its `Debug` implementation hides the key.
 #[derive(Clone)]
 pub(super) struct Key {
     pub(super) variable: String,
     secret: String,
 }
 
-/// The minimum length of a key that is searched for in answers. A shorter key could be a word of an answer.
+/// The minimum length of a key that is searched for in answers. A shorter key could be an ordinary word of an
+/// answer.
 const MIN_SEARCHED: usize = 16;
 
-/// The replacement for a key that a server repeats.
+/// The text that replaces a key in a server's reply.
 const HIDDEN: &str = "[key]";
 
 /// Reads an environment variable. The client reads only the variables that hold keys.
@@ -24,7 +25,7 @@ pub(super) fn environment(variable: &str) -> Option<String> {
 }
 
 impl Key {
-    /// Reads the key from a variable of `environment`; `None` if the variable is unset or empty.
+    /// Reads the key from a variable of `environment`. Returns `None` if the variable is unset or empty.
     pub(super) fn read(
         variable: &str,
         environment: &dyn Fn(&str) -> Option<String>,

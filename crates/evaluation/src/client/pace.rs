@@ -1,4 +1,4 @@
-//! Limits on concurrent requests and on requests per minute.
+//! Limits on concurrent requests, and on requests and tokens per minute.
 
 use super::clock::Clock;
 use super::connect::ModelOptions;
@@ -6,8 +6,8 @@ use std::num::NonZeroU64;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::Duration;
 
-/// A rate limiter. It spreads the requests and tokens of a minute evenly, which also satisfies servers that count per
-/// second.
+/// A rate limiter. It spreads the requests and tokens of a minute evenly, which also satisfies servers that
+/// count per second.
 pub(super) struct Pace {
     clock: Arc<dyn Clock>,
     requests_per_minute: Option<NonZeroU64>,
@@ -17,7 +17,7 @@ pub(super) struct Pace {
     schedule: Mutex<Schedule>,
 }
 
-/// The earliest start of the next request, for each reason to wait.
+/// The earliest start of the next request, for each of the limits.
 #[derive(Default)]
 struct Schedule {
     requests: Duration,
@@ -27,7 +27,7 @@ struct Schedule {
 
 const MINUTE: u128 = 60_000_000_000;
 
-/// Returns the time that a number of items takes at a rate per minute.
+/// Returns the time that a number of items takes at the given rate per minute.
 fn span(things: u64, per_minute: NonZeroU64) -> Duration {
     let nanoseconds = u128::from(things) * MINUTE / u128::from(per_minute.get());
     Duration::from_nanos(nanoseconds.try_into().unwrap_or(u64::MAX))
@@ -46,8 +46,8 @@ impl Pace {
         }
     }
 
-    /// Waits until the number of requests in flight is below the limit. A request keeps its slot between its tries,
-    /// so that a server in trouble gets fewer requests, instead of different ones.
+    /// Waits until the number of requests in flight is below the limit. A request keeps its slot between its
+    /// tries, so that an overloaded server gets fewer requests.
     pub(super) fn enter(&self) -> Slot<'_> {
         let free = self.free.lock().expect(NO_PANIC);
         let mut free = self.freed.wait_while(free, |free| *free == 0).expect(NO_PANIC);
@@ -72,7 +72,8 @@ impl Pace {
         }
     }
 
-    /// Corrects the schedule after a request that was admitted with `expected` tokens and used `taken` tokens.
+    /// Corrects the schedule after a request that was admitted with `expected` tokens and used `taken`
+    /// tokens.
     pub(super) fn correct(&self, expected: u64, taken: u64) {
         if let Some(limit) = self.tokens_per_minute {
             let mut schedule = self.schedule();
@@ -81,7 +82,7 @@ impl Pace {
         }
     }
 
-    /// Delays all requests by `time`, as the server requested.
+    /// Delays all requests by the time that the server requested.
     pub(super) fn delay_all(&self, time: Duration) {
         let until = self.clock.elapsed().saturating_add(time);
         let mut schedule = self.schedule();
@@ -95,7 +96,7 @@ impl Pace {
 
 const NO_PANIC: &str = "nothing panics while it holds this lock";
 
-/// A slot for a request in flight, freed when it is dropped.
+/// A slot for a request in flight, which is freed when it is dropped.
 #[must_use]
 pub(super) struct Slot<'a> {
     pace: &'a Pace,

@@ -1,4 +1,4 @@
-//! The prices of tokens. If the price of a model is unknown, so is its cost, which is different from a cost of zero.
+//! The prices of tokens. If a model's price is unknown, its cost is unknown too, rather than zero.
 
 use super::chat::Usage;
 use super::provider::Provider;
@@ -20,11 +20,11 @@ const MAX_PRICES: usize = 1 << 20;
 /// The number of units of [`Usd`] per dollar.
 const UNITS_PER_DOLLAR: f64 = 1e12;
 
-/// The maximum accepted amount, in dollars. A greater amount must be a typing error.
+/// The maximum accepted amount, in dollars. A greater amount is assumed to be a typing error.
 const MAX_DOLLARS: f64 = 1e6;
 
 impl Usd {
-    /// Converts an amount in dollars; `None` if it is not between 0 and a million.
+    /// Converts an amount in dollars. Returns `None` if the amount is not between 0 and a million.
     pub fn from_dollars(dollars: f64) -> Option<Usd> {
         (0.0..=MAX_DOLLARS).contains(&dollars).then(|| Usd((dollars * UNITS_PER_DOLLAR).round() as u64))
     }
@@ -34,12 +34,12 @@ impl Usd {
         self.0 as f64 / UNITS_PER_DOLLAR
     }
 
-    /// Adds an amount, saturating.
+    /// Adds an amount. The sum saturates at the maximum.
     pub fn plus(self, other: Usd) -> Usd {
         Usd(self.0.saturating_add(other.0))
     }
 
-    /// Subtracts an amount, saturating at 0.
+    /// Subtracts an amount. The difference saturates at 0.
     pub(super) fn minus(self, other: Usd) -> Usd {
         Usd(self.0.saturating_sub(other.0))
     }
@@ -69,20 +69,20 @@ impl FromStr for Usd {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Price {
-    /// The price of input.
+    /// The price of input tokens.
     pub input: f64,
-    /// The price of input read from the provider's cache.
+    /// The price of input tokens read from the provider's cache.
     pub cached_input: f64,
-    /// The price of input written to the provider's cache.
+    /// The price of input tokens written to the provider's cache.
     pub cache_write: f64,
-    /// The price of output, including reasoning.
+    /// The price of output tokens, including reasoning.
     pub output: f64,
-    /// The date of the price, according to the table.
+    /// The date of the price, as stated in the table.
     pub as_of: String,
 }
 
 impl Price {
-    /// Returns the cost of a reply; `None` if the provider does not report its tokens.
+    /// Returns the cost of a reply, or `None` if the provider did not report its token counts.
     pub fn cost(&self, usage: &Usage) -> Option<Usd> {
         let (input, output) = (usage.input_tokens?, usage.output_tokens?);
         let read = usage.cached_input_tokens.unwrap_or(0).min(input);
@@ -97,7 +97,7 @@ impl Price {
     }
 }
 
-/// Returns the cost of tokens at a price per million.
+/// Returns the cost of a number of tokens at a price per million.
 fn of(tokens: u64, price: f64) -> Usd {
     Usd(tokens.saturating_mul((price * (UNITS_PER_DOLLAR / 1e6)).round() as u64))
 }
@@ -133,7 +133,7 @@ impl Prices {
         Prices { tables: vec![table] }
     }
 
-    /// Returns the table in a file, followed by the embedded one.
+    /// Returns the price table in a file, followed by the embedded table.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read, or is not a price table.

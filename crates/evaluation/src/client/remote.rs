@@ -1,4 +1,4 @@
-//! A model on a server, with retries after transient failures, caps, rates and the cache.
+//! A model on a server. Its client handles retries after transient failures, caps, rates and the cache.
 
 use super::cache::{self, Cache};
 use super::caps::Caps;
@@ -26,10 +26,10 @@ pub(super) struct Remote {
     pub(super) clock: Arc<dyn Clock>,
 }
 
-/// The wait after the first try. It doubles with every further try.
+/// The wait after the first try. The wait doubles with every further try.
 const FIRST_WAIT: Duration = Duration::from_secs(1);
 
-/// The maximum wait that the client chooses itself.
+/// The maximum wait that the client chooses by itself.
 const MAX_WAIT: Duration = Duration::from_secs(60);
 
 /// The maximum wait that a server may request.
@@ -75,7 +75,8 @@ impl Remote {
                 Ok(answer) => {
                     let latency_ms = latency.as_micros() as f64 / 1000.0;
                     let reply = ChatReply { failures, latency_ms, ..answer };
-                    // This comes first: if the run is killed after it, the next run finds the answer in the cache.
+                    // The answer is stored first. If the run is killed after this point, the next run finds
+                    // the answer in the cache.
                     if let Some((cache, key)) = entry {
                         cache.put(key, &reply);
                     }
@@ -132,7 +133,7 @@ impl Remote {
         }
     }
 
-    /// Hides the key again after parsing, because JSON can represent the same text in many ways.
+    /// Hides the key once more after parsing, because JSON can encode the same text in many ways.
     fn without_key(&self, answer: ChatReply) -> ChatReply {
         let Some(key) = &self.key else { return answer };
         let hide = |text| key.hide_in_answer(text);
@@ -177,9 +178,11 @@ impl Remote {
     }
 }
 
-/// Returns the wait after a failed try. The wait grows exponentially with every try, with a random factor between one
-/// half and one, so that threads that failed together do not retry together. If the server requests a longer wait,
-/// that wait plus a small random amount is returned.
+/// Returns the wait after a failed try.
+///
+/// The wait grows exponentially with every try. It is multiplied by a random factor between one half and one,
+/// so that threads that failed together do not retry together. If the server requests a longer wait, the
+/// requested wait plus a small random amount is returned.
 fn wait(number: u32, requested_wait: Option<Duration>, jitter: &mut Sampler) -> Duration {
     let doubled = FIRST_WAIT.saturating_mul(1u32.checked_shl(number - 1).unwrap_or(u32::MAX));
     let own = doubled.min(MAX_WAIT).mul_f64(0.5 + 0.5 * jitter.unit());

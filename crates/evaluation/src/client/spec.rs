@@ -1,4 +1,4 @@
-//! Model IDs such as `openai:gpt-4o-mini`, and their servers.
+//! Model IDs such as `openai:gpt-4o-mini`, and the servers that they refer to.
 
 use super::provider::Provider;
 use crate::error::EvaluationError;
@@ -8,11 +8,11 @@ use ureq::http::Uri;
 /// A model and its server.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelSpec {
-    /// The API of the server.
+    /// The API that the server uses.
     pub provider: Provider,
     /// The name that the server uses for the model.
     pub model: String,
-    /// The server.
+    /// The server that hosts the model.
     pub server: Server,
 }
 
@@ -21,20 +21,20 @@ pub struct ModelSpec {
 pub struct Server {
     /// The base URL to which the paths of the API are appended, without a trailing slash.
     pub base_url: String,
-    /// The host, including the port if one is given.
+    /// The host, with its port if the URL contains a port.
     pub host: String,
     /// `true` if the server is this machine.
     pub loopback: bool,
     /// `true` if the connection is encrypted.
     pub encrypted: bool,
-    /// `true` if it is the provider's own server.
+    /// `true` if the server is the provider's own server.
     pub own: bool,
 }
 
 impl ModelSpec {
-    /// Parses an ID as users type it: `openai:…`, `anthropic:…` or `gemini:…`. With a base URL, any name is accepted,
-    /// for servers with OpenAI-compatible chat completions. With a prefix and a base URL, the server at that URL uses
-    /// the API of the prefix.
+    /// Parses a model ID as users type it: `openai:…`, `anthropic:…` or `gemini:…`. With a base URL, any name
+    /// is accepted, for servers with OpenAI-compatible chat completions. With a prefix and a base URL, the
+    /// server at the URL uses the API of the prefix.
     ///
     /// # Errors
     /// Returns an error if the ID or the URL is malformed. The message shows the expected form.
@@ -43,7 +43,7 @@ impl ModelSpec {
             id.split_once(':').and_then(|(prefix, model)| Some((Provider::from_prefix(prefix)?, model)));
         let (provider, model) = match (prefixed, base_url) {
             (Some(found), _) => found,
-            // Names of local models can contain colons: `qwen3:32b`.
+            // The names of local models can contain colons, as in `qwen3:32b`.
             (None, Some(_)) => (Provider::Compatible, id),
             (None, None) => return Err(EvaluationError::Malformed(unknown(id))),
         };
@@ -63,7 +63,7 @@ impl ModelSpec {
     }
 }
 
-/// Returns the message for an ID without a known prefix.
+/// Returns the error message for an ID without a known prefix.
 fn unknown(id: &str) -> String {
     let starts = [
         ("gpt", "openai"),
@@ -90,7 +90,7 @@ fn unknown(id: &str) -> String {
 impl Server {
     fn parse(url: &str) -> Result<Server, EvaluationError> {
         let malformed = |problem: &str| {
-            // The URL is not repeated, because it may contain a password.
+            // The message does not repeat the URL, which may contain a password.
             EvaluationError::Malformed(format!(
                 "the base URL {problem}; use one like `http://localhost:8000/v1` or `https://example.org/v1`"
             ))

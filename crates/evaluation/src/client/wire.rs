@@ -8,7 +8,7 @@ use ureq::http::HeaderValue;
 use ureq::http::header::{LOCATION, RETRY_AFTER};
 use ureq::{Agent, Error};
 
-/// A client that sends requests to a server.
+/// An HTTP client that sends requests to one server.
 pub(super) struct Wire {
     agent: Agent,
     reply_limit: u64,
@@ -26,7 +26,7 @@ pub(super) struct HttpReply {
 
 impl Wire {
     /// Creates a client for `server`. A request takes at most `timeout` in total, and a reply has at most
-    /// `reply_limit` bytes. Proxies from the environment are used, except for this machine.
+    /// `reply_limit` bytes. Proxies from the environment are used, except if the server is this machine.
     pub(super) fn new(server: &Server, options: &ModelOptions) -> Wire {
         let &ModelOptions { timeout, connect_timeout, reply_limit, .. } = options;
         let mut config = Agent::config_builder()
@@ -43,7 +43,7 @@ impl Wire {
         Wire { agent: config.build().new_agent(), reply_limit, timeout, connect_timeout }
     }
 
-    /// Posts JSON and reads the reply.
+    /// Posts a JSON body and reads the reply.
     ///
     /// # Errors
     /// Returns a message if there is no reply, or if the reply is incomplete, too large, or not text.
@@ -63,7 +63,7 @@ impl Wire {
             |name| response.headers().get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
         let (retry_after, location) = (header(RETRY_AFTER), header(LOCATION));
         let mut bytes = Vec::new();
-        // One byte more than allowed detects a reply that is too large.
+        // Reading one byte more than allowed detects a reply that is too large.
         let reader = response.body_mut().as_reader().take(self.reply_limit.saturating_add(1));
         let read = { reader }.read_to_end(&mut bytes);
         read.map_err(|error| (Some(status), self.in_words(Error::from(error))))?;

@@ -1,58 +1,59 @@
-//! The coins of a release, in the form that the tests need.
+//! The coins of a release, in the form that the tests of memory need. A coin is a random decision about which
+//! of two equal things is published.
 
 use base::Digest;
 use engine::Action;
 
-/// The games and witnesses that the coins of a release published and withheld.
+/// The games and winning episodes whose published and withheld sides were decided by the coins of a release.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coins {
-    /// The games.
+    /// The games of the release.
     pub games: Vec<GameCoin>,
 }
 
-/// A game with its sibling.
+/// A game and its withheld sibling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameCoin {
-    /// The name of the game's folder.
+    /// The name of the folder that contains the game.
     pub id: String,
     /// The digest of the published game.
     pub published: Digest,
     /// The digest of the withheld sibling, if there is one.
     pub withheld: Option<Digest>,
-    /// The levels.
+    /// The levels of the game.
     pub levels: Vec<LevelCoin>,
 }
 
-/// A level with its sibling and its two wins.
+/// A level with its sibling and its two winning episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelCoin {
-    /// The digest of the published game's level.
+    /// The digest of the level in the published game.
     pub published: Digest,
-    /// The digest of the withheld sibling's level, if there is one.
+    /// The digest of the level in the withheld sibling, if there is a sibling.
     pub withheld: Option<Digest>,
-    /// The beginnings of the published and the withheld win, which differ and have the same length; `None` unless
-    /// both wins exist.
+    /// The first actions of the published win and of the withheld win. The two beginnings differ and have the
+    /// same length. `None` unless both wins exist.
     pub beginnings: Option<[Vec<Action>; 2]>,
 }
 
-/// The side of a coin.
+/// The two sides of a coin: the published thing and the withheld thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Side {
-    /// The published side.
+    /// The published side of a coin.
     Published,
-    /// The withheld side.
+    /// The withheld side of a coin.
     Withheld,
 }
 
 impl Coins {
-    /// Returns the number of games with a sibling, and the number of levels with two wins.
+    /// Returns the number of games with a sibling and the number of levels with two wins.
     pub fn counts(&self) -> (usize, usize) {
         let siblings = self.games.iter().filter(|game| game.withheld.is_some()).count();
         let levels = self.games.iter().flat_map(|game| &game.levels);
         (siblings, levels.filter(|level| level.beginnings.is_some()).count())
     }
 
-    /// Returns the indices of a game and its level with these digests, and their side.
+    /// Finds the game and the level with the given digests. Returns their indices and the side of the coin.
     pub(super) fn place(&self, game: Digest, level: Digest) -> Option<(usize, usize, Side)> {
         self.games.iter().enumerate().find_map(|(at, of)| {
             let side = match () {

@@ -1,4 +1,4 @@
-//! The tests and their findings about each player.
+//! The tests of memory, and their findings about each player.
 
 use super::coins::{Coins, Side};
 use super::power::{ALPHA, Power};
@@ -7,52 +7,52 @@ use serde::Serialize;
 use statistics::coin_test;
 use std::collections::BTreeMap;
 
-/// The findings about players and a release.
+/// The findings about the players of a release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contamination {
     /// The combined significance level of all tests.
     pub alpha: f64,
     /// The number of tests. The level of each test is the combined level divided by this number.
     pub tests: u64,
-    /// The minimum number of coins with which a test can find anything at its level.
+    /// The minimum number of coins with which a test can be significant at its level.
     pub needed: u64,
-    /// The players.
+    /// The findings about each player.
     pub players: Vec<PlayerMemory>,
 }
 
-/// The findings about a player.
+/// The findings about one player.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlayerMemory {
-    /// The player.
+    /// The name of the player.
     pub player: String,
-    /// The power of the design for players that know various fractions of the levels.
+    /// The power of the design, for several assumed fractions of levels that the player knows.
     pub power: Vec<Power>,
-    /// The test of whether the player's episodes begin like published wins rather than withheld ones.
+    /// The test of whether the player's episodes begin like published wins rather than withheld wins.
     pub solutions: Option<SideTest>,
     /// The test of whether the player wins published games more often than their withheld siblings.
     pub games: Option<SideTest>,
     /// The conclusion from the tests.
     pub evidence: Evidence,
-    /// The number of episodes on levels that the release does not have.
+    /// The number of episodes on levels that are not in the release.
     pub unknown: u64,
 }
 
-/// The result of a coin test.
+/// The result of a test over coins.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SideTest {
-    /// The number of coins with results.
+    /// The number of coins for which there are results.
     pub coins: u64,
-    /// The number of coins whose sides differ. The other coins are no evidence.
+    /// The number of coins whose two sides have different results. The other coins are not evidence.
     pub informative: u64,
-    /// The number of episodes, or of pairs of episodes.
+    /// The number of episodes. In the test of siblings, the number of pairs of episodes.
     pub episodes: u64,
-    /// The total for the published side: the number of wins, or of episodes that begin like the published win.
+    /// The total on the published side: the number of wins, or of episodes that begin like the published win.
     pub published: u64,
-    /// The total for the withheld side.
+    /// The total on the withheld side.
     pub withheld: u64,
-    /// The exact p-value.
+    /// The exact p-value of the test.
     pub p: f64,
-    /// The p-value times the number of tests (Bonferroni).
+    /// The p-value multiplied by the number of tests (Bonferroni correction).
     pub corrected: f64,
 }
 
@@ -66,18 +66,17 @@ impl SideTest {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {
-    /// No test could be made, because the player has played neither both siblings of a game nor a level with two
-    /// wins.
+    /// No test was possible: the player has not played both siblings of any game, or a level with two wins.
     Untested,
-    /// No test has enough coins to find anything, whatever the player knows.
+    /// No test has enough coins to be significant, whatever the player knows.
     CannotTell,
-    /// No test found anything.
+    /// No test was significant.
     ConsistentWithNotHavingSeen,
-    /// The player begins like published wins rather than withheld ones.
+    /// The player's episodes begin like published wins rather than withheld wins.
     HasSeenTheSolutions,
-    /// The player is better on published games than on their siblings.
+    /// The player wins published games more often than their withheld siblings.
     HasSeenTheGames,
-    /// Both tests found something.
+    /// Both tests were significant.
     HasSeenTheSolutionsAndTheGames,
 }
 
@@ -94,7 +93,7 @@ impl Evidence {
         }
     }
 
-    /// Returns `true` if a test found that the player has seen something.
+    /// Returns `true` if a test shows that the player has seen games or solutions.
     pub fn is_seen(self) -> bool {
         !matches!(self, Evidence::Untested | Evidence::CannotTell | Evidence::ConsistentWithNotHavingSeen)
     }
@@ -116,7 +115,7 @@ impl Evidence {
     }
 }
 
-/// The results for one coin.
+/// A player's results on the two sides of one coin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct CoinResults {
     episodes: u64,
@@ -146,7 +145,8 @@ pub fn contamination(coins: &Coins, players: &[PlayerEpisodes]) -> Contamination
     Contamination { alpha: ALPHA, tests, needed, players: players.iter().zip(results).map(of).collect() }
 }
 
-/// Returns the minimum number of coins whose p-value can be at most `alpha`, which requires all of them on one side.
+/// Returns the minimum number of coins for which the p-value can be at most `alpha`. The minimum applies if
+/// all coins favour the same side.
 fn needed(alpha: f64) -> u64 {
     let (mut coins, mut p) = (0, 1.0);
     while p > alpha {
@@ -174,7 +174,7 @@ fn tested(results: &[CoinResults], tests: u64) -> Option<SideTest> {
     })
 }
 
-/// The results of a player, by coin.
+/// One player's results for each coin.
 struct Results {
     solutions: Vec<CoinResults>,
     games: Vec<CoinResults>,
@@ -234,7 +234,8 @@ mod tests {
         Digest::of(format!("{what} {game} {side}").as_bytes())
     }
 
-    /// Returns the coins of games with one level each. Bit `game` of `fall` is the published side.
+    /// Returns the coins of games with one level each. Bit `game` of `fall` decides which side of the game is
+    /// published.
     fn coins(fall: usize) -> Coins {
         let game = |game: usize| {
             let side = fall >> game & 1;
@@ -250,8 +251,8 @@ mod tests {
         Coins { games: (0..GAMES).map(game).collect() }
     }
 
-    /// Returns a player with one episode on each side of each game. `of` determines whether the player wins, and how
-    /// it begins.
+    /// Returns a player with one episode on each side of each game. `of` determines whether the player wins
+    /// an episode, and how the episode begins.
     fn player(of: impl Fn(usize, usize) -> (bool, &'static [Action])) -> PlayerEpisodes {
         let sides = (0..GAMES).flat_map(|game| [(game, 0), (game, 1)]);
         let episode = |(game, side)| {
@@ -266,8 +267,9 @@ mod tests {
         contamination(&coins(fall), &[player]).players[0].evidence
     }
 
-    /// Over all outcomes of the coins, a player that knows none of them has p ≤ x in at most the fraction x of them.
-    /// This holds however much better the player is on some games, and however it prefers to begin.
+    /// Over all outcomes of the coins, a player with no knowledge of them has p ≤ x in at most the fraction x
+    /// of the outcomes. This bound holds for any differences in skill between games, and for any preferred
+    /// beginnings.
     #[test]
     fn the_level_is_exact() {
         let clean = player(|game, side| (side == 0 || game % 3 == 0, BEGINNINGS[usize::from(game < 7)]));
@@ -297,7 +299,7 @@ mod tests {
         assert_eq!(evidence(fall, both), Evidence::HasSeenTheSolutionsAndTheGames);
         let neither = player(|_, own| (own == 0, BEGINNINGS[0]));
         assert_eq!(evidence(fall, neither), Evidence::ConsistentWithNotHavingSeen);
-        // Results on a different release, and on withheld siblings alone.
+        // Results on a different release, and results on withheld siblings alone, are not evidence.
         let mut foreign = games.clone();
         foreign
             .episodes
@@ -323,7 +325,7 @@ mod tests {
         assert!(few(8).players[0].evidence.is_seen());
     }
 
-    /// Ten coins are weak evidence if they are shared among many tests.
+    /// Ten coins are weak evidence if the significance level is shared among many tests.
     #[test]
     fn tests_are_corrected() {
         let fall = 0;

@@ -1,9 +1,8 @@
-//! Tests of memory on results, which show whether a player has seen the games of a release, or their published
-//! solutions.
+//! Tests of memory, which show whether a player has seen the games of a release or their published solutions.
 //!
-//! A release has coins. Each of them published one of two renamings of a game, or one of two wins of a level, and
-//! withheld the other ([`statistics::coin_test`]). This module reads and compares the results of players on both
-//! sides.
+//! A release contains coins. Each coin decided which of two renamings of a game, or which of two wins of a
+//! level, was published and which was withheld ([`statistics::coin_test`]). This module reads and compares
+//! the results of players on both sides.
 
 mod coins;
 mod findings;

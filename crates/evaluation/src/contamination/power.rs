@@ -1,41 +1,44 @@
-//! The power of the tests, which depends only on what is played, so it can be stated before any result is known.
+//! The power of the tests of memory. The power depends only on which levels are played, so it can be stated
+//! before any result is known.
 
 use super::coins::Coins;
 use serde::Serialize;
 use statistics::memory_simulation::MemoryTrial;
 use statistics::{Memoriser, Spread, coin_power};
 
-/// The combined significance level of all tests.
+/// The combined significance level of all tests of memory.
 pub const ALPHA: f64 = 0.01;
 /// The assumed fractions of levels that a player knows.
 pub const SHARES: [f64; 5] = [0.1, 0.2, 0.3, 0.5, 1.0];
-/// The assumed win rates of that player on known levels and on unknown levels.
+/// The assumed win rate of a player on the levels that it knows.
 const KNOWN: f64 = 0.9;
+/// The assumed win rate of a player on the levels that it does not know.
 const CLEAN: f64 = 0.27;
-/// The fraction of episodes that begin like a win by chance. This is the value of `reflex`, the highest among the
-/// measured players.
+/// The fraction of episodes that begin like a win by chance. The value is that of `reflex`, which was the
+/// highest among the measured players.
 const BY_CHANCE: f64 = 0.07;
-/// The standard deviation, in logits, of the difference in how much two sets of names hurt a player.
+/// The standard deviation, in logits, of the difference between the effects of two sets of names on a player.
 const NAMES: f64 = 0.5;
-/// The number of simulated players for each power of the sibling test.
+/// The number of simulated players behind each power of the sibling test.
 const TRIALS: u64 = 1000;
-/// The seed of the simulation.
+/// The seed of the power simulation.
 const SEED: u64 = 32;
 
-/// The power of the tests for a player that knows a fraction of the levels.
+/// The power of the tests for a player that knows a given fraction of the levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Power {
-    /// The fraction of known levels.
+    /// The fraction of the levels that the player knows.
     pub share: f64,
-    /// The power of the test by solutions; `None` if no level with two wins is played.
+    /// The power of the test on solutions, or `None` if no level with two wins is played.
     pub solutions: Option<f64>,
-    /// The power of the test by games; `None` if no game with a sibling is played.
+    /// The power of the test on games, or `None` if no game with a sibling is played.
     pub games: Option<f64>,
 }
 
 impl Power {
-    /// Returns the power of a design if each test is at level `alpha`. The design has `levels` levels with two wins,
-    /// with one episode on each, and `pairs` gives the number of pairs of episodes on each game with a sibling.
+    /// Returns the power of a design if each test is at level `alpha`. In the design, each of `levels` levels
+    /// with two wins has one episode, and `pairs` holds the number of pairs of episodes for each game with a
+    /// sibling.
     pub fn of(levels: u64, pairs: &[u64], alpha: f64) -> Vec<Power> {
         let of = |share: f64| {
             let player = Memoriser { share, known: KNOWN, clean: CLEAN };
@@ -51,8 +54,8 @@ impl Power {
     }
 }
 
-/// Returns the design in which every level is played once on either side: the number of levels with two wins, and the
-/// number of pairs of episodes on each game with a sibling.
+/// Returns the design in which every level is played once on each side. The design consists of the number of
+/// levels with two wins, and the number of pairs of episodes for each game with a sibling.
 pub fn design(coins: &Coins) -> (u64, Vec<u64>) {
     let (_, levels) = coins.counts();
     let paired = coins.games.iter().filter(|game| game.withheld.is_some());
@@ -63,7 +66,7 @@ pub fn design(coins: &Coins) -> (u64, Vec<u64>) {
 mod tests {
     use super::*;
 
-    /// The designs of the review of scores: 200 levels, and 100 games.
+    /// The designs are those of the review of scores: 200 levels, and 100 games.
     #[test]
     fn power_is_that_of_the_page() {
         let found = Power::of(200, &[1; 100], ALPHA);

@@ -1,4 +1,4 @@
-//! Reading the episodes of players on both sides of coins.
+//! Reads the episodes of players on both sides of the coins of a release.
 
 use crate::error::EvaluationError;
 use crate::log::Event;
@@ -12,19 +12,19 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The maximum number of initial actions that are kept per episode.
+/// The maximum number of initial actions kept for each episode.
 const KEPT: usize = 64;
 
-/// The episodes of a player.
+/// All finished episodes of a player.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlayerEpisodes {
-    /// The player.
+    /// The player of the episodes.
     pub player: Player,
-    /// The finished episodes, by the digests of game and level, and the run.
+    /// The finished episodes. The key holds the digest of the game, the digest of the level, and the run.
     pub episodes: BTreeMap<(Digest, Digest, u64), PlayedEpisode>,
 }
 
-/// The result of an episode.
+/// The result of a finished episode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlayedEpisode {
     /// `true` if the episode was won.
@@ -33,16 +33,16 @@ pub struct PlayedEpisode {
     pub beginning: Vec<Action>,
 }
 
-/// The position of an episode in results folders: the index of the folder, the name of the game, the number of the
-/// level, the run.
+/// The location of an episode in results folders: the folder's index, the game's name, the level's number and
+/// the run.
 type Place = (usize, String, usize, u64);
 
-/// Reads results folders. Their players are distinguished as in reports, regardless of the names of the games. Every
-/// episode is replayed from its log. Aborted and practice episodes do not count.
+/// Reads the episodes in results folders. Players are distinguished as in reports, regardless of the names of
+/// the games. Every episode is replayed from its log. Aborted and practice episodes do not count.
 ///
 /// # Errors
-/// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders hold the
-/// same episode of the same player.
+/// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders
+/// hold the same episode of the same player.
 pub fn episodes_by_player(folders: &[PathBuf]) -> Result<Vec<PlayerEpisodes>, EvaluationError> {
     let (mut persons, mut known) = (Vec::new(), BTreeMap::new());
     for (number, folder) in folders.iter().enumerate() {
@@ -90,7 +90,7 @@ fn twice(player: &Player, game: &str, folder: &Path) -> EvaluationError {
     EvaluationError::malformed(folder, what)
 }
 
-/// Returns the metrics and the first actions of an episode; `None` if it was never started.
+/// Returns the metrics and the first actions of an episode, or `None` if the episode was never started.
 fn read(
     evaluation: &Evaluation,
     task: &Task<'_>,

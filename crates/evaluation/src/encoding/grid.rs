@@ -1,4 +1,4 @@
-//! The board as a grid with one character per cell.
+//! Encodes the board as a grid with one character per cell.
 
 use super::scene::{Scene, places};
 use crate::legend::Legend;
@@ -6,16 +6,17 @@ use engine::Observation;
 use itertools::Itertools;
 use render::EMPTY;
 
-/// Draws the board with one line per row: the uppermost sprite of each cell that is not a floor, and the avatar on
-/// top. A sprite between cells is drawn in all cells that it overlaps, except for the avatar. Cost: O(cells).
+/// Draws the board with one line per row. Each cell shows its uppermost sprite that is not a floor, with the
+/// avatar above all others. A sprite between cells is drawn in all cells that it overlaps, except for the
+/// avatar. Cost: O(cells).
 pub fn grid(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let symbol = |row, column| symbol(legend, scene.at(column, row));
     (0..scene.rows).map(|row| (0..scene.columns).map(|column| symbol(row, column)).join("")).join("\n")
 }
 
-/// Draws the board of [`grid`] rotated clockwise by a quarter turn. Its first row is the first column of the board,
-/// read from bottom to top. Cost: O(cells).
+/// Draws the board of [`grid`] rotated clockwise by a quarter turn. The first row of the result is the first
+/// column of the board, read from bottom to top. Cost: O(cells).
 pub fn rotated(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let symbol = |row, column| symbol(legend, scene.at(column, row));
@@ -23,16 +24,17 @@ pub fn rotated(observation: &Observation, legend: &Legend) -> String {
     (0..scene.columns).map(|column| rows().map(|row| symbol(row, column)).join("")).join("\n")
 }
 
-/// Returns the character of a cell that holds these names.
+/// Returns the character for a cell that holds the given types.
 fn symbol(legend: &Legend, names: &[&str]) -> char {
     names.last().and_then(|name| legend.entry(name)).map_or(EMPTY, |entry| entry.symbol)
 }
 
-/// Lists the piles that one character per cell cannot show: `frost over snow: (3,4) (5,4)`. Each pile of several
-/// sprites has one line, in the order of the board. Cost: O(cells × piles).
+/// Lists the piles of sprites that one character per cell cannot show, such as
+/// `frost over snow: (3,4) (5,4)`. Each combination of several sprites has one line, in the order of the
+/// board. Cost: O(cells × piles).
 pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
-    // The names in each pile, from the lowest to the uppermost, and its cells.
+    // Each pile consists of its names, from the lowest to the uppermost, and its cells.
     let mut piles: Vec<(&[&str], Vec<_>)> = Vec::new();
     for (cell, names) in scene.cells.iter().enumerate().filter(|(_, names)| names.len() > 1) {
         let at = (cell % scene.columns, cell / scene.columns);

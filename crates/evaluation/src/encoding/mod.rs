@@ -1,6 +1,7 @@
 //! Encodings of observations for players. Each encoding is a pure function of an observation and the legend.
 //!
-//! Cells are written as `(x,y)`, with the column from 0 at the left and the row from 0 at the top.
+//! A cell is written as `(x,y)`. The column `x` counts from 0 at the left, and the row `y` counts from 0 at
+//! the top.
 
 mod coordinates;
 mod events;

@@ -1,27 +1,27 @@
-//! Observations as images.
+//! Encodes observations as images.
 
 use crate::error::EvaluationError;
 use crate::legend::Legend;
 use engine::Observation;
 use render::Style;
 
-/// An image as a file.
+/// An image in the form of a PNG file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
-    /// The bytes of the file.
+    /// The bytes of the PNG file.
     pub png: Vec<u8>,
-    /// The width in pixels.
+    /// The width of the image in pixels.
     pub width: u32,
-    /// The height in pixels.
+    /// The height of the image in pixels.
     pub height: u32,
 }
 
-/// Draws the observation with `cell` pixels per cell, and below it the types of the game with their tiles and names.
-/// The image is drawn from the observation rather than the state, so it shows no more than the other encodings. The
-/// same arguments give the same bytes on every machine. Cost: O(pixels).
+/// Draws the observation with `cell` pixels per cell. A legend below the board shows the types of the game
+/// with their tiles and names. The image is drawn from the observation rather than the state, so it shows no
+/// more than the other encodings. The same arguments give the same bytes on every machine. Cost: O(pixels).
 ///
 /// # Errors
-/// Returns an error if the cells, or the whole image, would be too small or too large.
+/// Returns an error if the cells or the whole image would be too small or too large.
 pub fn picture(observation: &Observation, legend: &Legend, cell: u32) -> Result<Picture, EvaluationError> {
     let style = Style { cell, caption: false, legend: true };
     let fault =

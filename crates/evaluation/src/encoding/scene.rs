@@ -1,4 +1,4 @@
-//! The visible part of an observation: without floors, and with the avatar in one cell.
+//! The visible part of an observation, without floors and with the avatar in a single cell.
 
 use crate::legend::Legend;
 use engine::Observation;
@@ -9,10 +9,10 @@ use itertools::Itertools;
 pub(crate) struct Scene<'a> {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
-    /// The names in each cell, in row-major order, from the lowest to the uppermost, without floors. The avatar is
-    /// only in the cell of its centre, on top of everything else.
+    /// The type names in each cell, in row-major order. Within a cell, they run from the lowest to the
+    /// uppermost sprite, without floors. The avatar is only in the cell of its centre, above everything else.
     pub(crate) cells: Vec<Vec<&'a str>>,
-    /// The avatar's column and row, if it is on the board.
+    /// The avatar's column and row, if the avatar is on the board.
     pub(crate) avatar: Option<(usize, usize)>,
 }
 
@@ -35,24 +35,24 @@ impl<'a> Scene<'a> {
         Scene { columns: observation.columns, rows: observation.rows, cells, avatar: place }
     }
 
-    /// Returns the names in a cell, from the lowest to the uppermost.
+    /// Returns the type names in a cell, from the lowest to the uppermost sprite.
     pub(crate) fn at(&self, column: usize, row: usize) -> &[&'a str] {
         &self.cells[row * self.columns + column]
     }
 
-    /// Returns the cells that hold a name, row by row.
+    /// Returns the cells that hold a sprite of the named type, row by row.
     pub(crate) fn places<'b>(&'b self, name: &'b str) -> impl Iterator<Item = (usize, usize)> + 'b {
         let holding = self.cells.iter().enumerate().filter(move |(_, names)| names.contains(&name));
         holding.map(|(cell, _)| (cell % self.columns, cell / self.columns))
     }
 }
 
-/// Formats a cell: `(3,4)`.
+/// Formats a cell as `(3,4)`.
 pub(crate) fn place((column, row): (usize, usize)) -> String {
     format!("({column},{row})")
 }
 
-/// Formats cells: `(3,4) (5,4)`.
+/// Formats a list of cells as `(3,4) (5,4)`.
 pub(crate) fn places(all: &[(usize, usize)]) -> String {
     all.iter().map(|&cell| place(cell)).join(" ")
 }

@@ -1,4 +1,4 @@
-//! The events of a log, with one line of JSON per event.
+//! The events of an episode's log, with one line of JSON per event.
 
 use crate::client::{ChatReply, Failure, Finish, Role, Usage};
 use crate::commitment::Commitment;
@@ -9,36 +9,36 @@ use base::{Digest, Seed};
 use engine::{Action, Outcome, StateHash};
 use serde::{Deserialize, Serialize};
 
-/// The version of the event format, which is raised when a reader of older logs could misread newer ones.
+/// The version of the event format. It is raised whenever a reader of older logs could misread newer logs.
 pub const SCHEMA: u32 = 1;
 
-/// A line of an episode's log. Two runs of the same evaluation with the same answers differ only in times
-/// (`latency_ms`, `waited_ms`, `took_ms`).
+/// An event of an episode, stored as one line of its log. Two runs of the same evaluation with the same
+/// answers differ only in times (`latency_ms`, `waited_ms`, `took_ms`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Event {
-    /// The first line of the log.
+    /// The start of the episode, on the first line of the log.
     Start {
         /// The version of the event format: [`SCHEMA`].
         schema: u32,
-        /// The version of the engine's semantics: [`engine::SEMANTICS`]. Under a different version, the actions may
-        /// have different effects.
+        /// The version of the engine's semantics ([`engine::SEMANTICS`]). Under a different version, the
+        /// actions may have different effects.
         semantics: u32,
         /// The name of the game's folder in the results.
         game: String,
-        /// The game's digest.
+        /// The digest of the game.
         game_digest: Digest,
         /// The number of the level.
         level: usize,
-        /// The level's digest.
+        /// The digest of the level.
         level_digest: Digest,
         /// The index of the episode among this player's episodes on this level.
         run: u64,
-        /// The seed of the game's randomness. It is the same for every player, so that runs are paired.
+        /// The seed of the game's randomness. The seed is the same for every player, so that runs are paired.
         seed: Seed,
-        /// The maximum number of actions.
+        /// The maximum number of actions in the episode.
         max_steps: u64,
-        /// The number of actions that the player commits to at each look.
+        /// The number of actions that the player commits to at each decision.
         #[serde(default, skip_serializing_if = "Commitment::is_one")]
         commit: Commitment,
         /// The track with its version, such as `masked@1`.
@@ -52,49 +52,53 @@ pub enum Event {
         /// The avatar's column and row, if there is an avatar.
         avatar: Option<(i32, i32)>,
     },
-    /// A text sent to a model or received from it. It is recorded once and later referred to by its number.
+    /// A text sent to a model or received from it. The text is recorded once, and later events refer to it by
+    /// its number.
     Message {
         /// The number of the text within the episode, from 0.
         id: u32,
-        /// The author.
+        /// The author of the text.
         role: Role,
-        /// The text.
+        /// The text of the message.
         text: String,
-        /// The digest of the image beside the text, a PNG that is determined by the state and the settings.
+        /// The digest of the PNG image that accompanies the text. The state and the settings determine the
+        /// image.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         image: Option<Digest>,
     },
-    /// A request that is about to be sent. If no reply follows, the request may have been paid for and lost.
+    /// A request that is about to be sent. If no reply follows in the log, the request may have been paid for
+    /// and lost.
     Request {
         /// The number of actions played before the decision.
         step: u64,
-        /// The number of the attempt within the step, from 0. A repeated question after an invalid answer is a new
-        /// attempt.
+        /// The number of the attempt within the step, from 0. Each repetition of the question after an
+        /// invalid answer is a new attempt.
         attempt: u32,
-        /// The conversation, as numbers of messages.
+        /// The messages of the conversation, by their numbers.
         messages: Vec<u32>,
-        /// The local count of the conversation's tokens, which determines when the history is cut.
+        /// The local count of the conversation's tokens, which determines when the history is shortened.
         tokens: u64,
     },
-    /// The answer to a request.
+    /// A model's answer to a request.
     Reply(Reply),
-    /// A commitment to several actions, which the following steps play. Logs with a look before every action have no
-    /// plans.
+    /// A commitment to several actions, which the following steps play. Logs of players that commit to one
+    /// action contain no plans.
     Plan {
         /// The number of steps before the plan.
         step: u64,
-        /// The actions, up to the number due. In the remaining due ticks, nothing is done.
+        /// The actions of the plan, up to the number due. In the remaining due ticks, the player does
+        /// nothing.
         actions: Vec<Action>,
-        /// The origin of the choice, which applies to all steps of the plan.
+        /// The origin of the choice. It applies to all steps of the plan.
         validity: Validity,
     },
-    /// An action was played.
+    /// A step, in which one action was played.
     Step {
         /// The number of the step, from 0.
         step: u64,
-        /// The action played.
+        /// The action that was played.
         action: Action,
-        /// The origin of the choice.
+        /// The origin of the choice of this action.
         validity: Validity,
         /// The score after the action.
         score: f64,
@@ -104,7 +108,7 @@ pub enum Event {
         outcome: Outcome,
         /// The avatar's column and row after the action, if there is an avatar.
         avatar: Option<(i32, i32)>,
-        /// The forward-model calls spent by a planner.
+        /// The number of forward-model calls spent by a planner.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         calls: Option<u64>,
         /// The duration of the decision, in milliseconds.
@@ -114,54 +118,55 @@ pub enum Event {
     Predictions {
         /// The number of steps before the answer.
         step: u64,
-        /// The kinds in the question, by the game's own names.
+        /// The sprite types in the question, by the game's own names.
         kinds: Vec<String>,
-        /// The kinds for which the player predicts each fact; `None` if no answer could be read.
+        /// The types for which the player predicts each fact, or `None` if no answer could be read.
         predicted: Option<Predicted>,
-        /// The origin of the answer.
+        /// The origin of the predictions.
         validity: Validity,
-        /// The comparison with the rules. Without a usable answer, nothing is correct.
+        /// The comparison of the predictions with the rules. If the answer was unusable, no prediction is
+        /// correct.
         grade: Grade,
     },
-    /// The episode was aborted. A later `--resume` continues after this line.
+    /// An abort of the episode. A later `--resume` continues after this line.
     Halt {
-        /// The category of the reason: `infrastructure`, `budget`, `rejected` or `unusable`.
+        /// The category of the abort: `infrastructure`, `budget`, `rejected` or `unusable`.
         reason: String,
-        /// The reason as a sentence.
+        /// The reason for the abort, as a sentence.
         message: String,
     },
-    /// The last line of the log.
+    /// The end of the episode, on the last line of the log.
     End {
-        /// The reason for the end.
+        /// The reason why the episode ended.
         status: Status,
         /// The outcome of the game.
         outcome: Outcome,
-        /// The score.
+        /// The final score.
         score: f64,
         /// The number of actions played.
         steps: u64,
     },
 }
 
-/// A model's answer to a request.
+/// The record of a model's answer to a request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reply {
-    /// The step of the request.
+    /// The number of the request's step.
     pub step: u64,
-    /// The attempt of the request.
+    /// The number of the request's attempt.
     pub attempt: u32,
     /// The classification of the answer.
     pub class: ReplyClass,
-    /// The raw text.
+    /// The raw text of the answer.
     pub text: String,
-    /// The reasoning, if the provider returns it.
+    /// The model's reasoning, if the provider returns it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reasoning: Option<String>,
-    /// The action read from the text.
+    /// The action that was read from the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub action: Option<Action>,
-    /// The actions read from the text, if the player commits to several.
+    /// The actions that were read from the text, if the player commits to several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Vec<Action>>,
     /// The parser rule that read the text.
@@ -169,7 +174,7 @@ pub struct Reply {
     pub stage: Option<String>,
     /// The reason why the answer ended.
     pub finish: Finish,
-    /// The tokens used.
+    /// The token counts of the request and its answer.
     pub usage: Usage,
     /// The name that the provider uses for the model that answered.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -185,7 +190,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// Returns the record of an answer, without the action that was read from it.
+    /// Returns the record of an answer. The action read from the answer is not set yet.
     pub(crate) fn of(step: u64, attempt: u32, class: ReplyClass, answer: ChatReply) -> Reply {
         let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
         let latency_ms = (latency_ms * 1000.0).round() / 1000.0;
@@ -212,11 +217,11 @@ impl Reply {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ReplyClass {
-    /// An action in the requested format.
+    /// The answer states an action in the requested format.
     Strict,
-    /// An action, read with tolerance.
+    /// The answer states an action in a different format, which a tolerant rule read.
     Tolerant,
-    /// No action can be read, or the action does not exist.
+    /// The answer contains no readable action, or an action that does not exist.
     Invalid,
     /// The model refused to answer.
     Refused,
@@ -224,18 +229,18 @@ pub enum ReplyClass {
     Truncated,
 }
 
-/// The reason why an episode has no further step.
+/// The reason why an episode ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// The game is over.
     Over,
-    /// The step limit was reached.
+    /// The episode reached its step limit.
     StepLimit,
 }
 
-/// Returns the origins of the decisions in a log, which are its plans, or its steps if the player looks before every
-/// action.
+/// Returns the origins of the decisions in a log. The decisions are the plans of the log, or its steps if the
+/// player commits to one action.
 pub fn decisions(log: &[Event]) -> impl Iterator<Item = Validity> {
     let is_one = !matches!(log.first(), Some(Event::Start { commit, .. }) if !commit.is_one());
     log.iter().filter_map(move |event| match event {
@@ -245,7 +250,7 @@ pub fn decisions(log: &[Event]) -> impl Iterator<Item = Validity> {
     })
 }
 
-/// Returns the event with its times set to 0, for comparing runs.
+/// Returns the event with its times set to 0, so that runs can be compared.
 pub fn without_times(event: &Event) -> Event {
     let mut event = event.clone();
     match &mut event {

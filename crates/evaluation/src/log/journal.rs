@@ -1,4 +1,4 @@
-//! Appending to an episode's log and reading it back.
+//! Appends events to an episode's log, and reads them back.
 
 use crate::error::EvaluationError;
 use crate::log::event::Event;
@@ -9,11 +9,11 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// The maximum size of a log, in bytes. A long episode of a model that reasons at length takes several hundred
-/// million bytes.
+/// The maximum size of a log, in bytes. A long episode of a model that reasons at length can take several
+/// hundred million bytes.
 const MAX_LOG: u64 = 1 << 30;
 
-/// The recommended next step for a log that is damaged or was changed.
+/// The recommendation in error messages about a log that is damaged or was changed.
 pub(crate) const NEXT_STEP: &str = "the log is damaged or was changed: restore it, or remove it and play the episode again with `arcade evaluate --resume`";
 
 /// The open log of an episode. When [`Journal::push`] returns, the event has been written to the file.
@@ -22,7 +22,8 @@ pub struct Journal {
     path: PathBuf,
     file: Option<File>,
     events: Vec<Event>,
-    /// The range of events of the step that is being decided. The end is set only if the step was decided before.
+    /// The range of events of the current step. The end is set only if the step was decided in an earlier
+    /// run.
     step: (usize, Option<usize>),
 }
 
@@ -38,12 +39,12 @@ impl Journal {
         Ok(Journal { path: path.to_owned(), file: Some(file), events, step: (0, None) })
     }
 
-    /// Creates a log that is kept in memory only.
+    /// Creates a log that exists only in memory.
     pub fn in_memory() -> Journal {
         Journal { path: PathBuf::new(), file: None, events: Vec::new(), step: (0, None) }
     }
 
-    /// Appends an event.
+    /// Appends an event to the log.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written, for example because the disk is full.
@@ -57,13 +58,13 @@ impl Journal {
         Ok(())
     }
 
-    /// Returns all events so far.
+    /// Returns all events recorded so far.
     pub fn events(&self) -> &[Event] {
         &self.events
     }
 
-    /// Returns the events of the step that is being decided, without its [`Event::Step`]. After an interruption, they
-    /// may already include requests and replies.
+    /// Returns the events of the current step, without its [`Event::Step`]. After an interruption, they may
+    /// already include requests and replies.
     pub fn pending(&self) -> &[Event] {
         let (from, to) = self.step;
         &self.events[from..to.unwrap_or(self.events.len())]
@@ -75,7 +76,7 @@ impl Journal {
         self.step = (from, to);
     }
 
-    /// Empties the log.
+    /// Removes all events from the log.
     pub(crate) fn clear(&mut self) -> Result<(), EvaluationError> {
         if let Some(file) = &self.file {
             file.set_len(0).map_err(EvaluationError::io("empty", &self.path))?;
@@ -99,7 +100,7 @@ pub fn read(path: &Path) -> Result<Vec<Event>, EvaluationError> {
     read_prefix(path).map(|(events, _)| events)
 }
 
-/// Returns the events and their total size in bytes.
+/// Returns the events of a log and their total size in bytes.
 fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
     let mut file = BufReader::new(open_file(path, MAX_LOG, RESTORE)?.take(MAX_LOG));
     let (mut events, mut sound, mut line) = (Vec::new(), 0, Vec::new());
@@ -118,18 +119,18 @@ fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
     }
 }
 
-/// Returns the fault of a line that is not an event, as a sentence.
+/// Returns a sentence that describes why a line is not an event.
 fn fault(line: &[u8], error: &serde_json::Error) -> String {
     let value = match serde_json::from_slice(line) {
         Ok(Value::Object(value)) => value,
         Ok(_) => return "it isn't a JSON object".to_owned(),
-        // The parser sees only one line.
+        // The parser sees a single line of the log, so the error's line number is meaningless.
         Err(error) => return format!("it isn't valid JSON from column {} on", error.column()),
     };
     let Some(name) = value.get("event").and_then(Value::as_str) else {
         return "it has no `event`".to_owned();
     };
-    // The parser's message begins with the fault and continues with what it expected.
+    // The parser's message begins with the fault and continues with the expected input.
     let said = error.to_string();
     let named = said.split('`').nth(1).unwrap_or_default();
     match said.split_whitespace().take(2).join(" ").as_str() {

@@ -1,4 +1,4 @@
-//! The log of an episode: one event per line, appended as it happens.
+//! The log of an episode, with one event per line, appended as the event happens.
 
 mod event;
 mod journal;

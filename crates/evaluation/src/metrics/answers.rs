@@ -1,14 +1,15 @@
-//! Consistency checks between the answers before a step and the validity recorded with the step.
+//! Checks that the answers before a step are consistent with the validity recorded with the step.
 
 use crate::log::{Event, Reply, ReplyClass};
 use crate::player::Validity;
 use engine::Action;
 
-/// The answers since the last step.
+/// The answers recorded since the last step.
 #[derive(Debug, Default)]
 pub(super) struct Answers<'a> {
     replies: Vec<&'a Reply>,
-    /// `true` if a model was asked. For programs, the log has no requests, only their invalid answers.
+    /// `true` if a model was asked. The log of an external program contains no requests, only invalid
+    /// answers.
     is_model: bool,
 }
 
@@ -22,27 +23,27 @@ impl<'a> Answers<'a> {
         Ok(())
     }
 
-    /// Adds any other event between two steps.
+    /// Adds an event other than an answer between two steps.
     pub(super) fn other(&mut self, event: &Event) {
         self.is_model |= matches!(event, Event::Request { .. });
     }
 
-    /// Compares a step with the answers before it, and clears them.
+    /// Compares a step with the answers before it, and clears the answers.
     pub(super) fn step(&mut self, event: &Event) -> Result<(), String> {
         let Event::Step { step, action, validity, calls, .. } = event else { return Ok(()) };
         let is_named = |reply: &Reply| reply.action == Some(*action);
         self.decision(*step, *validity, *action == Action::Nil, calls.is_some(), is_named)
     }
 
-    /// Compares a plan with the answers before it, and clears them.
+    /// Compares a plan with the answers before it, and clears the answers.
     pub(super) fn plan(&mut self, event: &Event) -> Result<(), String> {
         let Event::Plan { step, actions, validity } = event else { return Ok(()) };
         let is_named = |reply: &Reply| reply.plan.as_ref() == Some(actions);
         self.decision(*step, *validity, actions.is_empty(), false, is_named)
     }
 
-    /// Compares a decision with the answers before it. `is_named` returns `true` if an answer states the decision's
-    /// actions.
+    /// Compares a decision with the answers before it. `is_named` returns `true` if an answer states the
+    /// actions of the decision.
     fn decision(
         &mut self,
         step: u64,
@@ -64,8 +65,8 @@ impl<'a> Answers<'a> {
             return if is_model { wrong("the answer is missing") } else { Ok(()) };
         };
         if !is_model {
-            // The log does not contain the answer that could be read. If there was a second unreadable one, it is the
-            // last.
+            // The log does not contain the answer that was read successfully. If there was a second
+            // unreadable answer, it was the last answer.
             let has_failed = replies.len() > 1;
             return match (is_valid, has_failed) {
                 (true, true) => wrong("no answer was usable"),

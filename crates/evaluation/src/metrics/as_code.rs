@@ -1,15 +1,22 @@
-//! The meaningful steps as the reference's code counts them (`spec/06` §2.1 and §1.2), for comparison with numbers
-//! computed by that code. Its faults are reproduced: the window is two steps, a reversal does not count even if it
-//! earned a reward, a new sprite does not count unless it covers a character, the avatar is the first `a` or `A` of
-//! the text, and the last step of an episode is lost. The one-tick lag of its boards, which only one of its versions
-//! has, is not reproduced.
+//! Computes the meaningful steps as the reference's code does (`spec/06` §2.1 and §1.2), for comparison with
+//! numbers from that code.
+//!
+//! The faults of the code are reproduced:
+//!
+//! - The window is two steps.
+//! - A reversal does not count even if it earned a reward.
+//! - A new sprite does not count unless it covers a character.
+//! - The avatar is the first `a` or `A` of the text.
+//! - The last step of an episode is lost.
+//!
+//! The one-tick lag of the boards in one version of the code is not reproduced.
 
 use engine::{Action, Game, Observation};
 use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Returns the flags of all steps except the last. `texts` are the boards before each action, so there is no board
-/// after the last action. Rows of a text are joined by line feeds.
+/// Returns the flags of all steps except the last. `texts` holds the board before each action, so there is no
+/// board after the last action. The rows of a board are joined by line feeds.
 ///
 /// ```
 /// # use engine as infinite_arcade_engine;
@@ -31,7 +38,7 @@ pub fn flags_as_code(texts: &[String], actions: &[Action], rewards: &[f64]) -> V
         .collect()
 }
 
-/// Returns the row and column of the character that the code treats as the avatar.
+/// Returns the row and column of the character that the reference's code treats as the avatar.
 fn place(text: &str) -> Option<(usize, usize)> {
     text.lines().enumerate().find_map(|(row, line)| {
         let column = line.chars().position(|character| character.eq_ignore_ascii_case(&'a'))?;
@@ -39,7 +46,7 @@ fn place(text: &str) -> Option<(usize, usize)> {
     })
 }
 
-/// Returns `true` if a character other than the avatar's occurs less often than before.
+/// Returns `true` if some character other than the avatar's occurs less often than before.
 fn vanished(before: &str, after: &str) -> bool {
     let count = |text: &str| {
         let mut counts = BTreeMap::new();
@@ -52,17 +59,17 @@ fn vanished(before: &str, after: &str) -> bool {
     count(before).into_iter().any(|(character, count)| after.get(&character).copied().unwrap_or(0) < count)
 }
 
-/// A drawer of boards with the characters that the reference's code assigns to cell contents. The characters depend
-/// on the order of appearance, and are kept for one episode.
+/// Draws boards with the characters that the reference's code assigns to the contents of cells. The
+/// characters depend on the order of appearance, and stay the same throughout an episode.
 #[derive(Clone, Debug)]
 pub struct AsCode {
-    /// The entries of the level mapping: the character and the names as written.
+    /// The entries of the level mapping, each with its character and its names as written.
     mapping: Vec<(char, Vec<String>)>,
     symbols: BTreeMap<String, char>,
 }
 
 impl AsCode {
-    /// Creates the initial characters for one episode of a game.
+    /// Creates the characters that apply at the start of an episode of a game.
     pub fn new(game: &Game) -> AsCode {
         let lines = game.description().mapping.iter();
         let mapping =
@@ -71,7 +78,7 @@ impl AsCode {
         AsCode { mapping: mapping.collect(), symbols }
     }
 
-    /// Returns the text of a board, with rows joined by line feeds.
+    /// Returns a board as text, with its rows joined by line feeds.
     pub fn text(&mut self, seen: &Observation) -> String {
         let cells: Vec<String> = seen.cells.iter().map(|cell| entity(cell)).collect();
         self.learn(&cells);
@@ -106,7 +113,8 @@ impl AsCode {
             if entity.contains("avatar") || self.symbols.contains_key(entity) {
                 continue;
             }
-            // The code fails when it runs out of characters. Here, the remaining contents are drawn as floor.
+            // The reference's code fails when it runs out of characters. Here, the remaining contents are
+            // drawn as floor.
             let Some(symbol) = free.next() else { break };
             self.symbols.insert(entity.to_owned(), symbol);
         }
@@ -130,7 +138,7 @@ mod tests {
         assert_eq!(flags_as_code(&texts, actions, rewards), expect);
     }
 
-    /// The vectors of `spec/06` §2.1.
+    /// The test vectors are those of `spec/06` §2.1.
     #[test]
     fn published_vectors() {
         check(&["wa..w", "w.a.w", "wa..w"], &[Left, Right, Up], &[0.0, 5.0, 0.0], &[true, false]);
@@ -143,7 +151,7 @@ mod tests {
 
     #[test]
     fn faults_of_the_reference_are_kept() {
-        // A single step has no flag.
+        // The only step of an episode has no flag.
         check(&["a."], &[Right], &[1.0], &[]);
         // Doing nothing never counts, whatever its effect.
         check(&["a#", "a."], &[Nil], &[1.0], &[false]);
@@ -167,8 +175,8 @@ mod tests {
         }
     }
 
-    /// The characters of the level mapping are used first, if the names match its spelling, then the pool in order.
-    /// Later contents get the remaining characters.
+    /// The characters of the level mapping are used first, for contents whose names match its spelling. The
+    /// pool of characters follows in order. Later contents get the remaining characters.
     #[test]
     fn characters_depend_on_the_order_of_appearance() {
         let game = Game::from_source(
@@ -193,7 +201,7 @@ BasicGame
         let mut code = AsCode::new(&game);
         let board = seen(&[&["floor"], &["wall", "floor"], &["floor", "hero"], &["goal"], &[]]);
         assert_eq!(code.text(&board), ".wAx.");
-        // A new stack takes the next character, and an old one keeps its own.
+        // A new pile of sprites takes the next character, and an old pile keeps its character.
         let board =
             seen(&[&["floor"], &["wall", "floor"], &["goal", "hero"], &["wall", "goal"], &["floor", "wall"]]);
         assert_eq!(code.text(&board), ".w@#w");

@@ -4,27 +4,27 @@ use crate::log::{Event, ReplyClass};
 use crate::player::Validity;
 use serde::Serialize;
 
-/// The number of steps by the origin of their choice. The counts add up to the number of steps.
+/// The numbers of steps, by the origin of their choice. The counts add up to the number of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Choices {
     /// The number of steps chosen by an answer in the requested format, or by a player that gives no answers.
     pub valid: u64,
-    /// The number of steps chosen by an answer that was read with tolerance.
+    /// The number of steps chosen by an answer in a different format, which a tolerant rule read.
     pub tolerant: u64,
-    /// The number of steps in which nothing was done, because no answer could be read.
+    /// The number of steps in which the player did nothing because no answer could be read.
     pub invalid: u64,
-    /// The number of steps in which nothing was done, because the player refused to answer.
+    /// The number of steps in which the player did nothing because it refused to answer.
     pub refused: u64,
-    /// The number of steps in which nothing was done, because the answer was cut off.
+    /// The number of steps in which the player did nothing because its answer was cut off.
     pub truncated: u64,
 }
 
 impl Choices {
-    /// Counts the choices of a log.
+    /// Counts the choices in a log by their origin.
     pub fn of(log: &[Event]) -> Choices {
         let mut choices = Choices::default();
         let mut class = None;
-        // The class of the plan that is being played.
+        // The answer class of the plan that is being played.
         let mut planned = None;
         for event in log {
             match event {
@@ -46,12 +46,12 @@ impl Choices {
         choices
     }
 
-    /// Returns the number of steps.
+    /// Returns the total number of steps.
     pub fn total(&self) -> u64 {
         self.valid + self.tolerant + self.invalid + self.refused + self.truncated
     }
 
-    /// Adds the counts of `other`.
+    /// Adds the counts of `other` to these counts.
     pub fn add(&mut self, other: &Choices) {
         self.valid += other.valid;
         self.tolerant += other.tolerant;
@@ -61,17 +61,18 @@ impl Choices {
     }
 }
 
-/// The cost of an episode's answers. Tokens are the provider's counts. A sum is `None` if an answer has no count, or
-/// if there are no answers.
+/// The cost of an episode's answers. The token counts are those of the provider. A sum is `None` if the count
+/// of any answer is missing, or if there are no answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Spending {
-    /// The number of sent requests, answered or not. A request forbidden by a cap was not sent.
+    /// The number of requests that were sent, whether or not they were answered. A request forbidden by a cap
+    /// was not sent.
     pub requests: u64,
     /// The number of answers.
     pub replies: u64,
-    /// The number of answers from the cache. Their tokens are counted, although they cost nothing.
+    /// The number of answers from the cache. Their tokens are counted, although these answers cost nothing.
     pub cached_replies: u64,
-    /// The number of failed tries before answers.
+    /// The number of failed tries that preceded answers.
     pub failures: u64,
     /// The number of prompt tokens.
     pub input_tokens: Option<u64>,
@@ -84,7 +85,7 @@ pub struct Spending {
 }
 
 impl Spending {
-    /// Sums up the costs of a log's answers.
+    /// Sums up the costs of the answers in a log.
     pub fn of(log: &[Event]) -> Spending {
         let replies: Vec<_> = log
             .iter()
@@ -110,7 +111,7 @@ impl Spending {
         }
     }
 
-    /// Adds the costs of `other`. An episode without answers adds nothing.
+    /// Adds the costs of `other` to these costs. An episode without answers adds nothing.
     pub fn add(&mut self, other: &Spending) {
         if other.replies > 0 {
             let first = self.replies == 0;
@@ -127,8 +128,10 @@ impl Spending {
     }
 }
 
-/// Returns the number of a log's requests that were sent. Requests are recorded before it is known whether a cap
-/// allows them. A forbidden request is sent later, if the evaluation is resumed, without being recorded again.
+/// Returns the number of requests in a log that were sent.
+///
+/// Requests are recorded before it is known whether a cap allows them. If the evaluation is resumed, a
+/// forbidden request is sent without being recorded again.
 fn requests(log: &[Event]) -> u64 {
     let (mut sent, mut is_open) = (0, false);
     for event in log {

@@ -1,4 +1,4 @@
-//! The ending of an episode that was not won: its cause, and the distance from a win.
+//! The ending of an episode that was not won, with its cause and its distance from a win.
 
 use crate::subject::Subject;
 use engine::analysis::{Condition, EffectSummary};
@@ -8,29 +8,29 @@ use itertools::Itertools;
 use serde::Serialize;
 
 base::named_enum! {
-    /// The cause of an ending that is not a win.
+    /// The kind of ending of an episode that was not won.
     pub enum EndingKind {
-        /// The avatar was removed, or turned into something else.
+        /// The avatar was removed or turned into something else.
         Died = "died",
-        /// A sprite other than the avatar that the game needs was removed.
+        /// The game was lost because a required sprite other than the avatar was removed.
         Lost = "lost_sprite",
-        /// A sprite that loses the game appeared.
+        /// The game was lost because a sprite of some type appeared.
         Appeared = "sprite_appeared",
         /// The time limit of the game was reached.
         OutOfTime = "out_of_time",
-        /// The game was lost in a different way, or for an unknown reason.
+        /// The game was lost in some other way, or for an unknown reason.
         Otherwise = "lost_otherwise",
-        /// The step limit was reached.
+        /// The episode reached its step limit.
         StepLimit = "step_limit",
         /// The game ended without a winner.
         NoWinner = "no_winner",
-        /// The engine stopped the episode, because of the rules of the game or a limit.
+        /// The engine stopped the episode because of the rules of the game or an engine limit.
         Stopped = "stopped",
     }
 }
 
 impl EndingKind {
-    /// Returns the name for headings.
+    /// Returns the name of the ending for use in headings.
     pub fn title(self) -> &'static str {
         match self {
             EndingKind::Died => "died",
@@ -48,50 +48,52 @@ impl EndingKind {
 /// The ending of an episode that was not won.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Ending {
-    /// The cause.
+    /// The kind of the ending.
     pub kind: EndingKind,
-    /// The sprite type that was removed or appeared, if the game was lost by its number.
+    /// The sprite type that was removed or appeared, if the number of its sprites lost the game.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sprite: Option<String>,
-    /// The other sprite type in the last interaction that removed or made the sprite, or `EOS`; `None` if no
-    /// interaction did.
+    /// The other sprite type in the interaction that last removed or created the sprite, or `EOS`. `None` if
+    /// no interaction removed or created the sprite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
-    /// The line of the game that caused the ending, as written: the interaction, or else the termination.
+    /// The line of the game description that caused the ending, as written. The line is an interaction if one
+    /// is known, and otherwise a termination.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<String>,
-    /// The reason why the engine stopped the episode, if it did.
+    /// The reason why the engine stopped the episode, if the engine stopped it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<Limit>,
-    /// The distance from a win in the last state; `None` if no winning termination counts anything.
+    /// The distance from a win in the last state, or `None` if no winning termination counts anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distance: Option<GoalDistance>,
 }
 
-/// The name for the edge of the screen.
+/// The name of the screen edge in interactions.
 const EDGE: &str = "EOS";
 
-/// The name for ticks among the counted things.
+/// The name under which ticks are counted.
 const TICKS: &str = "ticks";
 
-/// The distance from a winning termination. If there are several, the one closest to holding counts.
+/// The distance from fulfilling a winning termination. If there are several winning terminations, the
+/// distance is that of the nearest one.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct GoalDistance {
     /// The names of the counted sprite types, as in the termination, or `ticks`.
     pub counted: String,
-    /// The number of sprites left to remove or to make, or of ticks left to survive.
+    /// The number of sprites left to remove or to create, or the number of ticks left to survive.
     pub left: u32,
-    /// The corresponding number in the first state.
+    /// The number that was left in the first state of the episode.
     pub of: u32,
 }
 
 impl GoalDistance {
-    /// Returns the remaining fraction of the distance.
+    /// Returns the fraction of the distance that remains.
     pub fn fraction(&self) -> f64 {
         f64::from(self.left) / f64::from(self.of.max(1))
     }
 
-    /// Formats the distance: `2 of 5 gem left`.
+    /// Formats the distance, as in `2 of 5 gem left`.
     pub fn words(&self) -> String {
         let GoalDistance { counted, left, of } = self;
         let to_survive = if counted == TICKS { " to survive" } else { "" };
@@ -101,7 +103,7 @@ impl GoalDistance {
 }
 
 impl Ending {
-    /// Formats the cause: `died of touching dragonfly`.
+    /// Formats the ending and its cause, as in `died of touching dragonfly`.
     pub fn words(&self) -> String {
         let particulars = self.particulars().unwrap_or_default();
         match self.kind {
@@ -116,8 +118,9 @@ impl Ending {
         }
     }
 
-    /// Formats the sprites of the cause, to follow its kind: `of touching dragonfly`, `flower to arrow`, `weed`.
-    /// `None` if they are unknown, or if the kind concerns no sprite.
+    /// Formats the sprites that caused the ending, to follow its kind, as in `of touching dragonfly`,
+    /// `flower to arrow` or `weed`. Returns `None` if the sprites are unknown, or if no sprite causes this
+    /// kind of ending.
     pub fn particulars(&self) -> Option<String> {
         let sprite = || self.sprite.as_deref().unwrap_or("a sprite");
         match (self.kind, &self.by) {
@@ -134,7 +137,7 @@ impl Ending {
         }
     }
 
-    /// Returns an ending for which only the outcome is known; `None` for a win.
+    /// Returns the ending of an episode for which only the outcome is known, or `None` for a win.
     pub(crate) fn unknown(outcome: Outcome) -> Option<Ending> {
         let kind = match outcome {
             Outcome::Won => return None,
@@ -150,7 +153,8 @@ impl Ending {
         Some(Ending { kind, sprite: None, by: None, rule: None, stop, distance: None })
     }
 
-    /// Derives the ending from the first and the last state and the interactions of the last tick; `None` for a win.
+    /// Derives the ending from the first state, the last state and the interactions of the last tick. Returns
+    /// `None` for a win.
     pub(super) fn of(subject: &Subject, first: &State, last: &State, tick: LastTick) -> Option<Ending> {
         if last.outcome() == Outcome::Lost {
             return Some(lost(subject, first, last, &tick));
@@ -204,7 +208,7 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         distance: distance.clone(),
     };
     let Some(goal) = analysis.goals().iter().find(|goal| Some(goal.line) == line) else {
-        // The reference's time limit is not a line of the game.
+        // The reference engine's time limit is not a line of the game.
         let late = line.is_none() && u64::try_from(last.tick()).is_ok_and(|tick| tick >= game.time_limit());
         return ending(if late { EndingKind::OutOfTime } else { EndingKind::Otherwise });
     };
@@ -224,8 +228,8 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         let present = types.iter().find(|&&stype| last.alive(stype) > 0);
         return Ending { sprite: present.map(|&stype| game.name(stype).to_owned()), ..ending(kind) };
     }
-    // Effects on all sprites of a type also remove sprites other than the two that met. Of these interactions, the
-    // last possible cause counts.
+    // Effects on all sprites of a type also remove sprites other than the two that met. The last interaction
+    // of this kind that is a possible cause counts.
     let seen = tick.removals.iter().rev().find(|removal| types.contains(&removal.sprite));
     let seen = seen.map(|removal| (removal.line, removal.sprite, removal.by));
     let at_large =
@@ -245,8 +249,8 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
     }
 }
 
-/// Returns the line of an interaction that may have removed sprites anywhere on the board, the removed type among
-/// `types`, and the type that the interaction acted on.
+/// Finds the possible cause in an interaction that may have removed sprites anywhere on the board. Returns
+/// the interaction's line, the removed type among `types`, and the type that the interaction acted on.
 fn removed_at_large(
     subject: &Subject,
     meeting: &Meeting,

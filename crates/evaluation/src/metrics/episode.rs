@@ -1,4 +1,4 @@
-//! All metrics of an episode.
+//! All metrics of a single episode.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -15,33 +15,33 @@ use engine::Outcome;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// The metrics of an episode. Ratios are within 0..=1.
+/// The metrics of a single episode. Ratios are between 0 and 1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EpisodeMetrics {
     /// The name of the game's folder.
     pub game: String,
     /// The number of the level.
     pub level: usize,
-    /// The index of the episode among those on this level.
+    /// The index of the episode among the player's episodes on this level.
     pub run: u64,
-    /// The reason why the episode has no further step.
+    /// The reason why the episode ended.
     pub status: EpisodeStatus,
     /// The outcome after the last step.
     pub outcome: Outcome,
-    /// The cause of the ending and the distance from a win; `None` for a win, and for an episode that was aborted or
-    /// interrupted.
+    /// The cause of the ending and the distance from a win. `None` for a win, and for an episode that was
+    /// aborted or interrupted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ending: Option<Ending>,
     /// The score after the last step.
     pub score: f64,
     /// The number of actions played.
     pub steps: u64,
-    /// The maximum number of actions.
+    /// The maximum number of actions in the episode.
     pub max_steps: u64,
-    /// The number of actions that the player commits to at each look.
+    /// The number of actions that the player commits to at each decision.
     #[serde(skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
-    /// The track with its version.
+    /// The track of the episode, with its version.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
     /// The level's position in a series that was played in one conversation.
@@ -50,14 +50,14 @@ pub struct EpisodeMetrics {
     /// The grade of the predictions after the last level of a series.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub predictions: Option<Grade>,
-    /// The ticks of the level's shortest win, if its optimality is proved.
+    /// The number of ticks of the level's shortest win, if the win is proved to be optimal.
     pub optimal_ticks: Option<usize>,
-    /// The meaningful step ratio: meaningful steps divided by steps.
+    /// The meaningful step ratio, which is the number of meaningful steps divided by the number of steps.
     pub meaningful: Option<f64>,
-    /// The meaningful step ratio according to the reference's code, which loses the last step. An episode of one step
-    /// has no ratio.
+    /// The meaningful step ratio according to the reference's code, which omits the last step. An episode of
+    /// one step has no ratio.
     pub meaningful_as_code: Option<f64>,
-    /// The movement in the level.
+    /// The metrics of the avatar's movement in the level.
     pub movement: Movement,
     /// The origins of the episode's choices.
     pub choices: Choices,
@@ -66,49 +66,50 @@ pub struct EpisodeMetrics {
     /// The names that the provider used for the versions of the model that answered.
     #[serde(skip_serializing_if = "BTreeSet::is_empty")]
     pub served_by: BTreeSet<String>,
-    /// The index of the results folder that the episode was read from, among the folders of a study.
+    /// The index of the results folder that contains the episode, among the folders of a study.
     #[serde(skip)]
     pub folder: Option<usize>,
-    /// The digest of all actions, boards, scores and outcomes, which is equal for identical episodes; `None` if it is
-    /// unknown.
+    /// The digest of all actions, boards, scores and outcomes, or `None` if it is unknown. Identical episodes
+    /// have equal digests.
     #[serde(skip)]
     pub course: Option<Digest>,
     /// The duration of each decision, in milliseconds.
     #[serde(skip)]
     pub decision_ms: Vec<f64>,
-    /// The number of forward-model calls in each decision, for players that make calls.
+    /// The number of forward-model calls in each decision, for players that make such calls.
     #[serde(skip)]
     pub calls: Vec<u64>,
 }
 
-/// The reason why an episode has no further step.
+/// The reason why an episode ended.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EpisodeStatus {
     /// The game is over.
     Over,
-    /// The step limit was reached, which is not a win.
+    /// The episode reached its step limit, which is not a win.
     StepLimit,
-    /// The episode was aborted for this reason. The player is not at fault, so the episode counts in no metric.
+    /// The episode was aborted for the given reason. The player is not at fault, so the episode counts in no
+    /// metric.
     Halted(String),
     /// The log ends early, because the evaluation was interrupted. The episode counts in no metric.
     Interrupted,
 }
 
 impl EpisodeMetrics {
-    /// Computes the metrics of an episode from its log, which is replayed on its game.
+    /// Computes the metrics of an episode. The episode is replayed from its log on its game.
     ///
     /// # Errors
-    /// See [`replay`].
+    /// Returns an error in the same cases as [`replay`].
     pub fn of(subject: &Subject, log: &[Event]) -> Result<EpisodeMetrics, EvaluationError> {
         Ok(EpisodeMetrics::measured(subject, log, replay(subject, log)?))
     }
 
-    /// Computes the metrics that do not depend on which steps were meaningful, at the cost of [`replay_course`].
-    /// `meaningful`, `meaningful_as_code` and the rates of `movement` are `None`.
+    /// Computes the metrics that do not depend on which steps were meaningful, at the cost of
+    /// [`replay_course`]. `meaningful`, `meaningful_as_code` and the rates of `movement` are `None`.
     ///
     /// # Errors
-    /// See [`replay`].
+    /// Returns an error in the same cases as [`replay`].
     pub fn of_course(subject: &Subject, log: &[Event]) -> Result<EpisodeMetrics, EvaluationError> {
         Ok(EpisodeMetrics::measured(subject, log, replay_course(subject, log)?))
     }
@@ -189,41 +190,45 @@ impl EpisodeMetrics {
         }
     }
 
-    /// Returns `true` if the engine stopped the episode, which says nothing about the player.
+    /// Returns `true` if the engine stopped the episode. Such an episode says nothing about the player.
     pub fn is_stopped(&self) -> bool {
         self.ending.as_ref().is_some_and(|ending| ending.stop.is_some())
     }
 
-    /// Returns `true` if the game was won. All other outcomes are not wins: lost, over without a winner, or not over.
+    /// Returns `true` if the game was won. A lost game, a game that ended without a winner, and an unfinished
+    /// game are not wins.
     pub fn won(&self) -> bool {
         self.outcome == Outcome::Won
     }
 
-    /// Returns `true` if the level was played to learn the rules of a series, in which case it counts in no result.
+    /// Returns `true` if the level was played to learn the rules of a series. Such an episode counts in no
+    /// result.
     pub fn is_practice(&self) -> bool {
         self.series.is_some_and(SeriesPlace::is_practice)
     }
 
-    /// Returns `true` if the episode counts, because it ended with the game or at the step limit.
+    /// Returns `true` if the episode counts in results, because it ended with the game or at the step limit.
     pub fn counts(&self) -> bool {
         self.status.aborted().is_none()
     }
 
-    /// Returns the number of steps of the proved shortest win divided by the number of steps of this episode, which
-    /// is 1 for an optimal win. `None` unless this episode is a win on a level with a known shortest win.
+    /// Returns the number of steps of the proved shortest win divided by the number of steps of this episode,
+    /// which is 1 for an optimal win. Returns `None` unless the episode is a win on a level with a known
+    /// shortest win.
     pub fn optimality(&self) -> Option<f64> {
         let optimal = self.optimal_ticks.filter(|_| self.won() && self.steps > 0)?;
         Some(optimal as f64 / self.steps as f64)
     }
 
-    /// Returns the fraction of unused steps: `1 − steps / limit`.
+    /// Returns the fraction of steps that were not used, `1 − steps / limit`.
     pub fn unused_steps(&self) -> Option<f64> {
         (self.max_steps > 0).then(|| 1.0 - self.steps as f64 / self.max_steps as f64)
     }
 }
 
 impl EpisodeStatus {
-    /// Derives the status from the steps. A missing or contradictory last line has no effect.
+    /// Derives the status from the steps of the episode. A missing or contradictory last line of the log has
+    /// no effect.
     fn of(replayed: &Replayed, max_steps: u64, log: &[Event]) -> EpisodeStatus {
         if replayed.outcome != Outcome::Ongoing {
             return EpisodeStatus::Over;
@@ -237,7 +242,7 @@ impl EpisodeStatus {
         }
     }
 
-    /// Returns the reason why the episode does not count, if it does not.
+    /// Returns the reason why the episode does not count, or `None` if it counts.
     pub fn aborted(&self) -> Option<&str> {
         match self {
             EpisodeStatus::Over | EpisodeStatus::StepLimit => None,
@@ -247,7 +252,7 @@ impl EpisodeStatus {
     }
 }
 
-/// Returns the provider's names for the versions of the model that answered.
+/// Returns the names that the provider used for the versions of the model that answered.
 fn served_by(log: &[Event]) -> BTreeSet<String> {
     let replies = log.iter().filter_map(|event| match event {
         Event::Reply(reply) => reply.served_by.clone(),

@@ -1,32 +1,35 @@
 //! The meaningful steps of an episode (`spec/06` §2.1).
 //!
-//! The paper calls a step meaningful if it earned a reward or the action changed the grid, except for moves that
-//! cancel each other within four steps. A counterfactual determines the effect of an action: the observation that
-//! would follow from the same state with the same randomness if nothing had been done. Sprites that move by
+//! The paper calls a step meaningful if it earned a reward or if its action changed the grid. Moves that
+//! cancel each other within four steps are not meaningful.
+//!
+//! The effect of an action is determined by comparison with a counterfactual: the observation that would
+//! follow from the same state with the same randomness if the player had done nothing. Sprites that move by
 //! themselves look the same in both observations, so only the player's effect differs.
 
 /// The maximum number of steps within which moves cancel each other.
 pub const WINDOW: usize = 4;
 
-/// The effect of an action.
+/// The effect of an action, compared with doing nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// Everything is as if nothing had been done, and there was no reward.
+    /// The result is the same as after doing nothing, and there was no reward.
     Nothing,
-    /// Only the avatar's position differs from that after doing nothing, and there was no reward.
+    /// Only the avatar's position differs from the result of doing nothing, and there was no reward.
     Moved,
-    /// There was a reward or a different effect: a sprite appeared, vanished, changed or moved, the avatar turned
-    /// into a different type, or the game ended.
+    /// There was a reward or an effect other than a move. For example, a sprite appeared, vanished, changed
+    /// or moved, the avatar turned into a different type, or the game ended.
     Acted,
 }
 
-/// Decides for each step whether it is meaningful. `places` holds the avatar's position before the first step and
-/// after each step. It is `None`, or missing at the end, while there is no avatar.
+/// Decides for each step whether it is meaningful. `places` holds the avatar's position before the first step
+/// and after each step. A position is `None`, or missing at the end, while there is no avatar.
 ///
-/// A step that acted is meaningful. A step that moved is meaningful unless it is part of a loop: if the avatar
-/// returns to its position before a step at most [`WINDOW`] steps back, and all steps since then only moved it, these
-/// moves cancel each other. A closed loop is forgotten: in the walk A B A B C, the first two moves cancel each other,
-/// and the last two lead from A to C. Cost: O(steps).
+/// A step that acted is meaningful. A step that moved is meaningful unless it is part of a loop. A loop
+/// closes when the avatar returns to its position before a step at most [`WINDOW`] steps back, and all steps
+/// since then only moved it. The moves of a closed loop cancel each other, and the loop is forgotten. In the
+/// walk A B A B C, the first two moves cancel each other, and the last two moves lead from A to C. Cost:
+/// O(steps).
 ///
 /// ```
 /// use infinite_arcade_evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
@@ -37,7 +40,8 @@ pub enum Effect {
 /// ```
 pub fn meaningful<P: Copy + PartialEq>(effects: &[Effect], places: &[Option<P>]) -> Vec<bool> {
     let mut flags: Vec<bool> = effects.iter().map(|effect| *effect != Effect::Nothing).collect();
-    // The walk without its loops since the last step that acted: each move with the position that it left.
+    // The walk since the last step that acted, without its loops. Each move is stored with the position that
+    // it left.
     let mut walk: Vec<(usize, P)> = Vec::new();
     for (step, effect) in effects.iter().enumerate() {
         let place = |at: usize| places.get(at).copied().flatten();
@@ -61,8 +65,8 @@ mod tests {
     use super::Effect::{Acted, Moved, Nothing};
     use super::*;
 
-    /// Writes positions as letters, with `-` for a missing one, effects as `m`, `a` and `.`, and flags as `1` and
-    /// `0`.
+    /// Checks the flags of a walk. Positions are written as letters, with `-` for a missing position. Effects
+    /// are written as `m`, `a` and `.`, and flags as `1` and `0`.
     #[track_caller]
     fn check(places: &str, effects: &str, expect: &str) {
         let places: Vec<Option<char>> =
@@ -90,22 +94,22 @@ mod tests {
     #[test]
     fn moves_that_cancel_each_other() {
         check("aba", "mm", "00");
-        // One pair, followed by other moves.
+        // The first two moves cancel each other, and other moves follow.
         check("ababc", "mmmm", "0011");
-        // Two pairs, one after the other and one within the other.
+        // There are two pairs of moves that cancel each other. The pairs follow each other or are nested.
         check("ababa", "mmmm", "0000");
         check("abcba", "mmmm", "0000");
-        // A loop of four around a block.
+        // Four moves form a loop around a block.
         check("abcda", "mmmm", "0000");
         // A wall or a pause in between counts as a step of the window.
         check("abba", "m.m", "000");
         check("abbba", "m..m", "0000");
         check("abbbba", "m...m", "10001");
-        // A loop of six is not cancelled.
+        // A loop of six moves is not cancelled.
         check("abcdefa", "mmmmmm", "111111");
     }
 
-    /// Fetching something and returning has changed the state.
+    /// A walk that fetches something and returns has changed the state.
     #[test]
     fn effects_on_the_game_are_never_cancelled() {
         check("aba", "am", "11");
@@ -114,7 +118,7 @@ mod tests {
         check("ababa", "ammm", "1001");
     }
 
-    /// Sliding is not an action of the player, but it is part of the walk.
+    /// A slide is not an action of the player, but it is part of the walk.
     #[test]
     fn moved_by_something_else() {
         check("aba", "m.", "00");

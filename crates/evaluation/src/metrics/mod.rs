@@ -1,8 +1,8 @@
-//! The metrics of an episode, which are a function of its log and its game. The game is replayed from the log's seed
-//! and actions, and every state hash is compared. Nothing is measured during play, so a metric can be added or fixed
-//! later without asking a model again (`docs/reference/metrics.md`).
+//! The metrics of an episode, which are a function of its log and its game (`docs/reference/metrics.md`).
 //!
-//! Unknown values are `None`, never 0.
+//! The game is replayed from the seed and the actions in the log, and every state hash is compared. Nothing
+//! is measured during play, so a metric can be added or fixed later without asking a model again. Unknown
+//! values are `None`, never 0.
 
 mod answers;
 mod as_code;

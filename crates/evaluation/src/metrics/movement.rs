@@ -1,36 +1,36 @@
-//! The movement in an episode: the failure-mode metrics of the paper (`spec/06` §2.7), computed from the meaningful
-//! steps and the avatar's cells.
+//! The failure-mode metrics of the paper (`spec/06` §2.7), computed from the meaningful steps and the
+//! avatar's cells.
 
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// The failure-mode metrics of an episode. The metrics of steps are `None` if there was no step, and the metrics of
-/// cells are `None` if there was never an avatar.
+/// The failure-mode metrics of an episode. The metrics about steps are `None` if there was no step. The
+/// metrics about cells are `None` if there was never an avatar.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Movement {
-    /// The fraction of steps that were not meaningful, within 0..=1, which is the complement of the meaningful step
-    /// ratio.
+    /// The fraction of steps that were not meaningful, between 0 and 1. The bump rate is the complement of
+    /// the meaningful step ratio.
     pub bump_rate: Option<f64>,
-    /// The length of the longest run of steps that were not meaningful.
+    /// The length of the longest sequence of steps that were not meaningful.
     pub max_bumps: Option<u64>,
-    /// The bump rate in the last quarter of the steps, rounded up.
+    /// The bump rate in the last quarter of the steps. The number of steps in the quarter is rounded up.
     pub late_bump_rate: Option<f64>,
-    /// The fraction of steps that returned to the cell of two steps ago: A B A.
+    /// The fraction of steps that returned to the cell of two steps before, as in A B A.
     pub oscillation_rate: Option<f64>,
-    /// The fraction of steps after which the avatar was in the same cell, which is the paper's alternative definition
-    /// of a bump.
+    /// The fraction of steps after which the avatar was in the same cell as before. Such a step is a bump by
+    /// the paper's alternative definition.
     pub still_rate: Option<f64>,
-    /// The number of distinct cells visited by the avatar, including the first one.
+    /// The number of distinct cells visited by the avatar, including its first cell.
     pub unique_cells: Option<u64>,
-    /// The unique cells divided by the area of their bounding rectangle, within 0..=1.
+    /// The number of distinct cells visited divided by the area of their bounding rectangle, between 0 and 1.
     pub coverage: Option<f64>,
-    /// The distance travelled, in cells: the sum of the Manhattan distances of all steps.
+    /// The distance travelled, in cells, which is the sum of the Manhattan distances of all steps.
     pub displacement: Option<u64>,
 }
 
 impl Movement {
-    /// Computes the metrics from the meaningful steps of an episode and the avatar's cells, as column and row, before
-    /// the first step and after each step. Cost: O(steps log steps).
+    /// Computes the metrics from the meaningful steps of an episode and the avatar's cells. `cells` holds the
+    /// avatar's column and row before the first step and after each step. Cost: O(steps log steps).
     ///
     /// ```
     /// use infinite_arcade_evaluation::metrics::Movement;
@@ -45,7 +45,8 @@ impl Movement {
 
         let known: Vec<(i32, i32)> = cells.iter().copied().flatten().collect();
         let there = !known.is_empty();
-        // The steps with two known cells. A step from or to an unknown cell is neither still nor a return.
+        // Only steps between two known cells are considered. A step from or to an unknown cell is neither
+        // still nor a return.
         let moves = || cells.windows(2).filter_map(|pair| Some((pair[0]?, pair[1]?)));
         let still = moves().filter(|(from, to)| from == to).count();
         let returns = cells.windows(3).filter(|three| three[0].is_some() && three[0] == three[2]);
@@ -79,7 +80,8 @@ fn area(cells: &[(i32, i32)]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Calculated by hand: right, right, a bump, back, a bump, a bump, down, up.
+    /// The expected values were calculated by hand for the steps right, right, bump, back, bump, bump, down
+    /// and up.
     #[test]
     fn worked_by_hand() {
         let flags = [true, true, false, true, false, false, false, false];
@@ -123,7 +125,7 @@ mod tests {
         assert_eq!((standing.bump_rate, standing.oscillation_rate), (None, None));
         let nobody = Movement::of(&[true], &[None, None]);
         assert_eq!((nobody.bump_rate, nobody.still_rate, nobody.coverage), (Some(0.0), None, None));
-        // The avatar dies in the last step; the steps before it still count.
+        // The avatar dies in the last step. The steps before its death still count.
         let dies = Movement::of(&[true, true], &[Some((0, 0)), Some((0, 1)), None]);
         assert_eq!((dies.displacement, dies.still_rate), (Some(1), Some(0.0)));
     }

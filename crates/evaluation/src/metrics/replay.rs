@@ -1,4 +1,4 @@
-//! The replay of an episode from its log.
+//! Replays an episode from its log.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, NEXT_STEP, SCHEMA, Status};
@@ -13,19 +13,19 @@ use crate::subject::{Subject, SubjectLevel};
 use base::Digest;
 use engine::{Action, Game, Outcome, SEMANTICS, State};
 
-/// The result of an episode's replay.
+/// The result of replaying an episode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replayed {
-    /// The number of ticks in the level's proved shortest win.
+    /// The number of ticks in the level's shortest win, if the win is proved to be optimal.
     pub optimal_ticks: Option<usize>,
-    /// The actions played.
+    /// The actions of the episode.
     pub actions: Vec<Action>,
     /// The change of the score in each step.
     pub rewards: Vec<f64>,
-    /// The flags of the meaningful steps; empty after [`replay_course`].
+    /// The flags of the meaningful steps, which are empty after [`replay_course`].
     pub meaningful: Vec<bool>,
-    /// The flags of the meaningful steps according to the reference's code, which are one fewer; empty after
-    /// [`replay_course`].
+    /// The flags of the meaningful steps according to the reference's code, which has no flag for the last
+    /// step. Empty after [`replay_course`].
     pub meaningful_as_code: Vec<bool>,
     /// The avatar's column and row before the first step and after each step.
     pub cells: Vec<Option<(i32, i32)>>,
@@ -33,21 +33,24 @@ pub struct Replayed {
     pub outcome: Outcome,
     /// The score after the last step.
     pub score: f64,
-    /// The digest of all actions, visible boards, scores and outcomes, without the state of randomness.
+    /// The digest of all actions, visible boards, scores and outcomes. The state of the random generator is
+    /// not included.
     pub course: Digest,
-    /// The cause of the ending and the distance from a win, if the episode is not won.
+    /// The cause of the ending and the distance from a win, if the episode was not won.
     pub ending: Option<Ending>,
 }
 
-/// Replays the episode of a log on its game, and compares every state hash, score, outcome and avatar position.
-/// Values that follow from the game or from other lines must agree with them: the validity of a step with the answers
-/// before it, the last line with the final state, and the number of steps with the limit.
+/// Replays the episode of a log on its game, and compares every state hash, score, outcome and avatar
+/// position.
+///
+/// Other recorded values are also checked. The validity of a step must agree with the answers before it, the
+/// last line with the final state, and the number of steps with the limit.
 ///
 /// Cost per step: two forward-model calls, a copy of the state and O(sprites log sprites).
 ///
 /// # Errors
-/// Returns an error if the log belongs to a different game, level or version of the suite, or contradicts itself or
-/// the game. The message states the line.
+/// Returns an error if the log belongs to a different game, level or version of the suite, or contradicts
+/// itself or the game. The message states the line.
 pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
     replay_measured(subject, log, true)
 }
@@ -58,7 +61,7 @@ pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationEr
 /// Cost per step: one forward-model call and O(sprites log sprites).
 ///
 /// # Errors
-/// See [`replay`].
+/// Returns an error in the same cases as [`replay`].
 pub fn replay_course(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
     replay_measured(subject, log, false)
 }
@@ -158,7 +161,7 @@ fn replay_measured(subject: &Subject, log: &[Event], has_effects: bool) -> Resul
     Ok(replayed)
 }
 
-/// Returns the level and the state before the first step.
+/// Returns the level of an episode and the state before its first step.
 fn begin<'a>(subject: &'a Subject, start: &Event) -> Result<(&'a SubjectLevel, State), String> {
     let Event::Start { schema, semantics, game_digest, level, level_digest, seed, hash, avatar, .. } = start
     else {
@@ -219,7 +222,7 @@ fn compare(event: &Event, state: &State, replayed: &Replayed) -> Result<(), Stri
     }
 }
 
-/// Compares the grade of predictions with the rules.
+/// Checks that the grade of predictions agrees with the rules of the game.
 fn compare_predictions(event: &Event, subject: &Subject, steps: usize) -> Result<(), String> {
     let Event::Predictions { step, kinds, predicted, validity, grade } = event else { return Ok(()) };
     if *step != steps as u64 {
@@ -234,7 +237,7 @@ fn compare_predictions(event: &Event, subject: &Subject, steps: usize) -> Result
     }
 }
 
-/// Compares the last line with the final state.
+/// Compares the last line of a log with the final state.
 fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(), String> {
     let Event::End { status, outcome, score, steps } = event else { return Ok(()) };
     let taken = replayed.actions.len() as u64;
@@ -259,7 +262,7 @@ fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(),
     }
 }
 
-/// Describes the outcome of an episode: `won`, `not over`.
+/// Describes the outcome of an episode, as in `won` or `not over`.
 fn in_words(outcome: Outcome) -> String {
     match outcome {
         Outcome::Ongoing => "not over".to_owned(),
@@ -274,15 +277,16 @@ fn cell(game: &Game, state: &State) -> Option<(i32, i32)> {
     game.seen_avatar(state).map(|avatar| (avatar.column, avatar.row))
 }
 
-/// A visible sprite, as its type and its rectangle in pixels.
+/// A visible sprite, described by its type and its rectangle in pixels.
 type SeenSprite = (u16, i32, i32, i32, i32);
 
-/// The visible part of a state, in pixels rather than cells. Pixels and cells are equivalent for sprites that move
-/// from cell to cell, but for gliding sprites, cells would not distinguish a glide from a wall.
+/// The visible part of a state, in pixels rather than cells. Pixels and cells are equivalent for sprites that
+/// move from cell to cell. For a gliding sprite, cells would not distinguish a short glide from a blocked
+/// move.
 #[derive(Clone, Debug, PartialEq)]
 struct Seen {
     avatar: Option<SeenSprite>,
-    /// The other sprites, sorted.
+    /// The sprites other than the avatar, sorted.
     others: Vec<SeenSprite>,
 }
 
@@ -304,7 +308,7 @@ impl Seen {
         seen
     }
 
-    /// Returns the top left corner of the avatar.
+    /// Returns the position of the avatar's top left corner.
     fn place(&self) -> Option<(i32, i32)> {
         self.avatar.map(|(_, x, y, _, _)| (x, y))
     }
@@ -326,7 +330,8 @@ impl Seen {
     }
 }
 
-/// Returns the effect of an action, given the result of doing nothing; `idle` is `None` if nothing was done.
+/// Returns the effect of an action, by comparison with `idle`, the result of doing nothing. `idle` is `None`
+/// if the action was to do nothing.
 fn effect(seen: &Seen, outcome: Outcome, idle: Option<(Seen, Outcome)>, reward: f64) -> Effect {
     let Some((idle, idle_outcome)) = idle else {
         return if reward == 0.0 { Effect::Nothing } else { Effect::Acted };

@@ -9,14 +9,14 @@ use engine::{Action, Episode};
 
 /// The player of an episode.
 pub enum Contestant {
-    /// A planner. It sees the state, because it is a baseline and not a subject of the benchmark.
+    /// A planner. Planners see the state, because they are baselines and not subjects of the benchmark.
     Planner {
-        /// The planner, optionally with its budget.
+        /// The planner, with its budget if the name contains one.
         spec: PlannerSpec,
-        /// The number of forward-model calls per decision, if the planner's name does not set it.
+        /// The number of forward-model calls per decision, used if the planner's name contains no budget.
         budget: Budget,
     },
-    /// An agent that is shown turns.
+    /// An agent, which is shown turns instead of the state.
     Agent(Box<dyn Agent>),
 }
 
@@ -27,12 +27,12 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// Creates a replay of the actions of an episode.
+    /// Creates an agent that repeats the actions of an episode.
     pub fn of(episode: &Episode) -> Replay {
         Replay { actions: episode.actions.clone() }
     }
 
-    /// Returns a digest that distinguishes replays.
+    /// Returns a digest of the actions. Replays of different actions have different digests.
     pub fn digest(&self) -> Digest {
         let words: Vec<String> = self.actions.iter().map(Action::to_string).collect();
         Digest::of(words.join(" ").as_bytes())

@@ -16,30 +16,33 @@ use crate::run::Task;
 use crate::turn::Turn;
 use engine::Action;
 
-/// A player that chooses actions based on the turns that it is shown.
+/// A player that sees only the turns that it is shown.
 pub trait Agent: Send {
-    /// Chooses the next action, or the next actions ([`Turn::due`]). Every message and payment on the way is added to
-    /// the journal as it happens, before and after each request, so that nothing is lost or paid for twice if the
-    /// program is killed. Events that an interrupted run has recorded for this turn are already in the journal
-    /// ([`Journal::pending`]) and are used before anything is requested.
+    /// Chooses the next action, or the next actions if the player commits to several ([`Turn::due`]).
+    ///
+    /// Every message and payment must be added to the journal as it happens, before and after each request,
+    /// so that nothing is lost or paid for twice if the program is killed. Events that an interrupted run
+    /// recorded for this turn are already in the journal ([`Journal::pending`]), and must be used before
+    /// anything is requested.
     ///
     /// # Errors
     /// Returns an error if there is no choice and the player is not at fault. The episode is then aborted.
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt>;
 
-    /// Recalls a turn of an interrupted episode that is replayed from its log, with the recorded choice.
+    /// Recalls a turn of an interrupted episode and its recorded choice, while the episode is replayed from
+    /// its log.
     ///
     /// # Errors
     /// Returns an error if the agent cannot resume the episode.
     fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt>;
 
-    /// Begins an episode, which is the only one or the next level of a series. The agent remembers the earlier levels
-    /// of the series.
+    /// Begins an episode, which may be the next level of a series. The agent remembers the earlier levels of
+    /// the series.
     fn begin(&mut self, _task: &Task<'_>) {}
 
-    /// Answers the question after the last level of a series, which asks which of these kinds kill, stop, disappear
-    /// or score when they are touched. Returns `None` for players that cannot be asked. Recorded answers are used as
-    /// in [`act`](Agent::act).
+    /// Answers the question after the last level of a series. The question asks which of the given sprite
+    /// types kill, stop, disappear or score when they are touched. Returns `None` for players that cannot be
+    /// asked. Recorded answers are used as in [`act`](Agent::act).
     ///
     /// # Errors
     /// Returns an error if there is no answer and the player is not at fault. The episode is then aborted.
@@ -52,24 +55,26 @@ pub trait Agent: Send {
         Ok(None)
     }
 
-    /// Shows the final observation after the end of the episode. No answer is expected, and the call cannot fail.
+    /// Shows the final observation after the end of the episode. No answer is expected, and the method cannot
+    /// fail.
     fn end(&mut self, _last: &Turn<'_>) {}
 }
 
-/// The answer of an agent to the last question of a series.
+/// An agent's answer to the last question of a series.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Said {
-    /// The predictions; `None` if no answer could be read.
+    /// The predictions, or `None` if no answer could be read.
     pub predicted: Option<Predicted>,
     /// The origin of the answer.
     pub validity: Validity,
 }
 
-/// The decision of an agent.
+/// A decision of an agent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// The actions to play, one per tick. [`Action::Nil`] is played for actions missing up to the commitment, and for
-    /// actions that are unavailable at their turn. Actions beyond the commitment are not played.
+    /// The actions to play, one per tick. [`Action::Nil`] replaces actions that are missing up to the
+    /// commitment, and actions that are unavailable when they are due. Actions beyond the commitment are not
+    /// played.
     pub actions: Vec<Action>,
     /// The origin of the choice.
     pub validity: Validity,
@@ -81,29 +86,30 @@ impl Choice {
         Choice::plan(vec![action])
     }
 
-    /// Creates the choice of several actions.
+    /// Creates the choice of several actions in order.
     pub fn plan(actions: Vec<Action>) -> Choice {
         Choice { actions, validity: Validity::Valid }
     }
 
-    /// Creates the choice of a player whose answer cannot be used, so nothing is done.
+    /// Creates the choice of a player without a usable answer, which is to do nothing.
     pub fn nothing(validity: Validity) -> Choice {
         Choice { actions: Vec::new(), validity }
     }
 
-    /// Returns the action of a tick, counted from the decision.
+    /// Returns the action for a tick. Ticks are counted from the decision.
     pub fn action(&self, tick: usize) -> Action {
         self.actions.get(tick).copied().unwrap_or(Action::Nil)
     }
 }
 
 base::named_enum! {
-    /// The origin of a choice. All origins except [`Valid`](Validity::Valid) are counted separately in every table.
+    /// The origin of a choice. All origins except [`Valid`](Validity::Valid) are counted separately in all
+    /// tables.
     pub enum Validity {
         /// The player stated the action.
         Valid = "valid",
-        /// No answer could be read as an action, even after repeated questions. Nothing is done, and the player is at
-        /// fault.
+        /// No answer could be read as an action, even after repeated questions. The player does nothing, and
+        /// is at fault.
         Invalid = "invalid",
         /// The player refused to answer.
         Refused = "refused",
@@ -112,7 +118,7 @@ base::named_enum! {
     }
 }
 
-/// The reason for a missing choice that is not the player's fault.
+/// The reason why a choice is missing, if the player is not at fault.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Halt {
     /// The network, the server or the process of the player failed in every try.
@@ -121,26 +127,28 @@ pub enum Halt {
     /// The next request would exceed the stated spending limit.
     #[error("{0}")]
     Budget(String),
-    /// The server rejects all requests of this kind (wrong key, unknown model), so the evaluation cannot continue.
+    /// The server rejects all requests of this kind, for example because of a wrong key or an unknown model,
+    /// so the evaluation cannot continue.
     #[error("{0}")]
     Rejected(String),
-    /// The player cannot be asked about this game, because the server rejects the prompt's content, but perhaps about
-    /// others.
+    /// The server rejects the content of this game's prompts, so the player cannot be asked about this game.
+    /// Other games may work.
     #[error("{0}")]
     Unfit(String),
-    /// None of the evaluation's first decisions has a usable answer.
+    /// The evaluation's first decisions all lack a usable answer.
     #[error("{0}")]
     Unusable(String),
     /// The user requested a stop.
     #[error("interrupted")]
     Interrupted,
-    /// The log cannot be written.
+    /// The log of the episode cannot be written.
     #[error("{0}")]
     Log(String),
 }
 
 impl Halt {
-    /// Returns the event for the log; `None` if the log itself failed, or if nothing worth recording happened.
+    /// Returns the event to record in the log. Returns `None` if the log itself failed, or if there is
+    /// nothing to record.
     pub(crate) fn event(&self) -> Option<Event> {
         let reason = match self {
             Halt::Infrastructure(_) => "infrastructure",

@@ -1,4 +1,4 @@
-//! A language model as a player: its prompts, its answers, and their interpretation.
+//! A language model as a player, with its prompts, its answers, and their interpretation.
 
 use crate::answer::Reading;
 use crate::client::{ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model};
@@ -14,41 +14,41 @@ use engine::Action;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The complaint about an answer that was cut off.
+/// The feedback on an answer that was cut off.
 const CUT_OFF: &str = "it was cut off before it came to an action";
-/// The complaint about a refusal.
+/// The feedback on a refusal.
 const DECLINED: &str = "it declines to play";
 
-/// An agent that lets a language model play an episode.
+/// An agent that plays an episode with a language model.
 pub struct ModelPlayer {
     model: Arc<dyn Model>,
     prompter: Arc<Prompter>,
     decoding: Decoding,
-    /// The maximum number of repeated questions after an answer without a usable action.
+    /// The maximum number of times that a question is repeated after an answer without a usable action.
     reasks: u32,
     /// The seed for drawing answers.
     samples: Seed,
     past: Vec<Past>,
-    /// The numbers of the texts in the log.
+    /// The numbers of the texts that are already in the log.
     texts: BTreeMap<Text, u32>,
-    /// The number of log events whose texts are included in `texts`.
+    /// The number of log events whose texts have been added to `texts`.
     read: usize,
 }
 
-/// A source of answers.
+/// The source of the answers for a turn.
 enum Log<'a> {
-    /// The log, or else the model.
+    /// The log, followed by the model for answers that are not in the log.
     Open(&'a mut Journal),
-    /// Only the log, because the turn is over.
+    /// The log only, because the turn is over.
     Past(&'a Journal),
 }
 
 type Text = (u8, Digest, Option<Digest>);
 
 impl ModelPlayer {
-    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of repeated questions,
-    /// with a complaint, after an answer without an available action. `samples` is the seed of the episode, which
-    /// must be the same when it is resumed.
+    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of times that
+    /// the question is repeated after an answer without an available action. `samples` is the seed of the
+    /// episode, which must not change when the episode is resumed.
     pub fn new(
         model: Arc<dyn Model>,
         prompter: Arc<Prompter>,
@@ -65,7 +65,7 @@ impl ModelPlayer {
         self.model = model;
     }
 
-    /// Performs the attempts of a turn. Answers in the log are not requested again.
+    /// Performs the attempts of a turn. Answers that are in the log are not requested again.
     fn turn(&mut self, turn: &Turn<'_>, mut log: Log<'_>) -> Result<Choice, Halt> {
         let prompter = self.prompter.clone();
         let mut attempts = Vec::new();
@@ -120,7 +120,8 @@ impl ModelPlayer {
         Ok(reply)
     }
 
-    /// Performs the attempts of the last question of a series. Answers in the log are not requested again.
+    /// Performs the attempts of the last question of a series. Answers that are in the log are not requested
+    /// again.
     fn question(&mut self, last: &Turn<'_>, kinds: &[String], journal: &mut Journal) -> Result<Said, Halt> {
         let prompter = self.prompter.clone();
         let mut attempts = Vec::new();
@@ -176,7 +177,8 @@ impl ModelPlayer {
             ChatErrorKind::Infrastructure => Halt::Infrastructure(error.message),
             ChatErrorKind::Budget => Halt::Budget(error.message),
             ChatErrorKind::Rejected => match error.failures.last().and_then(|failure| failure.status) {
-                // The request is at fault, whereas a wrong key or model affects all requests.
+                // These codes mean that this request is at fault, whereas a wrong key or model affects all
+                // requests.
                 Some(400 | 413 | 422) => Halt::Unfit(error.message),
                 _ => Halt::Rejected(error.message),
             },
@@ -206,8 +208,8 @@ impl ModelPlayer {
 
 impl Agent for ModelPlayer {
     fn begin(&mut self, task: &Task<'_>) {
-        // Each level has its own log, in which texts are numbered from 0 again. The answers of later levels are drawn
-        // from new seeds.
+        // Each level has its own log, in which texts are numbered from 0. The answers of later levels are
+        // drawn from new seeds.
         if !task.is_practice() && task.series.is_some() {
             self.samples = task.chance().child("answers", 0);
         }
@@ -243,7 +245,8 @@ impl Agent for ModelPlayer {
     }
 }
 
-/// Returns the class of an answer, its actions and, if there are none, the reason as a clause about the answer.
+/// Returns the class of an answer and its actions. If there are no actions, the text is the reason, as a
+/// clause whose subject is the answer.
 fn classify(
     prompter: &Prompter,
     turn: &Turn<'_>,
@@ -255,15 +258,15 @@ fn classify(
     }
     match (prompter.read(text, turn), finish) {
         (Reading::Strict(actions), _) => (ReplyClass::Strict, Some(actions), String::new()),
-        // An action considered before the cut is not a decision.
+        // An action considered before the answer was cut off is not a decision.
         (_, Finish::Length) => (ReplyClass::Truncated, None, CUT_OFF.to_owned()),
         (Reading::Tolerant { choice, .. }, _) => (ReplyClass::Tolerant, Some(choice), String::new()),
         (Reading::Invalid { why }, _) => (ReplyClass::Invalid, None, why),
     }
 }
 
-/// Returns the class of an answer to the last question, its predictions and, if there are none, the reason as a
-/// clause about the answer.
+/// Returns the class of an answer to the last question and its predictions. If there are no predictions, the
+/// text is the reason, as a clause whose subject is the answer.
 fn classify_predictions(
     prompter: &Prompter,
     kinds: &[String],
@@ -289,7 +292,7 @@ fn validity_of(class: ReplyClass) -> Validity {
     }
 }
 
-/// Returns the answer to this attempt from the log.
+/// Returns the recorded answer to the given attempt, if the log contains it.
 fn recorded(journal: &Journal, attempt: u32) -> Option<Reply> {
     let reply = |event: &Event| match event {
         Event::Reply(reply) if reply.attempt == attempt => Some(reply.clone()),

@@ -1,4 +1,4 @@
-//! The touch-everything player as an agent.
+//! An agent that learns the rules by touching everything.
 
 use crate::log::Journal;
 use crate::player::{Agent, Choice, Halt, Said, Validity};
@@ -9,7 +9,7 @@ use agents::touch_everything::Experience;
 use base::Seed;
 use engine::{Action, Observation};
 
-/// An agent that learns by touching. It sees the observation of a turn, but nothing of the rules.
+/// An agent that learns the rules by touching everything. It sees the observation of each turn, but no rules.
 #[derive(Clone, Debug)]
 pub struct Touching {
     player: TouchEverything,
@@ -18,23 +18,23 @@ pub struct Touching {
 }
 
 impl Touching {
-    /// The name of the player.
+    /// The name of the player in results.
     pub const NAME: &'static str = "touch-everything";
 
-    /// Creates the agent for an episode from the seed of its randomness, from which the agent's own choices are also
-    /// derived.
+    /// Creates the agent for an episode. `chance` is the seed of the game's randomness, from which the
+    /// agent's own choices are also derived.
     pub fn new(chance: Seed) -> Touching {
         Touching { player: TouchEverything::new(chance.child(Touching::NAME, 0)), is_blind: false }
     }
 
-    /// Hides the score from the player, as prompts without rules do.
+    /// Hides the score from the player, as prompts without rules hide it.
     #[must_use]
     pub fn without_score(self) -> Touching {
         Touching { is_blind: true, ..self }
     }
 
-    /// Returns the prediction of a fact from experience. If the score is hidden, kinds that seem good are expected to
-    /// score.
+    /// Returns the prediction of a fact, based on experience. If the score is hidden, types that seem good
+    /// are expected to score.
     fn expects(&self, known: &Experience, fact: TouchFact) -> bool {
         match fact {
             TouchFact::Kills => known.is_deadly(),
@@ -60,7 +60,8 @@ impl Agent for Touching {
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {
-        // The same turns give the same choices and the same experience.
+        // Recalling a turn means choosing again, because the same turns give the same choices and the same
+        // experience.
         self.act(turn, &mut Journal::in_memory()).map(drop)
     }
 

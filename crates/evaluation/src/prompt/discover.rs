@@ -1,4 +1,4 @@
-//! The parts that only prompts without rules have: the end of a level, and the last question.
+//! The parts of prompts that occur only on the track without rules: the end of a level and the last question.
 
 use super::{Attempt, Past, Prompt, PromptStyle, Prompter, data};
 use crate::encoding;
@@ -17,9 +17,9 @@ impl Prompter {
         self.settings.style == PromptStyle::Discover
     }
 
-    /// Returns the conversation with the last question, which follows the last turn of the last level and asks what
-    /// touching each of these kinds does. `kinds` are the game's own names; the question uses the names of the
-    /// prompts.
+    /// Returns the conversation that ends with the last question of a series. The question follows the last
+    /// turn of the last level, and asks about the effect of touching each of the given sprite types. `kinds`
+    /// holds the game's own names, and the question uses the names shown in prompts.
     pub fn question(&self, last: &Turn<'_>, kinds: &[String], past: &[Past], attempts: &[Attempt]) -> Prompt {
         let end = LevelEnd {
             last: last.observation.clone(),
@@ -32,15 +32,16 @@ impl Prompter {
         self.conversation(shown.trim_end().to_owned(), None, past, attempts)
     }
 
-    /// Reads the answer to the last question.
+    /// Reads the answer to the last question of a series.
     ///
     /// # Errors
-    /// Returns an error if the answer is not in the required format. The message is a clause about the answer.
+    /// Returns an error if the answer is not in the required format. The message is a clause whose subject is
+    /// the answer.
     pub fn read_predictions(&self, answer: &str, kinds: &[String]) -> Result<Predicted, String> {
         predictions::read(answer, &self.asked(kinds))
     }
 
-    /// Returns the complaint about an unusable answer to the last question.
+    /// Returns the message about an unusable answer to the last question.
     pub fn question_complaint(&self, why: &str, kinds: &[String]) -> String {
         let kinds = self.listed(kinds);
         self.render("discover_complaint.j2", data(json!({ "why": why, "kinds": kinds })))
@@ -48,12 +49,12 @@ impl Prompter {
             .to_owned()
     }
 
-    /// Returns the names of kinds in prompts, sorted by their numbers.
+    /// Returns the names of sprite types that prompts show, sorted by their numbers.
     fn listed(&self, kinds: &[String]) -> Vec<String> {
         self.asked(kinds).into_keys().sorted_by_key(|name| (name.len(), name.clone())).collect()
     }
 
-    /// Returns a map from the names of kinds in prompts to their own names.
+    /// Returns a map from the names that prompts show to the game's own names.
     fn asked(&self, kinds: &[String]) -> BTreeMap<String, String> {
         let shown = |own: &String| match &self.mask {
             Some(mask) => mask.name(own).to_owned(),
@@ -62,7 +63,7 @@ impl Prompter {
         kinds.iter().map(|own| (shown(own), own.clone())).collect()
     }
 
-    /// Returns the data about the end of a level for templates.
+    /// Returns the data about the end of a level for the templates.
     pub(super) fn told_end(&self, end: &LevelEnd) -> Value {
         let LevelEnd { last, before, steps } = end;
         let masked = |seen: &Observation| match &self.mask {
@@ -85,7 +86,8 @@ impl Prompter {
         })
     }
 
-    /// Returns the lines of the legend. In prompts without rules, their order reveals nothing.
+    /// Returns the lines of the legend. In prompts without rules, the lines are sorted, so that their order
+    /// reveals nothing.
     pub(super) fn legend_lines(&self) -> Vec<String> {
         let mut lines = self.legend.lines();
         if self.mask.is_some() && (self.settings.neutral_names || self.asks_predictions()) {
@@ -95,8 +97,8 @@ impl Prompter {
     }
 }
 
-/// Returns the visible kinds of sprites that are present at the start of these levels, except avatars and floors. The
-/// last question is about these kinds. They are sorted by the game's own names.
+/// Returns the visible sprite types that are present at the start of the given levels, except avatars and
+/// floors. The last question of a series asks about these types. They are sorted by the game's own names.
 pub(crate) fn kinds_at_start<'a>(
     analysis: &Analysis,
     levels: impl Iterator<Item = &'a Level>,

@@ -1,25 +1,25 @@
-//! Past turns, and the number of them that a conversation still shows.
+//! The past turns of an episode, and how many of them a conversation still shows.
 
 use crate::answer;
 use crate::tokens;
 use engine::Action;
 
-/// The number of bytes at the end of an answer that later turns show.
+/// The maximum number of trailing bytes of an answer that later turns show.
 const MAX_ANSWER: usize = 2_000;
 
-/// The replacement for an empty answer, because providers reject empty messages.
+/// The text that replaces an empty answer, because providers reject empty messages.
 const NO_ANSWER: &str = "(no answer)";
 
 /// An answer given within a turn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Attempt {
-    /// The raw text.
+    /// The raw text of the answer.
     pub answer: String,
-    /// The complaint about the answer, if it was unusable and a new one was requested.
+    /// The message about the answer, if the answer was unusable and a new answer was requested.
     pub complaint: Option<String>,
 }
 
-/// A past turn.
+/// A past turn, in the form that later prompts show.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Past {
     pub(super) shown: String,
@@ -30,10 +30,12 @@ pub struct Past {
 }
 
 impl Past {
-    /// Creates a past turn from the text shown ([`Prompt::shown`](super::Prompt::shown)), the answers, and the action
-    /// finally played. Only the end of each answer is kept, without reasoning. A turn without an answer gets a
-    /// placeholder, and the last answer gets no complaint, because providers require the roles of a conversation to
-    /// alternate.
+    /// Creates a past turn from the text shown ([`Prompt::shown`](super::Prompt::shown)), the answers, and
+    /// the action that was played.
+    ///
+    /// Only the end of each answer is kept, without reasoning. Providers require the roles in a conversation
+    /// to alternate. Therefore, a turn without an answer gets a placeholder, and the message about the last
+    /// answer is dropped.
     pub fn new(shown: String, attempts: &[Attempt], played: Action) -> Past {
         let mut attempts = kept(attempts);
         match attempts.last_mut() {
@@ -55,7 +57,7 @@ pub(super) fn kept(attempts: &[Attempt]) -> Vec<Attempt> {
     attempts.iter().map(kept).collect()
 }
 
-/// Returns the number of tokens of a message.
+/// Returns the number of tokens in a message, including its frame.
 pub(super) fn cost(text: &str) -> u64 {
     tokens::count(text) + tokens::PER_MESSAGE
 }
@@ -75,10 +77,12 @@ fn shortened(answer: &str) -> String {
     if start == 0 { said.to_owned() } else { format!("…{}", &said[start..]) }
 }
 
-/// Returns the index of the first past turn that is still shown. `fixed` is the number of tokens in the static part,
-/// and `now` the number in the newest turn. Both are always shown. Whenever the budget would be exceeded, the oldest
-/// turns are dropped until a quarter of it is free. In between, a conversation only grows at its end, so that
-/// providers can cache its beginning. Cost: O(turns).
+/// Returns the index of the first past turn that is still shown. `fixed` is the number of tokens in the
+/// static part, and `now` is the number in the newest turn. Both parts are always shown.
+///
+/// Whenever the budget would be exceeded, the oldest turns are dropped until a quarter of the budget is free.
+/// Between two such cuts, a conversation only grows at its end, so that providers can cache its beginning.
+/// Cost: O(turns).
 pub(super) fn first_kept(past: &[Past], fixed: u64, now: u64, budget: u64) -> usize {
     let (mut start, mut kept) = (0, 0);
     let current = past.iter().map(|turn| turn.shown_tokens).chain([now]);

@@ -1,9 +1,10 @@
-//! The rules of a game under a limit of decisions, stated as one limit of ticks and the consequence of reaching it.
+//! Describes the rules of a game under a step limit, with a sentence that states the limit and the
+//! consequence of reaching it.
 
 use engine::describe::Guide;
 
-/// Returns the guide to a game whose episodes stop after `limit` ticks. Sentences about later ticks are replaced by a
-/// single one about the limit.
+/// Returns the guide to a game whose episodes stop after `limit` ticks. All sentences about later ticks are
+/// replaced by a single sentence about the limit.
 pub(crate) fn limited(mut guide: Guide, limit: u64) -> Guide {
     let sentences = guide.winning.len() + guide.losing.len();
     let is_in_time = |line: &String| last_tick(line).is_none_or(|tick| tick <= limit);
@@ -18,7 +19,7 @@ pub(crate) fn limited(mut guide: Guide, limit: u64) -> Guide {
     guide
 }
 
-/// Returns the tick at which a sentence says that the game ends.
+/// Returns the tick at which the game ends according to a sentence.
 fn last_tick(line: &str) -> Option<u64> {
     let after = ["when tick ", "until tick "].iter().find_map(|words| line.split_once(words))?.1;
     let digits = after.split(|character: char| !character.is_ascii_digit()).next()?;
@@ -30,7 +31,8 @@ mod tests {
     use super::*;
     use engine::Game;
 
-    /// Checks the ways to win and to lose under a limit, in a game that is lost at tick 81 and won at tick 91.
+    /// Checks the sentences about winning and losing under a limit, in a game that is lost at tick 81 and won
+    /// at tick 91.
     #[track_caller]
     fn check(limit: u64, expect: &[&str]) {
         let game = "BasicGame\n  SpriteSet\n    tick > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    t > tick\n  \

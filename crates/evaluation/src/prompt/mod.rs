@@ -1,8 +1,9 @@
-//! Prompts: the conversation sent to a language model at a turn.
+//! Prompts, which are the conversations sent to language models.
 //!
-//! The static part (rules, legend, actions, the format of answers) comes first and is byte-identical in all turns of
-//! all levels. The observation follows. The texts are in `templates/`, and [`Prompter::digest`] covers them and the
-//! settings. [`docs/reference/prompts.md`](../../../../docs/reference/prompts.md) shows an example, part by part.
+//! The static part comes first. It consists of the rules, the legend, the actions and the format of answers,
+//! and is byte-identical in all turns of all levels of a game. The observation follows. The texts are in
+//! `templates/`, and [`Prompter::digest`] covers the texts and the settings.
+//! [`docs/reference/prompts.md`](../../../../docs/reference/prompts.md) shows an example, part by part.
 
 mod discover;
 mod history;
@@ -38,8 +39,8 @@ use minijinja::value::{Serde, Value};
 use render::Style;
 use serde::Serialize;
 
-/// The version of the templates and of the rules in English, which is raised when any word in them changes, so that
-/// results with different prompts are easily distinguished.
+/// The version of the templates and of the English rules. It is raised whenever any of their words changes,
+/// so that results with different prompts are easy to distinguish.
 pub const VERSION: u32 = 9;
 
 const TEMPLATES: [(&str, &str); 6] = [
@@ -51,8 +52,8 @@ const TEMPLATES: [(&str, &str); 6] = [
     ("complaint.j2", include_str!("templates/complaint.j2")),
 ];
 
-/// The templates of [`PromptStyle::Discover`]. They are separate, because the digests of the other styles cover all
-/// templates of those styles.
+/// The templates of [`PromptStyle::Discover`]. They are separate, because the digests of the other styles
+/// cover all templates in the shared list.
 const DISCOVER: [(&str, &str); 4] = [
     ("discover_static.j2", include_str!("templates/discover_static.j2")),
     ("discover_turn.j2", include_str!("templates/discover_turn.j2")),
@@ -60,11 +61,11 @@ const DISCOVER: [(&str, &str); 4] = [
     ("discover_complaint.j2", include_str!("templates/discover_complaint.j2")),
 ];
 
-/// The actions in the order of the reference's numbers.
+/// The actions in the order of their numbers in the reference's prompts.
 const NUMBERED: [Action; 6] =
     [Action::Nil, Action::Use, Action::Left, Action::Right, Action::Down, Action::Up];
 
-/// A writer of the prompts of one game.
+/// Writes the prompts of one game.
 #[derive(Debug)]
 pub struct Prompter {
     settings: PromptSettings,
@@ -72,29 +73,29 @@ pub struct Prompter {
     environment: Environment<'static>,
     legend: Legend,
     mask: Option<Mask>,
-    /// All actions of all states of the avatar, in the listed order.
+    /// The actions of all states of the avatar, in the order in which prompts list them.
     actions: Vec<Action>,
-    /// `true` if the game has resources that can be held.
+    /// `true` if the game has resources that the avatar can hold.
     holding: bool,
     static_part: String,
     static_tokens: Vec<PartTokens>,
 }
 
-/// The number of tokens in a part of a prompt.
+/// The number of tokens in one part of a prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PartTokens {
-    /// The heading of the section; [`TASK`] for the text before the first heading.
+    /// The heading of the section, or [`TASK`] for the text before the first heading.
     pub part: String,
-    /// The number of tokens according to [`tokens::count`].
+    /// The number of tokens in the section, as counted by [`tokens::count`].
     pub tokens: u64,
 }
 
-/// The numbers of tokens in a prompt.
+/// The numbers of tokens in the parts of a prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PromptTokens {
-    /// The tokens in the static part, by section.
+    /// The numbers of tokens in the static part, by section.
     pub fixed: Vec<PartTokens>,
-    /// The tokens in the current turn, by section. Those of an image are estimated.
+    /// The numbers of tokens in the current turn, by section. The tokens of an image are estimated.
     pub turn: Vec<PartTokens>,
     /// The number of tokens in earlier turns, and in earlier answers of this turn.
     pub history: u64,
@@ -114,12 +115,12 @@ impl PromptTokens {
     }
 }
 
-/// A prompt for a model.
+/// A prompt for a language model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Prompt {
-    /// The conversation.
+    /// The messages of the conversation.
     pub messages: Vec<ChatMessage>,
-    /// The text of the newest turn, which [`Past::new`] needs when the turn is over.
+    /// The text of the newest turn, which must be passed to [`Past::new`] when the turn is over.
     pub shown: String,
     /// The number of oldest turns that were dropped.
     pub left_out: usize,
@@ -128,7 +129,7 @@ pub struct Prompt {
 }
 
 impl Prompter {
-    /// Prepares the prompts of a game, with a look before every action and without a limit of actions.
+    /// Prepares the prompts of a game, with one action per decision and without a step limit.
     ///
     /// # Errors
     /// Returns an error if the settings are out of range, or if the names of the game cannot be masked.
@@ -136,12 +137,12 @@ impl Prompter {
         Prompter::within(subject, settings, u64::MAX, Commitment::ONE)
     }
 
-    /// Prepares the prompts of a game whose episodes have at most `limit` actions, so that its rules mention no later
-    /// tick. The prompts ask for as many actions as the player commits to.
+    /// Prepares the prompts of a game whose episodes have at most `limit` actions. The rules in the prompts
+    /// mention no later tick. The prompts request as many actions as the player commits to.
     ///
     /// # Errors
-    /// Returns an error if the settings are out of range, if the reference's style is combined with a commitment to
-    /// several actions, or if the names of the game cannot be masked.
+    /// Returns an error if the settings are out of range, if the reference's style is combined with a
+    /// commitment to several actions, or if the names of the game cannot be masked.
     pub fn within(
         subject: &Subject,
         settings: PromptSettings,
@@ -196,17 +197,18 @@ impl Prompter {
         Ok(prompter)
     }
 
-    /// Returns the settings.
+    /// Returns the settings of the prompts.
     pub fn settings(&self) -> &PromptSettings {
         &self.settings
     }
 
-    /// Returns the table of characters.
+    /// Returns the legend, which is the table of the board's characters.
     pub fn legend(&self) -> &Legend {
         &self.legend
     }
 
-    /// Returns the actions in the listed order, which is that of their numbers in the reference's style.
+    /// Returns the actions in the order in which prompts list them. In the reference's style, the order
+    /// determines their numbers.
     pub fn actions(&self) -> &[Action] {
         &self.actions
     }
@@ -216,9 +218,9 @@ impl Prompter {
         &self.static_part
     }
 
-    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the commitment. Two runs of the same
-    /// game with the same digest have the same prompts, if [`engine::SEMANTICS`] and the limit of actions are also
-    /// the same.
+    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the commitment. Two runs of
+    /// the same game with the same digest have the same prompts if [`engine::SEMANTICS`] and the step limit
+    /// are also the same.
     pub fn digest(&self) -> Digest {
         let settings = serde_json::to_string(&self.settings).expect("plain data");
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
@@ -234,14 +236,15 @@ impl Prompter {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Returns the conversation at a turn. `past` holds all previous turns of the episode, which zero-shot mode
-    /// omits. `attempts` holds the unusable answers of this turn, each with its complaint. Images are shown only for
-    /// the newest turn. If a prompt exceeds the budget, whole turns are dropped, but never the newest one.
+    /// Returns the conversation at a turn. `past` holds all previous turns of the episode, which zero-shot
+    /// mode omits. `attempts` holds the unusable answers in this turn, with the messages about them. Images
+    /// are shown only for the newest turn. If a prompt exceeds the budget, whole turns are dropped, but never
+    /// the newest turn.
     pub fn prompt(&self, turn: &Turn<'_>, past: &[Past], attempts: &[Attempt]) -> Prompt {
         self.conversation(self.write_turn(turn, past), self.picture(turn), past, attempts)
     }
 
-    /// Returns the conversation that ends with a text from the user.
+    /// Returns a conversation that ends with the given text from the user.
     fn conversation(
         &self,
         shown: String,
@@ -260,7 +263,7 @@ impl Prompter {
         let now = history::cost(&shown) + picture_tokens.unwrap_or(0) + again;
         let left_out = history::first_kept(past, fixed, now, self.settings.history_tokens);
         let mut messages = Vec::new();
-        // The reference's zero-shot prompt is a single message.
+        // The reference's zero-shot prompt consists of a single message.
         let single = self.settings.style == PromptStyle::Reference && self.settings.mode == Mode::ZeroShot;
         if !single {
             messages.push(message(Role::System, &self.static_part));
@@ -282,8 +285,8 @@ impl Prompter {
         Prompt { messages, shown, left_out, tokens }
     }
 
-    /// Returns the complaint about an unusable answer. `why` is a clause about the answer, such as the reason in
-    /// [`Reading::Invalid`].
+    /// Returns the message about an unusable answer. `why` is a clause whose subject is the answer, such as
+    /// the reason in [`Reading::Invalid`].
     pub fn complaint(&self, why: &str) -> String {
         self.render(
             "complaint.j2",
@@ -299,8 +302,8 @@ impl Prompter {
         )
     }
 
-    /// Returns the last message of an episode, which expects no answer: the outcome, the score and the final state.
-    /// `last` has the final observation. The message is not sent to language models, because nothing follows.
+    /// Returns the last message of an episode, with the outcome, the score and the final state. `last` holds
+    /// the final observation. No answer is expected, so the message is not sent to language models.
     pub fn ending(&self, last: &Turn<'_>) -> String {
         let outcome = match last.observation.outcome {
             Outcome::Won => "won",
@@ -321,7 +324,7 @@ impl Prompter {
         format!("{}\n\n{}", end.trim_end(), self.write_turn(last, &[]))
     }
 
-    /// Reads an answer to a turn, which is one action, or as many actions as are due.
+    /// Reads an answer to a turn. The answer states one action, or a plan of the actions that are due.
     pub fn read(&self, answer: &str, turn: &Turn<'_>) -> Reading<Vec<Action>> {
         if !self.commit.is_one() {
             return answer::read_plan(answer, turn.due(), &self.actions);
@@ -333,7 +336,8 @@ impl Prompter {
         answer::read(answer, format, &self.actions, turn.actions).map(|action| vec![action])
     }
 
-    /// Returns the commitment in the form for templates: `None` for one action, otherwise a number or `all`.
+    /// Returns the commitment in the form that templates use: `None` for one action, and otherwise a number
+    /// or `all`.
     fn commit_data(&self) -> Option<String> {
         (!self.commit.is_one()).then(|| self.commit.to_string())
     }
@@ -453,7 +457,7 @@ fn message(role: Role, text: &str) -> ChatMessage {
     ChatMessage { role, text: text.to_owned(), image: None }
 }
 
-/// Appends answers and the complaints about them.
+/// Appends answers to a conversation, each followed by the message about it.
 fn push_messages(messages: &mut Vec<ChatMessage>, attempts: &[Attempt]) {
     for attempt in attempts {
         messages.push(message(Role::Assistant, &attempt.answer));

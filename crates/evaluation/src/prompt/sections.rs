@@ -1,14 +1,14 @@
-//! The sections of a prompt, separated by headings.
+//! The sections of a prompt, which begin with headings.
 
 /// The prefix of a heading line.
 const HEADING: &str = "## ";
 
-/// The name of the text before the first heading.
+/// The name of the section before the first heading.
 pub const TASK: &str = "Task";
 
-/// Returns the sections of a message, each with its heading and its lines without surrounding blank lines. The text
-/// before the first heading is [`TASK`]. If a heading occurs twice, the first one belongs to the template and later
-/// ones belong to an inserted text. Cost: O(bytes).
+/// Returns the sections of a message, each with its heading and its text without surrounding blank lines. The
+/// section before the first heading is named [`TASK`]. If a heading occurs twice, the first occurrence
+/// belongs to the template, and later occurrences belong to an inserted text. Cost: O(bytes).
 pub fn sections(message: &str) -> Vec<(&str, &str)> {
     let mut sections = Vec::new();
     let (mut heading, mut start, mut at) = (TASK, 0, 0);

@@ -1,43 +1,46 @@
-//! The content and form of prompts. Every aid is a switch, so that its effect can be measured.
+//! Settings for the content and form of prompts. Every aid can be switched on or off, so that its effect can
+//! be measured.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The settings of a prompt. The defaults give the zero-shot prompt of the suite.
+/// The settings of prompts. The defaults give the standard zero-shot prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PromptSettings {
-    /// The composition of the prompt.
+    /// The style of the prompt, which determines its parts and their order.
     pub style: PromptStyle,
-    /// The handling of earlier turns.
+    /// Whether a prompt includes earlier turns.
     pub mode: Mode,
-    /// The form of the rules.
+    /// The form in which the rules are shown.
     pub rules: Rules,
-    /// `true` if sprite types have meaningless names in rules, legend and boards.
+    /// `true` if the names of sprite types are meaningless in rules, legend and boards.
     pub masked_names: bool,
-    /// `true` if all types, including walls and the avatar, have meaningless names and characters, which are drawn
-    /// for each game.
+    /// `true` if all types, including walls and the avatar, have meaningless names and characters, which are
+    /// drawn anew for each game.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub neutral_names: bool,
-    /// `true` to show the meaning of the board's characters.
+    /// `true` to show the meanings of the board's characters.
     pub legend: bool,
-    /// `true` to show the effects of the keys for this avatar.
+    /// `true` to show the effect of each key for the avatar.
     pub action_meanings: bool,
     /// `true` to show the avatar's position, type and direction.
     pub position: bool,
-    /// `true` to show the result of the previous action; by default, it is shown only in contextual mode.
+    /// `true` to show the result of the previous action. If `None`, the result is shown only in contextual
+    /// mode.
     pub feedback: Option<bool>,
     /// The forms in which the state is shown.
     pub encodings: Encodings,
-    /// `true` if each state of the avatar has its own character on the board, and no character is marked as the
-    /// player's.
+    /// `true` if each state of the avatar has its own character on the board, and no character is marked as
+    /// the player's.
     pub identity_tracking: bool,
-    /// The number from which shuffled characters for the board are drawn; `None` to keep the original characters.
+    /// The number from which the shuffled characters of the board are drawn. `None` keeps the original
+    /// characters.
     pub shuffled_symbols: Option<u64>,
-    /// Advice that is inserted verbatim.
+    /// Advice that is inserted into the prompt verbatim.
     pub strategy: Option<String>,
-    /// The maximum number of tokens in a conversation, according to a local count. If it is exceeded, the oldest
-    /// turns are dropped.
+    /// The maximum number of tokens in a conversation, according to a local count. If the maximum is
+    /// exceeded, the oldest turns are dropped.
     pub history_tokens: u64,
 }
 
@@ -63,8 +66,8 @@ impl Default for PromptSettings {
 }
 
 impl PromptSettings {
-    /// Returns the sorted differences from the default, except for the mode: `no-legend`, `rules=vgdl`, `json`.
-    /// Advice appears only as `strategy`.
+    /// Returns the differences from the default settings, sorted, such as `no-legend`, `rules=vgdl` or
+    /// `json`. The mode is not included. Advice appears only as `strategy`.
     pub fn aids(&self) -> Vec<String> {
         self.aids_beyond(&PromptSettings::default())
     }
@@ -100,45 +103,45 @@ impl PromptSettings {
     }
 }
 
-/// The composition of a prompt.
+/// The style of a prompt, which determines its parts and their order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PromptStyle {
-    /// The composition of this suite.
+    /// The style of this suite.
     #[default]
     Standard,
-    /// The composition of the reference's pipeline (`spec/06` §1.4), reworded: the same parts in the same order,
-    /// numbered actions, and a list of every cell. The switches for legend, meanings, position, feedback and
-    /// encodings have no effect.
+    /// The style of the reference's pipeline (`spec/06` §1.4), reworded. It has the same parts in the same
+    /// order, numbered actions, and a list of every cell. The switches for legend, meanings, position,
+    /// feedback and encodings have no effect.
     Reference,
-    /// The composition of [`Track::Discover`](crate::Track::Discover): no rules, no score, visible events. It shows
-    /// the board with rulers under neutral names. The switches for legend, meanings, position, feedback and encodings
-    /// have no effect.
+    /// The style of [`Track::Discover`](crate::Track::Discover), which shows visible events but no rules and
+    /// no score. The board has rulers and neutral names. The switches for legend, meanings, position,
+    /// feedback and encodings have no effect.
     Discover,
 }
 
 base::named_enum! {
-    /// The handling of earlier turns.
+    /// Whether a prompt includes earlier turns.
     #[derive(Default)]
     pub enum Mode {
-        /// Every turn is independent, and no earlier turns are shown.
+        /// Every turn is independent. Earlier turns are not shown.
         #[default]
         ZeroShot = "zero-shot",
-        /// The conversation continues, within its token budget.
+        /// The conversation continues from turn to turn, within its token budget.
         Contextual = "contextual",
     }
 }
 
-/// The form of the rules.
+/// The form in which the rules are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rules {
-    /// English sentences from `engine::describe`.
+    /// English sentences generated by `engine::describe`.
     #[default]
     Described,
-    /// VGDL, as the canonical print of the game without comments.
+    /// VGDL source, printed in canonical form without comments.
     Vgdl,
-    /// No rules.
+    /// The rules are not shown.
     None,
 }
 
@@ -146,22 +149,22 @@ pub enum Rules {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Encodings {
-    /// One character per cell, and a list of the cells that hold several things.
+    /// The board with one character per cell, and a list of the cells that hold several sprites.
     pub grid: bool,
-    /// Spaces between the characters of a row. They cost more tokens, but make each character a separate token for
-    /// most models.
+    /// Spaces between the characters of a row. They cost more tokens, but make each character a separate
+    /// token for most models.
     pub spaced: bool,
-    /// The first thing in each direction from the avatar, and the nearest things of each type.
+    /// The first sprite in each direction from the avatar, and the nearest sprites of each type.
     pub grounding: bool,
-    /// All things with their positions, including walls.
+    /// All sprites with their positions, including walls.
     pub coordinates: bool,
     /// A second copy of the grid, rotated by a quarter turn.
     pub rotated: bool,
     /// The observation as one line of JSON.
     pub json: bool,
-    /// An image, for multimodal models.
+    /// An image of the board, for multimodal models.
     pub image: bool,
-    /// The maximum number of pixels per cell of the image, from 4 to 40. Large boards use fewer.
+    /// The maximum number of pixels per cell in the image, from 4 to 40. Large boards use fewer pixels.
     pub image_cell: u32,
 }
 

@@ -1,4 +1,4 @@
-//! The data for the templates of a turn.
+//! The data that the templates need for a turn.
 
 use super::{Encodings, PromptSettings, PromptStyle, Rules};
 use crate::direction::direction_name;
@@ -11,21 +11,21 @@ use itertools::Itertools;
 use render::EMPTY;
 use serde_json::{Value, json};
 
-/// A turn to be rendered.
+/// A turn and the data needed to render it.
 pub(super) struct View<'a> {
-    /// The data about the end of the previous level.
+    /// The data about the end of the previous level, if there is one.
     pub(super) previous: Option<Value>,
     pub(super) legend: &'a Legend,
     pub(super) settings: &'a PromptSettings,
-    /// The actions listed in the static part.
+    /// The actions that the static part lists.
     pub(super) actions: &'a [Action],
-    /// `true` if the game has resources that can be held.
+    /// `true` if the game has resources that the avatar can hold.
     pub(super) holding: bool,
     pub(super) turn: &'a Turn<'a>,
-    /// The observation under the names shown to the player.
+    /// The observation with the names that the player sees.
     pub(super) now: &'a Observation,
     pub(super) before: Option<&'a Observation>,
-    /// The last actions played, newest last.
+    /// The last actions played, oldest first.
     pub(super) recent: Vec<Action>,
 }
 
@@ -80,7 +80,7 @@ impl View<'_> {
         })
     }
 
-    /// Returns the result of the previous action.
+    /// Returns the data about the result of the previous action.
     fn feedback(&self) -> Option<Value> {
         let (before, played) = (self.before?, self.turn.before?);
         let (from, to) = (before.avatar.as_ref(), self.now.avatar.as_ref());
@@ -96,7 +96,8 @@ impl View<'_> {
         }))
     }
 
-    /// Describes the result of each action since the last look: `right (4,2)`, `use as nil (4,2), score +1`, `up: you died`.
+    /// Describes the result of each action since the last decision, as in `right (4,2)`,
+    /// `use as nil (4,2), score +1` or `up: you died`.
     fn played(&self) -> Vec<String> {
         let told = |played: &Played| {
             let nil = if played.is_unavailable { " as nil" } else { "" };
@@ -108,14 +109,14 @@ impl View<'_> {
         self.turn.played.iter().map(told).collect()
     }
 
-    /// Returns the data of the composition without rules.
+    /// Returns the template data for prompts without rules.
     fn discover(&self) -> Value {
         let (now, legend, turn) = (self.now, self.legend, self.turn);
         let offered = |action: &&Action| turn.actions.contains(action);
         let actions: Vec<String> = self.actions.iter().filter(offered).map(ToString::to_string).collect();
         let events = self.before.zip(turn.before);
         json!({
-            // The previous level is described once.
+            // The end of the previous level is described only in the first turn.
             "previous": self.previous.as_ref().filter(|_| turn.number == 0),
             "place": turn.series.map(|series| series.place),
             "actions_now": (!actions.is_empty() && actions.len() < self.actions.len()).then_some(actions),
@@ -125,7 +126,7 @@ impl View<'_> {
         })
     }
 
-    /// Returns the data of the reference's composition.
+    /// Returns the template data for prompts in the reference's style.
     fn reference(&self) -> Value {
         let (now, legend) = (self.now, self.legend);
         let grid = encoding::grid(now, legend);
@@ -167,7 +168,7 @@ fn board(rows: String, spaced: bool) -> String {
     rows.lines().map(|row| row.chars().join(" ")).join("\n")
 }
 
-/// Formats the avatar's resources: `2 keys, 1 gem`; `nothing` if there are none.
+/// Formats the avatar's resources, as in `2 keys, 1 gem`, or returns `nothing` if there are no resources.
 fn holds(seen: &Observation) -> String {
     let held = seen.resources.iter().filter(|(_, amount)| *amount != 0);
     let held = held
@@ -179,7 +180,7 @@ fn holds(seen: &Observation) -> String {
     if held.is_empty() { "nothing".to_owned() } else { held }
 }
 
-/// Formats a reward: `+2`, `-1`, `0`.
+/// Formats a reward with its sign, as in `+2`, `-1` or `0`.
 fn signed(reward: f64) -> String {
     if reward > 0.0 { format!("+{reward}") } else { reward.to_string() }
 }

@@ -1,7 +1,8 @@
-//! Reference players: players that depend on nothing but their name, so that what they win says how hard a level is.
-//!
-//! Releases keep the results of some as marks (`plays.rs`), and the scale compares months by the versioned ones of `table.rs`
+//! Reference players, which depend only on their names. Their wins show how hard a level is
 //! ([docs/explanation/difficulty.md](../../../../docs/explanation/difficulty.md)).
+//!
+//! Releases keep the results of some reference players as marks (`plays.rs`). The scale compares months by
+//! the results of the versioned players in `table.rs`.
 
 mod player;
 mod plays;

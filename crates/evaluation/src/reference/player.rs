@@ -1,4 +1,4 @@
-//! A reference player by its name.
+//! A reference player, identified by its name.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -12,14 +12,15 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
-/// A player of the suite that depends on nothing but its name: a planner, in open loop, or a player that reads prompts.
+/// A reference player, which depends only on its name. It plans in open loop, reads prompts, or learns by
+/// touching.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ReferencePlayer {
-    /// A planner.
+    /// A planner that searches with the forward model.
     Planner(PlannerSpec),
     /// A player that reads the default prompts.
     Prompted(PromptPlayer),
-    /// The player that knows no rules and touches everything.
+    /// The player that knows no rules and learns by touching everything.
     Touching,
 }
 
@@ -30,7 +31,7 @@ impl FromStr for ReferencePlayer {
         if name == Touching::NAME {
             return Ok(ReferencePlayer::Touching);
         }
-        // Like `arcade evaluate`: `random` is the planner of that name.
+        // `random` is the planner of that name, as in `arcade evaluate`.
         match name.parse() {
             Ok(planner) => Ok(ReferencePlayer::Planner(planner)),
             Err(unknown) => match name.parse() {
@@ -52,10 +53,11 @@ impl fmt::Display for ReferencePlayer {
 }
 
 impl ReferencePlayer {
-    /// Returns what writes the prompts of the player about a game, if it reads any.
+    /// Returns the writer of the prompts that the player reads about a game, or `None` if the player reads no
+    /// prompts.
     ///
     /// # Errors
-    /// A prompt cannot be written.
+    /// Returns an error if a prompt cannot be written.
     pub(crate) fn prompter(
         &self,
         subject: &Subject,
@@ -70,7 +72,8 @@ impl ReferencePlayer {
         }
     }
 
-    /// Returns the player of one episode, whose chance is `chance`. One that reads prompts needs the prompter of its game.
+    /// Returns the player for one episode. `chance` is the seed of the player's randomness. A player that
+    /// reads prompts requires the prompter of its game.
     pub(crate) fn contestant(&self, prompter: Option<&Arc<Prompter>>, chance: Seed) -> Contestant {
         match (self, prompter) {
             (ReferencePlayer::Prompted(player), Some(prompter)) => {

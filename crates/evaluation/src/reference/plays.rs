@@ -1,4 +1,5 @@
-//! Plays of reference players in memory: the marks that a release keeps to compare others with.
+//! Plays episodes of reference players in memory. Their results are the marks of a release, with which other
+//! results are compared.
 
 use super::ReferencePlayer;
 use crate::commitment::Commitment;
@@ -11,10 +12,10 @@ use engine::Outcome;
 use itertools::iproduct;
 use rayon::prelude::*;
 
-/// The parameters of a reference player's episodes.
+/// The parameters for the episodes of a reference player.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferencePlays {
-    /// The seed of the evaluation whose episodes are played.
+    /// The seed of the evaluation to which the episodes belong.
     pub seed: Seed,
     /// The number of episodes per commitment.
     pub runs: u64,
@@ -22,16 +23,17 @@ pub struct ReferencePlays {
     pub max_steps: u64,
 }
 
-/// The text from which `arcade evaluate` derives the randomness of games by default. The results of reference players
-/// are those of such an evaluation.
+/// The text from which `arcade evaluate` derives the randomness of games by default. The results of reference
+/// players equal those of such an evaluation.
 pub const SEED: &str = "evaluate";
 
 impl ReferencePlays {
-    /// Plays the levels of a game, given as texts, with players and commitments, given by name. Returns the number of
-    /// episodes won for each level, player and commitment.
+    /// Plays the levels of a game with each player and commitment. The levels are given as texts, and the
+    /// players and commitments by their names. Returns the number of episodes won for each level, player and
+    /// commitment.
     ///
     /// # Errors
-    /// Returns an error if the game does not load, if there is no player or commitment with a name, or if a player
+    /// Returns an error if the game does not load, if a player or commitment does not exist, or if a player
     /// cannot play the game.
     pub fn of_game<'a>(
         &self,
@@ -54,9 +56,11 @@ impl ReferencePlays {
         Ok(wins.chunks(players.len()).map(<[_]>::to_vec).collect())
     }
 
-    /// Returns the number of episodes won with each commitment. They match an evaluation of the player with the same
-    /// seed, runs and step limit. On deterministic levels, a planner plans the same actions that it would choose at
-    /// each look, so its episodes with one commitment stand for all commitments.
+    /// Returns the number of episodes won with each commitment.
+    ///
+    /// The numbers match an evaluation of the player with the same seed, runs and step limit. On
+    /// deterministic levels, a planner plans the same actions that it would choose at each decision. There,
+    /// its episodes with one commitment also count for all other commitments.
     ///
     /// # Errors
     /// Returns an error if the player cannot play the game.

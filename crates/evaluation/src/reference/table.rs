@@ -1,5 +1,6 @@
-//! The reference players of the scale, by name and version: their plays put releases on one scale. A change of one is a new player
-//! ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)).
+//! The reference players of the scale, each with a name and a version
+//! ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)). Their episodes put releases on
+//! one scale. A changed player gets a new version, and counts as a new player.
 
 use super::ReferencePlayer;
 use crate::player::Contestant;
@@ -11,16 +12,16 @@ use serde_json::json;
 use statistics::scale::Dimension;
 use std::collections::BTreeMap;
 
-/// A player with a fixed name, budget and version.
+/// A reference player with a fixed name, budget and version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScalePlayer {
-    /// Its name, with a version: `mcts-1`.
+    /// The name of the examinee, including its version, such as `mcts-1`.
     pub name: &'static str,
-    /// The family of the examinee. Players of one family find the same games hard.
+    /// The family of the examinee. Players of the same family find the same games hard.
     pub family: &'static str,
-    /// The player with its budget in forward-model calls per decision: `mcts:200`.
+    /// The player with its budget in forward-model calls per decision, such as `mcts:200`.
     pub player: &'static str,
-    /// The examinee's dimension.
+    /// The dimension of the examinee's ability.
     pub dimension: Dimension,
 }
 
@@ -28,7 +29,7 @@ const fn planner(name: &'static str, family: &'static str, player: &'static str)
     ScalePlayer { name, family, player, dimension: Dimension::Planner }
 }
 
-/// All of them, in the order in which they play.
+/// All examinees of the scale, in the order in which they play.
 pub const SCALE_PLAYERS: [ScalePlayer; 10] = [
     planner("random-1", "random", "random"),
     planner("greedy-1", "greedy", "one-step-score"),
@@ -42,26 +43,26 @@ pub const SCALE_PLAYERS: [ScalePlayer; 10] = [
     ScalePlayer { name: "reflex-3", family: "reflex", player: "reflex", dimension: Dimension::Reader },
 ];
 
-/// Returns the player of a name.
+/// Returns the examinee with the given name.
 pub fn scale_player_named(name: &str) -> Option<&'static ScalePlayer> {
     SCALE_PLAYERS.iter().find(|player| player.name == name)
 }
 
-/// A function that makes the player for an episode of a game.
+/// A function that creates the player for an episode, given the ID of a game.
 type PlayerOf = Box<dyn Fn(&str) -> Contestant + Sync>;
 
 impl ScalePlayer {
-    /// Returns the player as results name it.
+    /// Returns the examinee as an entrant in an evaluation's results.
     pub fn entrant(&self) -> Entrant {
         let mut details = json!({ "examinee": self.name, "family": self.family, "player": self.player });
-        // As for other planners, which this field distinguishes from readers.
+        // This field distinguishes planners from readers, as it does for planners that are not on the scale.
         if self.dimension == Dimension::Planner {
             details["planner"] = json!(self.player);
         }
         Entrant { name: self.name.to_owned(), mode: None, aids: Vec::new(), details }
     }
 
-    /// Returns a function that makes the examinee's players, given the ID of a game.
+    /// Returns a function that creates the examinee's players, given the ID of a game.
     ///
     /// # Errors
     /// Returns an error if a prompt cannot be written for one of the games.

@@ -1,4 +1,4 @@
-//! The duration of decisions, which is recorded beside the results but is never part of them.
+//! Measures the duration of decisions. Durations are recorded with the results, but do not affect them.
 
 use std::time::{Duration, Instant};
 
@@ -15,7 +15,7 @@ impl Stopwatch {
         self.0.elapsed()
     }
 
-    /// Returns the time since the start in milliseconds, to the microsecond.
+    /// Returns the time since the start in milliseconds, with a resolution of one microsecond.
     pub(crate) fn milliseconds(&self) -> f64 {
         self.0.elapsed().as_micros() as f64 / 1000.0
     }

@@ -1,4 +1,4 @@
-//! Playing one episode, from its first tick or from an interruption to its end.
+//! Plays one episode to its end, from its first tick or from an interruption.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -17,38 +17,41 @@ use engine::{Action, Game, Observation, Outcome, SEMANTICS, State};
 /// An episode to play.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
-    /// The game.
+    /// The game of the episode.
     pub subject: &'a Subject,
-    /// The level.
+    /// The level to play.
     pub level: &'a SubjectLevel,
-    /// The index of the episode among those on this level.
+    /// The index of the episode among the episodes on this level.
     pub run: u64,
     /// The seed of the whole evaluation.
     pub seed: Seed,
-    /// The maximum number of actions.
+    /// The maximum number of actions in the episode.
     pub max_steps: u64,
-    /// The number of actions that the player commits to at each look.
+    /// The number of actions that the player commits to at each decision.
     pub commit: Commitment,
-    /// The track with its version, if the evaluation is on one.
+    /// The track with its version, if the evaluation has a track.
     pub track: Option<&'a str>,
-    /// The level's position in a series; `None` if the level is played alone.
+    /// The level's position in a series, or `None` if the level is played alone.
     pub series: Option<SeriesPlace>,
 }
 
 impl Task<'_> {
-    /// Returns `true` if the level is played to learn the rules, in which case it counts in no result.
+    /// Returns `true` if the level is played to learn the rules of a series. Such an episode counts in no
+    /// result.
     pub fn is_practice(&self) -> bool {
         self.series.is_some_and(SeriesPlace::is_practice)
     }
 
-    /// Returns the seed of the game's randomness. It depends only on the initial state and the run, so it is the same
-    /// for every player, and for a game under different names, whose states are the same.
+    /// Returns the seed of the game's randomness.
+    ///
+    /// The seed depends only on the initial state and the run. Therefore, it is the same for every player. It
+    /// is also the same for a renamed game, because the states are the same.
     pub fn chance(&self) -> Seed {
         let start = self.subject.first_state(self.level);
         self.seed.child(&start.to_string(), 0).child("run", self.run)
     }
 
-    /// Returns the seed of results that are older than shared randomness. It also depends on the names.
+    /// Returns the seed of results from versions whose seeds also depended on the names in the game.
     fn chance_by_name(&self) -> Seed {
         let game = self.seed.child(&self.subject.game.digest().to_string(), 0);
         game.child(&self.level.level.digest().to_string(), 0).child("run", self.run)
@@ -59,16 +62,18 @@ impl Task<'_> {
         self.max_steps.min(self.subject.game.time_limit())
     }
 
-    /// Returns the maximum number of decisions. Each of them covers as many actions as the player commits to.
+    /// Returns the maximum number of decisions. Each decision covers as many actions as the player commits
+    /// to.
     pub fn most_decisions(&self) -> u64 {
         let steps = self.most_steps();
         steps.div_ceil(self.commit.due(steps).max(1))
     }
 
-    /// Compares the first line of a log with the task. A replay compares the rest of the log with the game.
+    /// Compares the first line of a log with the task. The rest of the log is compared with the game when it
+    /// is replayed.
     ///
     /// # Errors
-    /// Returns the first difference as a sentence.
+    /// Returns a sentence about the first difference.
     pub fn compare_start(&self, start: &Event) -> Result<(), String> {
         let Event::Start { game, level, run, seed, max_steps, commit, track, series, .. } = start else {
             return Ok(());
@@ -102,17 +107,18 @@ impl Task<'_> {
     }
 }
 
-/// The final status of an episode in a run.
+/// The result of playing an episode in this run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlayResult {
-    /// The episode has ended.
+    /// The episode ended with this outcome.
     Ended(Outcome),
-    /// The episode was aborted.
+    /// The episode was aborted for this reason.
     Halted(Halt),
 }
 
-/// Plays an episode to its end, or resumes it at the end of its log. Every step in the log is replayed and its state
-/// hash compared. A planner's interrupted episode is restarted, which costs only time.
+/// Plays an episode to its end. If the log already has events, the episode is resumed at the end of the log.
+/// Every step in the log is replayed, and its state hash is compared. A planner's interrupted episode is
+/// restarted, which costs only time.
 ///
 /// # Errors
 /// Returns an error if the log belongs to a different episode, or cannot be written.
@@ -136,8 +142,8 @@ pub(crate) struct Context<'a> {
     pub(crate) watch: &'a dyn Fn(Validity) -> Option<Halt>,
 }
 
-/// Plays an episode like [`play`], and returns its end if it has one. An episode that has already ended is shown to
-/// the agent once more.
+/// Plays an episode like [`play`]. Also returns the end of the level, if the episode ended. An episode that
+/// has already ended is shown to the agent once more.
 pub(crate) fn play_watched(
     task: &Task<'_>,
     contestant: &mut Contestant,
@@ -179,7 +185,7 @@ pub(crate) fn play_watched(
     Ok((PlayResult::Ended(outcome), Some(LevelEnd { last: play.seen, before, steps: play.steps })))
 }
 
-/// Records the reason why an episode is aborted.
+/// Records the reason why an episode was aborted.
 fn halted(halt: Halt, journal: &mut Journal) -> Result<(PlayResult, Option<LevelEnd>), EvaluationError> {
     if let Some(event) = halt.event() {
         journal.push(event)?;
@@ -196,7 +202,7 @@ struct Playing<'a> {
     steps: u64,
     seen: Observation,
     recent: Recent,
-    /// The end of the previous level.
+    /// The end of the previous level in the series, if there is one.
     previous: Option<&'a LevelEnd>,
 }
 
@@ -234,7 +240,7 @@ impl<'a> Playing<'a> {
         self.task.commit.due(self.task.max_steps - self.steps)
     }
 
-    /// Returns the first line of the log.
+    /// Returns the event for the first line of the log.
     fn start_event(&self) -> Event {
         let Task { subject, level, run, max_steps, commit, track, series, .. } = *self.task;
         let (game, game_digest) = (subject.id.clone(), subject.game.digest());
@@ -256,8 +262,8 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Replays the decisions in the log, and shows them to the agent. If the last decision was interrupted, its
-    /// remaining actions are played now.
+    /// Replays the decisions in the log, and shows them to the agent. If the last decision was interrupted,
+    /// plays its remaining actions.
     fn replay_log(&mut self, journal: &mut Journal) -> Result<Option<Halt>, EvaluationError> {
         journal.set_step(1, None);
         let mut from = 1;
@@ -276,7 +282,7 @@ impl<'a> Playing<'a> {
         Ok(None)
     }
 
-    /// Makes the contestant decide, plays the actions and records them.
+    /// Asks the contestant for a decision, plays its actions and records them.
     fn decide(&mut self, journal: &mut Journal) -> Result<Result<Validity, Halt>, EvaluationError> {
         let (game, started) = (self.game(), Stopwatch::start());
         let recent = std::mem::take(&mut self.recent);
@@ -307,8 +313,8 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Plays the actions of a decision and records them from the event at `at` on. Existing events must match.
-    /// Returns the index of the event after the decision.
+    /// Plays the actions of a decision, and records them from the event at index `at` on. Existing events
+    /// must match. Returns the index of the event after the decision.
     fn carry_out(
         &mut self,
         choice: &Choice,
@@ -327,7 +333,7 @@ impl<'a> Playing<'a> {
             if self.is_over() {
                 break;
             }
-            // The first action stands for the whole decision.
+            // The costs of the whole decision are recorded with its first action.
             let (calls, took_ms) = if tick == 0 { (calls, took_ms) } else { (None, 0.0) };
             let (calls, took_ms) = match journal.events().get(at) {
                 Some(Event::Step { calls, took_ms, .. }) => (*calls, *took_ms),
@@ -339,7 +345,7 @@ impl<'a> Playing<'a> {
         Ok(at)
     }
 
-    /// Appends an event to the log, or compares it with the one at `at`.
+    /// Appends an event to the log, or compares it with the existing event at index `at`.
     fn record(&self, event: Event, journal: &mut Journal, at: &mut usize) -> Result<(), EvaluationError> {
         match journal.events().get(*at) {
             None => journal.push(event)?,
@@ -355,7 +361,7 @@ impl<'a> Playing<'a> {
         Ok(())
     }
 
-    /// Shows the agent the final state.
+    /// Shows the final state to the agent.
     fn finish(&mut self) {
         if let Contestant::Agent(agent) = &mut *self.contestant {
             agent.end(&Turn::of(self.task, self.steps, &self.seen, &self.recent, &[], self.previous));
@@ -384,7 +390,8 @@ impl<'a> Playing<'a> {
         Ok(Ok(()))
     }
 
-    /// Plays an action, or nothing if it is unavailable, and returns the event that records the step.
+    /// Plays an action and returns the event that records the step. An unavailable action is replaced by
+    /// doing nothing.
     fn step(&mut self, asked: Action, validity: Validity, calls: Option<u64>, took_ms: f64) -> Event {
         let (game, score) = (self.game(), self.state.score());
         let action = available(game, &self.state, asked);
@@ -410,8 +417,8 @@ impl<'a> Playing<'a> {
     }
 }
 
-/// Returns the kinds that the last question of a series is about, which are those at the start of the selected levels
-/// of the game.
+/// Returns the sprite types that the last question of a series asks about. They are the types present at the
+/// start of the selected levels of the game.
 fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     let subject = task.subject;
     let at = subject.levels.iter().position(|level| level.number == task.level.number).unwrap_or_default();
@@ -420,7 +427,8 @@ fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     kinds_at_start(&subject.analysis, levels)
 }
 
-/// Grades an answer to the last question. Without a usable answer, nothing is correct, and the insight is 0.
+/// Grades an answer to the last question of a series. Without a usable answer, no prediction is correct, and
+/// the insight is 0.
 pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: Option<&Predicted>) -> Grade {
     match predicted {
         Some(predicted) => grade(analysis, kinds, predicted),
@@ -431,13 +439,13 @@ pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: O
     }
 }
 
-/// Returns the action that is played if a player chooses `asked`, which is [`Action::Nil`] if that action is
-/// unavailable.
+/// Returns the action that is played if a player chooses `asked`. The result is [`Action::Nil`] if that
+/// action is unavailable.
 pub(crate) fn available(game: &Game, state: &State, asked: Action) -> Action {
     if game.actions(state).contains(&asked) { asked } else { Action::Nil }
 }
 
-/// Returns the first decision at or after `from`.
+/// Returns the first decision at or after index `from`, together with its index.
 fn decision_after(events: &[Event], from: usize, commit: Commitment) -> Option<(usize, Choice)> {
     events.iter().enumerate().skip(from).find_map(|(at, event)| match event {
         Event::Step { action, validity: Validity::Valid, .. } if commit.is_one() => {

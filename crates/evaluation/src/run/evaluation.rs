@@ -1,4 +1,4 @@
-//! The episodes of an evaluation, which are played in parallel, each with its own log.
+//! Plays the episodes of an evaluation in parallel, each with its own log.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, NEXT_STEP, decisions};
@@ -23,76 +23,78 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// The lock file, which is held by the program that writes to a results folder.
+/// The name of the lock file, which is locked by the program that writes to a results folder.
 const LOCK_FILE: &str = ".lock";
 
-/// The number of consecutive episodes aborted by environment failures after which the remaining episodes are left
-/// open.
+/// The number of consecutive episodes aborted by environment failures that stops an evaluation. The remaining
+/// episodes are left open.
 const FAILURES_IN_A_ROW: u64 = 8;
 
-/// A results folder: `evaluation.json`, `games/` with the texts that were played, and `episodes/` with one log per
-/// episode. It holds everything needed to compute every metric and to replay every episode.
+/// A results folder, which holds everything needed to compute all metrics and to replay every episode. It
+/// contains `evaluation.json`, the texts of the games in `games/`, and one log per episode in `episodes/`.
 #[derive(Debug)]
 pub struct Evaluation {
     folder: PathBuf,
     /// The settings of the evaluation.
     pub settings: Settings,
-    /// The games played, in the order of the settings.
+    /// The games of the evaluation, in the order of the settings.
     pub subjects: Vec<Subject>,
     _lock: Option<Lock>,
 }
 
-/// A progress display.
+/// The display of an evaluation's progress.
 pub trait Progress: Sync {
     /// Called when an episode has ended or was aborted.
     fn episode(&self, task: &Task<'_>, result: &PlayResult);
 
-    /// Called once when more than a fifth of the decisions so far, and at least 20, have no usable answer. `is_all`
-    /// is `true` if none of the first 20 decisions has one. Returns `false` to stop the evaluation.
+    /// Called once, when more than a fifth of the decisions so far, and at least 20, lack a usable answer.
+    /// `is_all` is `true` if all of the first 20 decisions lack a usable answer. Returns `false` to stop the
+    /// evaluation.
     fn unusable(&self, _answers: &Answers, _is_all: bool) -> bool {
         true
     }
 
-    /// Called when the evaluation stops and leaves the running episodes open, so that players that are waiting for
-    /// somebody can give up. May be called several times.
+    /// Called when the evaluation stops and leaves the running episodes open. Players that are waiting for
+    /// somebody can then stop waiting. May be called several times.
     fn stopped(&self, _halt: &Halt) {}
 }
 
-/// The numbers of an evaluation's episodes by their final status.
+/// The numbers of episodes in an evaluation, by their final status.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     /// The total number of episodes.
     pub episodes: u64,
     /// The number of episodes that ended.
     pub ended: u64,
-    /// The number of ended episodes that were won, except for practice.
+    /// The number of ended episodes that were won, excluding practice episodes.
     pub won: u64,
-    /// The episodes that the engine stopped, by game and reason.
+    /// The numbers of episodes that the engine stopped, by game and reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub stopped: Vec<StoppedEpisodes>,
-    /// The games that the player could not be asked about.
+    /// The games about which the player could not be asked.
     #[serde(skip_serializing_if = "BTreeSet::is_empty")]
     pub unfit: BTreeSet<String>,
     /// The total number of practice episodes, which count in no result.
     #[serde(skip_serializing_if = "is_zero")]
     pub practice: u64,
-    /// The number of decisions in all episodes, and of those without a usable answer, in which nothing was done.
+    /// The numbers of decisions in all episodes, in total and without a usable answer.
     #[serde(flatten)]
     pub answers: Answers,
-    /// The number of episodes that were aborted, or not started because others were aborted.
+    /// The number of episodes that were aborted, or were not started because other episodes were aborted.
     pub open: u64,
-    /// The reason why the first aborted episode was aborted.
+    /// The reason for the first abort of an episode, if there was one.
     pub halted: Option<String>,
-    /// `true` if the cause is the network, the server, the disk or a player's process, rather than a cap or the user.
+    /// `true` if the abort was caused by the network, the server, the disk or a player's process, rather than
+    /// by a cap or the user.
     pub infrastructure: bool,
 }
 
-/// Episodes of a game that the engine stopped for one reason.
+/// The episodes of a game that the engine stopped for the same reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct StoppedEpisodes {
     /// The ID of the game.
     pub game: String,
-    /// The reason.
+    /// The reason why the engine stopped the episodes.
     pub reason: String,
     /// The number of episodes.
     pub episodes: u64,
@@ -103,7 +105,8 @@ fn is_zero(number: &u64) -> bool {
 }
 
 impl Evaluation {
-    /// Returns `true` if the folder holds something to resume, which is an evaluation, or its interrupted creation.
+    /// Returns `true` if the folder can be resumed. It contains an evaluation, or the interrupted creation of
+    /// one.
     pub fn is_begun(folder: &Path) -> bool {
         [SETTINGS_FILE, LOCK_FILE].iter().any(|name| folder.join(name).exists())
     }
@@ -150,11 +153,11 @@ impl Evaluation {
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: Some(lock) })
     }
 
-    /// Opens the evaluation in a results folder for resuming it.
+    /// Opens the evaluation in a results folder in order to resume it.
     ///
     /// # Errors
-    /// Returns an error if a different program is writing to it, its settings differ from `settings`, or it is
-    /// damaged.
+    /// Returns an error if a different program is writing to the folder, if the recorded settings differ from
+    /// `settings`, or if the evaluation is damaged.
     pub fn resume(folder: &Path, settings: &Settings) -> Result<Evaluation, EvaluationError> {
         let lock = lock(folder)?;
         let mut evaluation = Evaluation::open(folder)?;
@@ -206,8 +209,8 @@ impl Evaluation {
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: None })
     }
 
-    /// Deletes the results folder if it holds no decision and no answer, so that a different player can use it.
-    /// Returns `true` if it was deleted.
+    /// Deletes the results folder if it contains no decision and no answer, so that a different player can
+    /// use it. Returns `true` if the folder was deleted.
     ///
     /// # Errors
     /// Returns an error if a log cannot be read, or if the folder cannot be deleted.
@@ -228,17 +231,17 @@ impl Evaluation {
         Ok(true)
     }
 
-    /// Returns the entries for these subjects in the settings.
+    /// Returns the settings entries for the given games.
     pub fn entries(subjects: &[Subject]) -> Vec<SubjectEntry> {
         subjects.iter().map(SubjectEntry::of).collect()
     }
 
-    /// Returns all episodes in the order of [`tasks`].
+    /// Returns all episodes of the evaluation, in the order of [`tasks`].
     pub fn tasks(&self) -> Vec<Task<'_>> {
         tasks(&self.settings, &self.subjects)
     }
 
-    /// Returns the events of an episode so far; empty if the episode has not been started.
+    /// Returns the events of an episode so far, or an empty list if the episode was not started.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read, or is not a log.
@@ -247,8 +250,8 @@ impl Evaluation {
         if is_there(&path)? { crate::log::read(&path) } else { Ok(Vec::new()) }
     }
 
-    /// Checks that there are no logs of other episodes. If the settings had fewer runs or games than were played,
-    /// results would be ignored.
+    /// Checks that the folder contains no logs of other episodes. If the settings had fewer runs or games
+    /// than were played, results would be ignored.
     ///
     /// # Errors
     /// Returns an error if there is a log of a different episode, or if the folder cannot be listed.
@@ -269,11 +272,11 @@ impl Evaluation {
         })
     }
 
-    /// Applies `read` to the log of an episode, after checking that the log belongs to this episode.
+    /// Checks that a log belongs to the given episode, and then calls `read`.
     ///
     /// # Errors
-    /// Returns an error if the log belongs to a different episode, or if `read` fails. The message states the file,
-    /// the line and the next step.
+    /// Returns an error if the log belongs to a different episode, or if `read` fails. The message states the
+    /// file, the line and the next step.
     pub(crate) fn checked<T>(
         &self,
         task: &Task<'_>,
@@ -288,8 +291,8 @@ impl Evaluation {
         Ok(found)
     }
 
-    /// Replays the ended episodes from their logs, so that no episode is counted as played that a report would
-    /// reject.
+    /// Replays the ended episodes from their logs. An episode that a report would reject must not count as
+    /// played.
     fn check_ended(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         self.check_logs(tasks)?;
         tasks.par_iter().try_for_each(|task| {
@@ -305,11 +308,11 @@ impl Evaluation {
         self.folder.join("episodes").join(task.file_name())
     }
 
-    /// Plays the open episodes on the threads of the current rayon pool. `contestant` creates the player of an
-    /// episode.
+    /// Plays the open episodes on the threads of the current rayon pool. `contestant` creates the player for
+    /// an episode.
     ///
     /// # Errors
-    /// See [`Evaluation::run_chosen`].
+    /// Returns an error in the same cases as [`Evaluation::run_chosen`].
     pub fn run(
         &self,
         contestant: impl Fn(&Task<'_>) -> Result<Contestant, Halt> + Sync,
@@ -319,15 +322,18 @@ impl Evaluation {
         self.run_chosen(contestant, progress, |_| all.take().unwrap_or_default())
     }
 
-    /// Plays episodes like [`Evaluation::run`], but in batches. `choose` receives the episodes that have ended since
-    /// its last call, each with `true` if it was won, and returns the indices of the next episodes in
-    /// [`Evaluation::tasks`], or an empty list to finish. Episodes that ended before keep their results.
+    /// Plays episodes like [`Evaluation::run`], but in batches.
     ///
-    /// The remaining episodes are left open after a cap, a request that the server rejects, or `FAILURES_IN_A_ROW`
-    /// consecutive episodes aborted by environment failures.
+    /// `choose` receives the episodes that have ended since its last call, each with `true` if it was won. It
+    /// returns the indices of the next episodes in [`Evaluation::tasks`], or an empty list to finish.
+    /// Episodes that ended in an earlier run keep their results.
+    ///
+    /// The remaining episodes are left open after a cap is reached, a request is rejected by the server, or
+    /// `FAILURES_IN_A_ROW` consecutive episodes are aborted by environment failures.
     ///
     /// # Errors
-    /// Returns an error if a log cannot be read or written, or if the log of an ended episode contradicts the game.
+    /// Returns an error if a log cannot be read or written, or if the log of an ended episode contradicts the
+    /// game.
     pub fn run_chosen(
         &self,
         contestant: impl Fn(&Task<'_>) -> Result<Contestant, Halt> + Sync,
@@ -341,8 +347,8 @@ impl Evaluation {
         let is_unfit = |task: &Task<'_>| unfit.lock().expect("no holder panics").contains(&task.subject.id);
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
-        // Episodes are taken in order rather than in halves, so that every level has been played about equally often
-        // when a run is aborted.
+        // Episodes are taken in order rather than by splitting the list. If a run is aborted, every level has
+        // then been played about equally often.
         let is_stopped = || stopped.load(Ordering::Relaxed) || watch.halt().is_some();
         let watched = |validity| {
             let halt = watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
@@ -433,8 +439,8 @@ impl Evaluation {
     }
 }
 
-/// Returns all episodes of an evaluation, run by run, so that every level has been played about equally often if it
-/// is aborted.
+/// Returns all episodes of an evaluation, sorted by run. If the evaluation is aborted, every level has been
+/// played about equally often.
 pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> {
     let (seed, max_steps) = (Seed::from_text(&settings.seed), settings.max_steps);
     let on = |run: u64| {
@@ -456,8 +462,8 @@ pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a
     (0..settings.runs).flat_map(on).collect()
 }
 
-/// Locks the folder against other writers. The operating system releases the lock when the program ends for any
-/// reason.
+/// Locks the folder against other writers. The operating system releases the lock when the program ends for
+/// any reason.
 fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     let path = folder.join(LOCK_FILE);
     Lock::take(&path).map_err(EvaluationError::io("lock", &path))?.ok_or_else(|| {
@@ -474,7 +480,7 @@ fn names_in(folder: &Path) -> Result<Vec<OsString>, EvaluationError> {
     entries.map_err(EvaluationError::io("list", folder))
 }
 
-/// Returns `true` if a folder is empty or holds only an interrupted creation without settings.
+/// Returns `true` if a folder is empty, or contains only an interrupted creation without settings.
 fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     let begun = [LOCK_FILE, "games", "episodes"];
     let episodes = folder.join("episodes");
@@ -484,8 +490,8 @@ fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     Ok(is_ours && (!is_there(&episodes)? || names_in(&episodes)?.is_empty()))
 }
 
-/// Returns the first field in which two evaluations differ. The server of a model is ignored, because it does not
-/// affect the model's answers.
+/// Returns the name of the first field in which two evaluations differ. The server of a model is ignored,
+/// because it does not affect the model's answers.
 fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
     let fields = |settings: &Settings| {
         let mut fields = serde_json::to_value(settings).expect("settings are plain data");
@@ -513,7 +519,8 @@ fn is_absent(error: &std::io::Error) -> bool {
     matches!(error.kind(), std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory)
 }
 
-/// Returns `true` if an ID from a results folder cannot lead outside it.
+/// Returns `true` if an ID from a results folder is safe as a file name, so that it cannot lead outside the
+/// folder.
 fn is_file_name(id: &str) -> bool {
     !id.is_empty()
         && !id.starts_with('.')

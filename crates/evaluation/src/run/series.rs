@@ -1,11 +1,12 @@
-//! Levels of a game that one player plays one after the other, while remembering the earlier ones.
+//! Series of levels. One player plays the levels of a game one after the other, and remembers the earlier
+//! levels.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal};
 use crate::player::{Contestant, Halt, Validity};
 use crate::run::episode::{Context, PlayResult, Task, play_watched};
 
-/// The episodes of a series in order; a single episode if levels are played alone.
+/// A series of episodes in order. A level that is played alone is a series of one episode.
 pub(crate) struct Series<'a> {
     pub(crate) tasks: &'a [Task<'a>],
     /// A function that receives the validity of each new decision, and can abort the episode.
@@ -20,9 +21,9 @@ pub(crate) fn series_of<'a>(tasks: &'a [Task<'a>]) -> Vec<&'a [Task<'a>]> {
     tasks.chunk_by(is_next).collect()
 }
 
-/// Plays the episodes of a series with one player, and returns the results of the episodes that were begun, each with
-/// `true` if it is for practice. Ended episodes are replayed only if a later one is open, so that the player
-/// remembers them.
+/// Plays the episodes of a series with one player. Returns the results of the episodes that were begun, each
+/// with `true` if it is practice. Ended episodes are replayed only if a later episode is open, so that the
+/// player remembers them.
 pub(crate) fn play_series(
     series: &Series<'_>,
     contestant: &impl Fn(&Task<'_>) -> Result<Contestant, Halt>,
@@ -62,9 +63,9 @@ pub(crate) fn play_series(
     Ok(results)
 }
 
-/// Plays the episodes of one series, or a single episode, with one player, like an evaluation. `open` returns the log
-/// of an episode, and `played` receives each episode with its log. Returns the results of the episodes that were
-/// begun.
+/// Plays the episodes of one series, or a single episode, with one player, as in an evaluation. `open`
+/// returns the log of an episode, and `played` receives each episode with its log. Returns the results of the
+/// episodes that were begun.
 ///
 /// # Errors
 /// Returns an error if a log belongs to a different episode, or cannot be written.

@@ -11,32 +11,32 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// The version of the results folder's format.
+/// The version of the format of results folders.
 pub const FORMAT: u32 = 1;
-/// The settings file in a results folder.
+/// The name of the settings file in a results folder.
 pub const SETTINGS_FILE: &str = "evaluation.json";
 
 /// The maximum number of episodes in an evaluation, over all levels.
 pub const MAX_EPISODES: u64 = 1_000_000;
-/// The maximum number of actions per episode that can be requested. No game takes that many ticks.
+/// The maximum number of actions per episode that can be requested. No game lasts that many ticks.
 pub const MAX_DECISIONS: u64 = 1_000_000;
 /// The maximum size of [`SETTINGS_FILE`], in bytes.
 pub(crate) const MAX_SETTINGS: usize = 1 << 26;
 
-/// The settings of an evaluation, which are all the inputs that determine its results, and nothing else. Resuming
-/// compares them.
+/// The settings of an evaluation, which consist of exactly the inputs that determine its results. A resumed
+/// evaluation must have the same settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
-    /// The version of the format: [`FORMAT`].
+    /// The version of the format ([`FORMAT`]).
     pub format: u32,
-    /// The version of the engine's semantics: [`engine::SEMANTICS`].
+    /// The version of the engine's semantics ([`engine::SEMANTICS`]).
     pub semantics: u32,
-    /// The version of the suite.
+    /// The version of the suite that created the folder.
     pub suite: String,
-    /// The root digest of the snapshot that the games come from, if they come from one.
+    /// The root digest of the snapshot that contains the games, if they come from a snapshot.
     pub snapshot: Option<Digest>,
-    /// The player.
+    /// The player of the evaluation.
     pub entrant: Entrant,
     /// The text from which the seeds of all episodes are derived. A seed depends only on this text, the game, the
     /// level and the run.
@@ -45,39 +45,39 @@ pub struct Settings {
     pub runs: u64,
     /// The maximum number of actions per episode.
     pub max_steps: u64,
-    /// The number of actions that the player commits to at each look.
+    /// The number of actions that the player commits to at each decision.
     #[serde(default, skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
-    /// The track with its version, such as `masked@1`; `None` for custom prompts.
+    /// The track with its version, such as `masked@1`, or `None` for custom prompts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
     /// The maximum number of levels of a game that are played in one conversation.
     #[serde(default = "alone", skip_serializing_if = "is_alone")]
     pub series: u64,
-    /// The adaptive choice of levels; `None` to play all levels.
+    /// The settings of the adaptive choice of levels, or `None` to play all levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<Adaptive>,
-    /// The games played.
+    /// The games of the evaluation.
     pub games: Vec<SubjectEntry>,
 }
 
-/// An adaptive choice of levels. The scale and the recorded outcomes of earlier episodes determine the levels that
-/// are played.
+/// The settings of an adaptive choice of levels. The scale and the recorded outcomes of earlier episodes
+/// determine the next levels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
-    /// The digest of the scale's file.
+    /// The digest of the scale file.
     pub scale: Digest,
     /// The maximum number of episodes.
     pub episodes: u64,
-    /// The standard error of the ability at which the evaluation ends.
+    /// The standard error of the ability at which the evaluation ends, if one is set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// The number of episodes chosen per batch.
     pub batch: u64,
 }
 
-/// Returns the length of a series of one level.
+/// Returns 1, the length of a series of one level.
 fn alone() -> u64 {
     1
 }
@@ -92,12 +92,13 @@ fn is_alone(series: &u64) -> bool {
 pub struct Entrant {
     /// The player's name in tables.
     pub name: String,
-    /// The mode, `zero-shot` or `contextual`; `None` for players that are not models.
+    /// The mode, `zero-shot` or `contextual`, or `None` for players that are not models.
     pub mode: Option<String>,
-    /// The differences of the player's prompts from the default, sorted, with one flag per difference; for ablations.
+    /// The differences of the player's prompts from the default, sorted, with one flag per difference. They
+    /// identify the variants in an ablation.
     pub aids: Vec<String>,
-    /// All inputs that determine the player's requests and answers: model, server, decoding, prompt settings and
-    /// digests.
+    /// All inputs that determine the player's requests and answers, such as the model, the server, the
+    /// decoding, the prompt settings and digests.
     pub details: serde_json::Value,
 }
 
@@ -107,11 +108,11 @@ pub struct Entrant {
 pub struct SubjectEntry {
     /// The name of the game's folder in `games/`.
     pub id: String,
-    /// The game's digest.
+    /// The digest of the game.
     pub digest: Digest,
     /// The known facts about the game.
     pub facts: SubjectFacts,
-    /// The levels played.
+    /// The levels of the game to play.
     pub levels: Vec<LevelEntry>,
 }
 
@@ -121,14 +122,14 @@ pub struct SubjectEntry {
 pub struct LevelEntry {
     /// The number of the level in the game.
     pub number: usize,
-    /// The level's digest.
+    /// The digest of the level.
     pub digest: Digest,
-    /// The number of ticks in the shortest win, if its optimality is proved.
+    /// The number of ticks in the shortest win, if the win is proved to be optimal.
     pub optimal_ticks: Option<usize>,
 }
 
 impl Settings {
-    /// Returns a warning if levels have no known win within the step limit:
+    /// Returns a warning if some levels have no known win within the step limit, such as
     /// `38 of 54 levels have no known win within 40 steps`.
     pub fn out_of_reach(&self) -> Option<String> {
         let of_level = |game: &SubjectEntry, number: usize| game.facts.known_wins.get(&number).copied();
@@ -145,7 +146,8 @@ impl Settings {
         ))
     }
 
-    /// Sets the track with the length of its series, and lists the track among the differences from other players.
+    /// Sets the track and the length of its series, and adds the track to the differences that distinguish
+    /// the player in tables.
     ///
     /// # Errors
     /// Returns an error if a game has too few levels for a series.
@@ -165,11 +167,11 @@ impl Settings {
         }
     }
 
-    /// Checks that the settings stay within the limits, and that every game and level is listed once. This bounds the
-    /// size of a results folder for its readers.
+    /// Checks that the settings stay within the limits, and that every game and level is listed once. The
+    /// limits bound the size of a results folder for its readers.
     ///
     /// # Errors
-    /// Returns an error otherwise. The message states the number that is too large.
+    /// Returns a message that states the value that is out of range, or the repeated game or level.
     pub fn check(&self) -> Result<(), String> {
         let levels: u64 = self.games.iter().map(|game| game.levels.len() as u64).sum();
         let episodes = self.runs.checked_mul(levels).filter(|&episodes| episodes <= MAX_EPISODES);
@@ -213,7 +215,7 @@ impl SubjectEntry {
     /// Reads the game from the texts in a results folder.
     ///
     /// # Errors
-    /// Returns an error if the texts are missing, do not compile, or differ from those that were played.
+    /// Returns an error if the texts are missing, do not compile, or differ from the texts that were played.
     pub(crate) fn read(&self, results: &Path) -> Result<Subject, EvaluationError> {
         let folder = results.join("games").join(&self.id);
         let source = read_text(&folder.join("game.vgdl"), MAX_SOURCE, RESTORE)?;

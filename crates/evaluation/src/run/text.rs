@@ -1,4 +1,5 @@
-//! Files of a results folder from a possibly untrusted source. Only regular files are read, and only up to a limit.
+//! Reads files of a results folder, whose source may be untrusted. Only regular files are read, and only up
+//! to a size limit.
 
 use crate::error::EvaluationError;
 use std::fs;
@@ -6,11 +7,11 @@ use std::fs::File;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// The recommended next step for a file of a results folder that cannot be read.
+/// The recommendation in error messages about a file of a results folder that cannot be read.
 pub(crate) const RESTORE: &str = "restore the results folder";
 
-/// Returns `true` if a file or folder of a results folder exists. The target of a dangling link counts as lost, not
-/// as absent.
+/// Returns `true` if a file or folder of a results folder exists. A dangling link is an error, because its
+/// target was lost.
 ///
 /// # Errors
 /// Returns an error if the path is a dangling link, or cannot be examined.
@@ -25,11 +26,11 @@ pub(crate) fn is_there(path: &Path) -> Result<bool, EvaluationError> {
     }
 }
 
-/// Opens a regular file of at most `limit` bytes. Other files, such as a pipe, are not opened, because that could
-/// block forever. `next_step` ends the error messages.
+/// Opens a regular file of at most `limit` bytes. Other kinds of files, such as pipes, are not opened,
+/// because opening them could block forever. `next_step` is appended to error messages.
 ///
 /// # Errors
-/// Returns an error if the path is not a regular file, is larger, or cannot be read.
+/// Returns an error if the path is not a regular file, exceeds the limit, or cannot be read.
 pub(crate) fn open_file(path: &Path, limit: u64, next_step: &str) -> Result<File, EvaluationError> {
     let file = match disk::open(path) {
         Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::IsADirectory) => {
@@ -45,10 +46,10 @@ pub(crate) fn open_file(path: &Path, limit: u64, next_step: &str) -> Result<File
     Ok(file)
 }
 
-/// Reads a text of at most `limit` bytes.
+/// Reads a text file of at most `limit` bytes.
 ///
 /// # Errors
-/// Returns the errors of [`open_file`], or an error if the file is not text.
+/// Returns an error in the same cases as [`open_file`], or if the file is not text.
 pub(crate) fn read_text(path: &Path, limit: usize, next_step: &str) -> Result<String, EvaluationError> {
     let file = open_file(path, limit as u64, next_step)?;
     let bytes = disk::start(file, limit as u64 + 1).map_err(EvaluationError::io("read", path))?;

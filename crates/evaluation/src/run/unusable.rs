@@ -1,21 +1,22 @@
-//! Decisions without a usable answer, which are counted while an evaluation runs.
+//! Counts decisions without a usable answer while an evaluation runs.
 
 use crate::player::{Halt, Validity};
 use serde::Serialize;
 use std::fmt;
 use std::sync::Mutex;
 
-/// The number of decisions after which a player without a single usable answer is stopped, and from which on the
-/// fraction counts.
+/// The number of decisions after which a player without a single usable answer is stopped. Before this
+/// number, no warning is shown.
 const FIRST: u64 = 20;
 
 /// The reciprocal of the fraction of decisions without a usable answer above which a warning is shown.
 const ONE_IN: u64 = 5;
 
-/// The number of decisions, and of those in which nothing was done because no usable answer was given.
+/// The number of decisions, and the number of decisions without a usable answer, in which the player did
+/// nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Answers {
-    /// The number of decisions.
+    /// The total number of decisions.
     pub steps: u64,
     /// The number of decisions without a usable answer, which is the sum of the next three fields.
     pub unusable: u64,
@@ -41,7 +42,7 @@ impl Answers {
 }
 
 impl fmt::Display for Answers {
-    /// Formats the numbers: `6 of 25 decisions have no usable answer (4 invalid, 2 cut off)`.
+    /// Formats the numbers, as in `6 of 25 decisions have no usable answer (4 invalid, 2 cut off)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Answers { steps, unusable, invalid, truncated, refused } = self;
         let has = if *unusable == 1 { "has" } else { "have" };
@@ -57,7 +58,7 @@ impl fmt::Display for Answers {
     }
 }
 
-/// The answers so far in all episodes of a run.
+/// A shared count of the answers in all episodes of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Watch(Mutex<Watched>);
 
@@ -69,8 +70,9 @@ struct Watched {
 }
 
 impl Watch {
-    /// Counts a decision. `tell` is called once, when too many decisions have no usable answer, with `true` if no
-    /// decision has one. It returns `false` to stop the evaluation.
+    /// Counts a decision. `tell` is called once, when too many decisions lack a usable answer. Its second
+    /// argument is `true` if all decisions lack a usable answer. `tell` returns `false` to stop the
+    /// evaluation.
     pub(crate) fn decided(
         &self,
         validity: Validity,
@@ -92,7 +94,7 @@ impl Watch {
         watched.halt.clone()
     }
 
-    /// Returns the reason to stop the evaluation.
+    /// Returns the reason to stop the evaluation, if there is one.
     pub(crate) fn halt(&self) -> Option<Halt> {
         self.0.lock().expect("no holder panics").halt.clone()
     }
@@ -102,8 +104,8 @@ impl Watch {
 mod tests {
     use super::*;
 
-    /// Checks the decisions at which there is a notice, each with `true` if no answer was usable. `v` is a valid
-    /// answer.
+    /// Checks the decisions at which a notice is shown, each with `true` if no answer was usable. In
+    /// `decisions`, `v` stands for a valid answer.
     #[track_caller]
     fn check(decisions: &str, expect: &[(u64, bool)]) {
         let (watch, mut told) = (Watch::default(), Vec::new());
@@ -126,7 +128,7 @@ mod tests {
         check(&"i".repeat(19), &[]);
         check(&"i".repeat(40), &[(20, true)]);
         check(&format!("v{}", "t".repeat(40)), &[(20, false)]);
-        // Exactly a fifth is not more than a fifth.
+        // A fraction of exactly a fifth is not more than a fifth.
         check(&format!("iiii{}", "v".repeat(20)), &[]);
         check(&format!("iiii{}ii", "v".repeat(17)), &[(22, false)]);
         check(&"v".repeat(100), &[]);

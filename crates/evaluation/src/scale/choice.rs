@@ -1,23 +1,23 @@
-//! The choice of levels with a scale: a plan for a target, and the adaptive choice of each next level from the
-//! previous episodes.
+//! Chooses levels with a scale. A plan chooses levels for a target in advance, and the adaptive choice
+//! selects each next level from the results of previous episodes.
 
 use super::file::ScaleFile;
 use crate::run::{Adaptive, Settings, SubjectEntry};
 use serde::Serialize;
 use statistics::scale::{Chosen, MismatchPrior, PlayedGame, PlayedLevel, Selection, expected_error};
 
-/// The sum of the two normal quantiles of a two-sided test at 5% with 80% power.
+/// The sum of the two normal quantiles for a two-sided test at the 5% level with 80% power.
 const POWER: f64 = 1.959964 + 0.841621;
 
-/// The levels of an evaluation with their difficulties for a player.
+/// The levels of an evaluation, with their difficulties for a player.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaledLevels {
-    /// The levels, by game and level of the evaluation.
+    /// The levels, indexed by game and level of the evaluation.
     games: Vec<PlayedGame>,
-    /// The standard error that all difficulties share.
+    /// The standard error that the difficulties of all levels share.
     link: f64,
     prior: MismatchPrior,
-    /// `true` if `arcade study scale` could estimate the player's ability on all of the levels.
+    /// `true` if `arcade study scale` could estimate the player's ability from results on all of the levels.
     pub is_linked: bool,
 }
 
@@ -25,22 +25,23 @@ pub struct ScaledLevels {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Target {
-    /// This standard error of the ability, in logits.
+    /// The given standard error of the ability, in logits.
     Error(f64),
-    /// This difference in logits between two players on the same levels, to be detected at 5% in 80% of evaluations.
+    /// The given difference in logits between two players on the same levels, to be detected at the 5% level
+    /// in 80% of evaluations.
     Difference(f64),
-    /// This number of episodes.
+    /// The given number of episodes.
     Episodes(u64),
 }
 
-/// A plan: the levels to play, and the expected errors.
+/// A plan for an evaluation, with the levels to play and the expected errors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plan {
-    /// The target.
+    /// The target of the plan.
     pub target: Target,
-    /// The expected ability.
+    /// The expected ability of the player.
     pub ability: f64,
-    /// The levels of each game, by index.
+    /// The indices of the levels to play, for each game.
     pub levels: Vec<Vec<usize>>,
     /// The number of episodes per level.
     pub runs: u64,
@@ -48,7 +49,7 @@ pub struct Plan {
     pub errors: PlannedErrors,
     /// `true` if the plan reaches the target.
     pub is_reached: bool,
-    /// The errors for other numbers of episodes, up to all levels.
+    /// The expected errors for other numbers of episodes, up to all levels.
     pub others: Vec<PlannedErrors>,
 }
 
@@ -57,11 +58,12 @@ pub struct Plan {
 pub struct PlannedErrors {
     /// The number of episodes.
     pub episodes: u64,
-    /// The number of games with these episodes.
+    /// The number of games on which the episodes are played.
     pub games: u64,
     /// The standard error of the ability.
     pub error: f64,
-    /// The smallest difference between two players on the same levels that is detected at 5% in 80% of evaluations.
+    /// The smallest difference between two players on the same levels that is detected at the 5% level in 80%
+    /// of evaluations.
     pub difference: f64,
 }
 
@@ -69,7 +71,7 @@ impl ScaledLevels {
     /// Finds the levels of an evaluation on a scale.
     ///
     /// # Errors
-    /// Returns a message if a level is not on the scale.
+    /// Returns a message if any of the levels is not on the scale.
     pub fn of(scale: &ScaleFile, games: &[SubjectEntry], is_reader: bool) -> Result<ScaledLevels, String> {
         let (side, mut link, mut is_linked) = (usize::from(is_reader), 0.0_f64, true);
         let mut found = Vec::new();
@@ -91,9 +93,9 @@ impl ScaledLevels {
         Ok(ScaledLevels { games: found, link, prior: scale.mismatch_prior(is_reader), is_linked })
     }
 
-    /// Plans for a target, spreading episodes over games first. Each round takes, from each game, the remaining level
-    /// that is the most informative at this ability. If all levels are too few, each is played up to `most_runs`
-    /// times. Cost: O(levels² + levels · log `most_runs`).
+    /// Plans an evaluation for a target. Episodes are spread over games first: each round takes the most
+    /// informative remaining level of each game at the given ability. If one run of all levels does not reach
+    /// the target, each level is played up to `most_runs` times. Cost: O(levels² + levels · log `most_runs`).
     pub fn plan(&self, ability: f64, target: Target, most_runs: u64) -> Plan {
         let order = self.order(ability);
         let all = order.len() as u64;
@@ -106,7 +108,8 @@ impl ScaledLevels {
             |count: u64, runs: u64| (count, runs, self.errors(&order[..count as usize], runs, ability));
         let of_one_run = (1..=all).map(|count| sized(count, 1)).find(|(.., errors)| is_reached(errors));
         let (count, runs, errors) = of_one_run.unwrap_or_else(|| {
-            // More runs never increase an error, so bisection finds the minimum number that reaches the target.
+            // More runs never increase an error, so bisection finds the minimum number of runs that reaches
+            // the target.
             let (mut too_few, mut runs) = (1, most_runs.max(1));
             let is_reached = |runs: u64| is_reached(&sized(all, runs).2);
             while too_few + 1 < runs && is_reached(runs) {
@@ -133,7 +136,7 @@ impl ScaledLevels {
         Plan { target, ability, levels, runs, errors, is_reached: is_reached(&errors), others }
     }
 
-    /// Returns all levels in the order in which a plan takes them.
+    /// Returns all levels, in the order in which a plan adds them.
     fn order(&self, ability: f64) -> Vec<(usize, usize)> {
         let mut order: Vec<(usize, f64, usize, usize)> = Vec::new();
         for (game, of) in self.games.iter().enumerate() {
@@ -150,7 +153,7 @@ impl ScaledLevels {
         order.into_iter().map(|(.., game, level)| (game, level)).collect()
     }
 
-    /// Returns the error that remains after a single episode on a level.
+    /// Returns the standard error of the ability after a single episode on a level.
     fn error_of(&self, game: usize, level: usize, ability: f64) -> f64 {
         let one = PlayedLevel { of: 1.0, ..self.games[game].levels[level] };
         let game = PlayedGame { common: self.games[game].common, levels: vec![one] };
@@ -161,7 +164,7 @@ impl ScaledLevels {
         let mut games = self.games.clone();
         levels.iter().for_each(|&(game, level)| games[game].levels[level].of = runs as f64);
         let error = expected_error(&games, ability, self.prior.median, self.link);
-        // Two players on the same levels share the errors of the difficulties.
+        // The errors of the difficulties cancel out, because the two players share the levels.
         for game in &mut games {
             game.common = 0.0;
             game.levels.iter_mut().for_each(|level| level.own = 0.0);
@@ -178,37 +181,38 @@ impl ScaledLevels {
     }
 }
 
-/// The adaptive choice of the episodes of an evaluation. It depends only on the scale, the settings and the outcomes
-/// so far, so the logs of an evaluation reproduce its choices.
+/// The adaptive choice of an evaluation's episodes. The choice depends only on the scale, the settings and
+/// the outcomes so far. Therefore, the logs of an evaluation reproduce its choices.
 #[derive(Clone, Debug)]
 pub struct AdaptiveChoice {
     selection: Selection,
     adaptive: Adaptive,
-    /// The game and the level of each episode of a run.
+    /// The indices of the game and the level, for each episode of a run.
     places: Vec<(usize, usize)>,
-    /// The number of times that each level was chosen.
+    /// The number of times that each level has been chosen.
     runs: Vec<u64>,
     link: f64,
     choices: Vec<AdaptiveStep>,
 }
 
-/// A chosen episode, with the ability known before it.
+/// A chosen episode, with the estimate of the ability before the episode.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AdaptiveStep {
-    /// The game.
+    /// The ID of the game.
     pub game: String,
     /// The number of the level.
     pub level: usize,
-    /// The index of the episode among those on the level.
+    /// The index of the episode among the episodes on this level.
     pub run: u64,
-    /// The ability according to the previous episodes.
+    /// The ability estimated from the previous episodes.
     pub ability: f64,
-    /// The standard error of the ability.
+    /// The standard error of the estimated ability.
     pub error: f64,
 }
 
 impl AdaptiveChoice {
-    /// Starts an evaluation with these settings; `None` if they are not adaptive.
+    /// Starts the choice for an evaluation with the given settings. Returns `None` if the settings are not
+    /// adaptive.
     pub fn new(levels: &ScaledLevels, settings: &Settings) -> Option<AdaptiveChoice> {
         let places: Vec<(usize, usize)> = (settings.games.iter().enumerate())
             .flat_map(|(game, entry)| (0..entry.levels.len()).map(move |level| (game, level)))
@@ -223,8 +227,8 @@ impl AdaptiveChoice {
         })
     }
 
-    /// Returns the indices of the next episodes among all episodes of the evaluation; empty if there are enough.
-    /// `played` are the episodes that have ended since the last call, with `true` for wins.
+    /// Returns the indices of the next episodes among all episodes of the evaluation, or an empty list to
+    /// finish. `played` holds the episodes that have ended since the last call, with `true` for wins.
     pub fn next(&mut self, settings: &Settings, played: &[(usize, bool)]) -> Vec<usize> {
         for &(episode, won) in played {
             let (game, level) = self.places[episode % self.places.len()];
@@ -254,13 +258,13 @@ impl AdaptiveChoice {
         next
     }
 
-    /// Returns the ability according to the episodes so far, and its standard error.
+    /// Returns the ability estimated from the episodes so far, and its standard error.
     pub fn ability(&self) -> (f64, f64) {
         let (ability, error) = self.selection.ability();
         (ability, (error * error + self.link * self.link).sqrt())
     }
 
-    /// Returns all choices so far.
+    /// Returns all choices made so far.
     pub fn choices(&self) -> &[AdaptiveStep] {
         &self.choices
     }
@@ -280,7 +284,7 @@ mod tests {
     fn plans_spread_over_games_first() {
         let plan = levels().plan(2.0, Target::Episodes(50), 1);
         assert_eq!((plan.errors.episodes, plan.errors.games, plan.runs), (50, 40, 1));
-        // The plan has the most informative level of each game, and a second level of some games.
+        // The plan takes the most informative level of each game, and a second level of some games.
         assert!(plan.levels.iter().all(|of| of.contains(&2)), "{plan:?}");
         assert_eq!(plan.levels.iter().filter(|of| of.len() == 2).count(), 10);
     }
@@ -293,14 +297,15 @@ mod tests {
         assert!(before.errors.error > 0.5, "{before:?}");
         let far = levels().plan(0.0, Target::Difference(0.2), 3);
         assert!(!far.is_reached && far.runs == 3 && far.errors.episodes == 360, "{far:?}");
-        // Any number of runs is planned equally fast, and no more runs are used than the target needs.
+        // The maximum number of runs does not affect the cost of planning. No more runs are used than the
+        // target requires.
         let much = levels().plan(0.0, Target::Error(0.25), 1_000_000);
         let [enough, less] =
             [much.runs, much.runs - 1].map(|runs| levels().plan(0.0, Target::Error(0.25), runs));
         assert!(much.is_reached && much.runs > 1 && enough == much && !less.is_reached, "{much:?}");
         let none = ScaledLevels { games: Vec::new(), ..levels() }.plan(0.0, Target::Episodes(1), 9);
         assert!(!none.is_reached && none.errors.episodes == 0, "{none:?}");
-        // One run has at most all levels.
+        // A single run has at most as many episodes as there are levels.
         assert_eq!(far.others.last().map(|one| one.episodes), Some(120));
     }
 }

@@ -1,4 +1,5 @@
-//! The file `scale.json`, which holds examinees, spreads, and the levels of each release with their difficulties.
+//! The file `scale.json`, which contains the examinees, the spreads, and the levels of each release with
+//! their difficulties.
 
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
@@ -16,10 +17,10 @@ use std::hash::Hash;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// The version of the format.
+/// The version of the scale file's format.
 pub const SCALE_FORMAT: u32 = 1;
-/// The maximum size of the file, in bytes. A level takes about 300 bytes, so this allows a hundred months of 500
-/// levels.
+/// The maximum size of the file, in bytes. A level takes about 300 bytes, so the maximum suffices for a
+/// hundred months of 500 levels.
 const MAX_SCALE: usize = 1 << 24;
 
 /// The maximum absolute value of a logit on a scale. At this value, a player wins or loses all but one in 10⁴³⁴
@@ -27,44 +28,46 @@ const MAX_SCALE: usize = 1 << 24;
 const MAX_LOGIT: f64 = 1000.0;
 /// The maximum misfit of a game.
 const MAX_MISFIT: f64 = 1e12;
-/// The minimum standard deviation of the model, because calibrations estimate logarithms of standard deviations.
+/// The minimum standard deviation of the model. Calibrations estimate logarithms of standard deviations, so
+/// the value must not be 0.
 const LEAST_SPREAD: f64 = 1e-6;
-/// The maximum number of replicates of a bootstrap.
+/// The maximum number of bootstrap replicates.
 const MAX_REPLICATES: f64 = 10_000.0;
 
-/// The recommended next step for a file that is not a scale.
+/// The recommendation in error messages about a file that is not a scale.
 const NEXT_STEP: &str = "pass the scale.json that `arcade study calibrate` wrote";
 
-/// A scale with its releases.
+/// A scale with the releases that were added to it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScaleFile {
-    /// The version of the format: [`SCALE_FORMAT`].
+    /// The version of the format ([`SCALE_FORMAT`]).
     pub format: u32,
     /// The version of the suite that calibrated the first release.
     pub suite: String,
     /// The maximum number of actions per episode.
     pub max_steps: u64,
-    /// The examinees.
+    /// The examinees whose results put releases on the scale.
     pub examinees: Vec<ExamineeEntry>,
-    /// The standard deviations and slopes of the model, by name.
+    /// The standard deviations and slopes of the statistical model.
     pub spreads: SpreadsEntry,
-    /// The covariance matrix of the examinees' abilities, the origins for planners and readers, and the planners'
-    /// ease, stored by rows.
+    /// The covariance matrix of three groups of parameters: the examinees' abilities, the origins for
+    /// planners and readers, and the planners' ease. The matrix is stored by rows.
     pub covariance: Vec<f64>,
-    /// The mean difficulties of the first release for planners and readers, in the coordinates of the abilities.
+    /// The mean difficulties of the first release for planners and for readers, in the coordinates of the
+    /// abilities.
     pub origins: [f64; 2],
     /// The mean logit of the planners on the first release.
     pub ease: f64,
     /// The correlation between the difficulties for planners and for readers.
     pub correlation: Option<Span>,
-    /// The number of parametric bootstrap replicates behind the spreads and the correlation.
+    /// The number of parametric bootstrap replicates used to estimate the spreads and the correlation.
     pub replicates: u64,
-    /// The releases, in order from the first one.
+    /// The releases on the scale, starting with the first release.
     pub months: Vec<MonthEntry>,
 }
 
-/// An examinee of a scale.
+/// An examinee of a scale, with its ability.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExamineeEntry {
@@ -74,31 +77,31 @@ pub struct ExamineeEntry {
     pub family: String,
     /// `true` if the examinee is a reader.
     pub is_reader: bool,
-    /// The ability in the coordinates of the model.
+    /// The examinee's ability in the coordinates of the model.
     pub ability: f64,
-    /// The ability relative to the mean difficulty of the first release.
+    /// The examinee's ability relative to the mean difficulty of the first release.
     pub on_scale: Estimate,
 }
 
-/// An estimate with its standard error.
+/// An estimate and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Estimate {
-    /// The estimate, in logits.
+    /// The estimated value, in logits.
     pub value: f64,
-    /// The standard error.
+    /// The standard error of the estimate.
     pub error: f64,
 }
 
-/// An estimate with its 95% interval.
+/// An estimate and its 95% interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Span {
-    /// The estimate.
+    /// The estimated value.
     pub value: f64,
-    /// The lower bound.
+    /// The lower bound of the interval.
     pub low: f64,
-    /// The upper bound.
+    /// The upper bound of the interval.
     pub high: f64,
 }
 
@@ -112,18 +115,19 @@ pub struct MonthEntry {
     pub snapshot: Option<Digest>,
     /// The text from which the seeds of the release's episodes were derived.
     pub seed: String,
-    /// The mean difficulty relative to the first release, for planners and for readers. The errors include the link
-    /// to any player of the dimension.
+    /// The mean difficulty relative to the first release, for planners and for readers. The errors include
+    /// the error of the link for arbitrary players of the dimension.
     pub shifts: [Estimate; 2],
-    /// The same shift for exactly the planners of the scale.
+    /// The shift of the mean difficulty for exactly the planners of the scale.
     pub planners_shift: Estimate,
-    /// The standard error that all difficulties share, for planners and for readers.
+    /// The standard error that the difficulties of all levels share, for planners and for readers.
     pub link: [f64; 2],
-    /// The number of the scale's readers that played the release.
+    /// The number of anchors that played the release. Anchors are the readers among the scale's examinees.
     pub anchors: u64,
-    /// The additional difficulty of the release for readers compared with planners, according to the anchors.
+    /// The additional difficulty of the release for readers compared with planners, estimated from the
+    /// anchors.
     pub drift: Option<Estimate>,
-    /// The games.
+    /// The games of the release.
     pub games: Vec<GameEntry>,
 }
 
@@ -135,7 +139,7 @@ pub struct GameEntry {
     pub id: String,
     /// The digest of the game.
     pub digest: Digest,
-    /// The standard errors that the game's levels share, for planners and for readers.
+    /// The standard errors that all levels of the game share, for planners and for readers.
     pub common: [f64; 2],
     /// The mean squared standardised residual of the game's episodes.
     pub misfit: f64,
@@ -151,11 +155,12 @@ pub struct LevelEntry {
     pub number: usize,
     /// The digest of the level.
     pub digest: Digest,
-    /// The level's difficulty for planners and for readers, without the error of the link.
+    /// The level's difficulty for planners and for readers. The standard errors exclude the error of the
+    /// link.
     pub difficulty: [Estimate; 2],
 }
 
-/// The standard deviations and slopes of the model.
+/// The standard deviations and slopes of the statistical model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(missing_docs, reason = "the fields are those of `Spreads`")]
@@ -200,7 +205,8 @@ impl From<SpreadsEntry> for Spreads {
 }
 
 impl ScaleFile {
-    /// Creates a scale from a calibration, without releases. `names` has the name and the family of each examinee.
+    /// Creates a scale without releases from a calibration. `names` holds the name and the family of each
+    /// examinee.
     pub fn new(found: &Calibration, names: &[(String, String)], max_steps: u64) -> ScaleFile {
         let entry = |(at, (name, family)): (usize, &(String, String))| ExamineeEntry {
             name: name.clone(),
@@ -224,7 +230,7 @@ impl ScaleFile {
         }
     }
 
-    /// Reads a scale.
+    /// Reads a scale file.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read, has a newer format, or is not a scale.
@@ -245,8 +251,8 @@ impl ScaleFile {
         }
     }
 
-    /// Checks for entries that no calibration gives, and returns the key of the first one. Some entries determine the
-    /// memory use of plots and integrals, and others make results undefined.
+    /// Checks for values that no calibration produces, and returns an error with the key of the first such
+    /// value. Some values determine the memory use of plots and integrals, and others make results undefined.
     fn check(&self) -> Result<(), String> {
         within(format_args!("max_steps"), self.max_steps as f64, 1.0..=MAX_DECISIONS as f64)?;
         within(format_args!("replicates"), self.replicates as f64, 0.0..=MAX_REPLICATES)?;
@@ -290,7 +296,8 @@ impl ScaleFile {
         Ok(())
     }
 
-    /// Checks that the covariance matrix is valid: symmetric, and with no covariance larger than the variances allow.
+    /// Checks that the covariance matrix is symmetric, and that no covariance exceeds the limit given by the
+    /// variances.
     fn check_covariance(&self) -> Result<(), String> {
         let size = self.examinees.len() + 3;
         let found = self.covariance.len();
@@ -315,12 +322,12 @@ impl ScaleFile {
         Ok(())
     }
 
-    /// Returns the text of the file.
+    /// Returns the scale as the text of a file.
     pub fn to_text(&self) -> String {
         serde_json::to_string_pretty(self).expect("a scale is plain data") + "\n"
     }
 
-    /// Returns the calibration that the scale was made from.
+    /// Returns the calibration from which the scale was created.
     pub fn calibration(&self) -> Calibration {
         let mut families: Vec<&str> = self.examinees.iter().map(|one| one.family.as_str()).collect();
         families.sort_unstable();
@@ -339,7 +346,8 @@ impl ScaleFile {
         }
     }
 
-    /// Adds a release that was played with these settings. `plays` are the results that it was calibrated with.
+    /// Adds a release that was played with the given settings. `plays` holds the results used in its
+    /// calibration.
     pub fn add(&mut self, name: &str, settings: &Settings, month: &Month, plays: &[GamePlays]) {
         let played = |at: usize| {
             plays.iter().flat_map(|game| &game.plays).any(|plays| plays.examinee == at && plays.of > 0.0)
@@ -375,14 +383,14 @@ impl ScaleFile {
         });
     }
 
-    /// Returns the prior of the standard deviation of a player's matches with games.
+    /// Returns the prior for the standard deviation of a player's mismatches with games.
     pub fn mismatch_prior(&self, is_reader: bool) -> MismatchPrior {
         let SpreadsEntry { family, planner, reader, .. } = self.spreads;
         let median = if is_reader { reader } else { (family * family + planner * planner).sqrt() };
         MismatchPrior { median, ..MismatchPrior::default() }
     }
 
-    /// Returns the indices of a level: release, game, level.
+    /// Finds a level, and returns the indices of its release, its game and the level.
     pub fn place(&self, game: Digest, level: Digest) -> Option<(usize, usize, usize)> {
         let months = self.months.iter().enumerate();
         let mut games = months
@@ -394,7 +402,7 @@ impl ScaleFile {
     }
 }
 
-/// The part of a scale that identifies newer formats.
+/// The part of a scale file that identifies newer formats.
 #[derive(Deserialize)]
 struct Version {
     format: Option<u64>,
@@ -424,7 +432,7 @@ fn once<T: Eq + Hash + Debug>(key: &str, names: impl Iterator<Item = T>) -> Resu
 }
 
 impl MonthEntry {
-    /// Checks the month like [`ScaleFile::check`]. `at` is the index of the month.
+    /// Checks the values of a month, in the same way as [`ScaleFile::check`]. `at` is the index of the month.
     fn check(&self, at: usize, examinees: usize) -> Result<(), String> {
         for (side, shift) in self.shifts.iter().enumerate() {
             estimate(format_args!("months[{at}].shifts[{side}]"), shift)?;
@@ -456,8 +464,8 @@ impl MonthEntry {
 }
 
 impl GameEntry {
-    /// Returns the difficulty of a level in a dimension, and the part of its error that the other levels of the game
-    /// do not share.
+    /// Returns the difficulty of a level in a dimension, and the component of its error that the other levels
+    /// of the game do not share.
     pub(super) fn difficulty(&self, level: usize, side: usize) -> (f64, f64) {
         let levels = self.levels.iter().map(|one| {
             let Estimate { value, error } = one.difficulty[side];

@@ -1,5 +1,6 @@
-//! One scale of difficulty and ability over releases ([docs/explanation/scale.md](../../../../docs/explanation/scale.md)): the file `scale.json`, and
-//! the plays that it is made of.
+//! Scales of difficulty and ability across releases
+//! ([docs/explanation/scale.md](../../../../docs/explanation/scale.md)). The modules read and write the file
+//! `scale.json`, and collect the episodes from which a scale is estimated.
 
 mod choice;
 mod file;

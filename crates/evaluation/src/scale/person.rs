@@ -1,4 +1,4 @@
-//! The abilities of persons on a scale.
+//! The abilities of persons on a scale. A person is a player whose results are measured on the scale.
 
 use super::file::{Estimate, ScaleFile, Span};
 use super::played::PersonPlays;
@@ -6,82 +6,84 @@ use serde::Serialize;
 use statistics::scale::{Ability, Dimension, PlayedGame, PlayedLevel, ability};
 use std::collections::BTreeMap;
 
-/// The minimum lower bound of the correlation at which planners alone link a month for readers.
+/// The minimum lower bound of the correlation at which planners alone can link a month for readers.
 const LEAST_CORRELATION: f64 = 0.5;
-/// The minimum number of anchors that link a month for readers. With a single anchor, it is unknown what it has in
-/// common with other readers.
+/// The minimum number of anchors that link a month for readers. With a single anchor, it is unknown how much
+/// the anchor has in common with other readers.
 const ANCHORS: u64 = 2;
 
-/// The abilities of a person, by release.
+/// The abilities of a person, one for each release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PersonAbility {
-    /// The person.
+    /// The name of the person.
     pub player: String,
     /// `true` if the person is a reader.
     pub is_reader: bool,
     /// The abilities on the releases that the person played, in the order of the scale.
     pub months: Vec<MonthAbility>,
-    /// The number of different episodes on levels that the scale does not contain.
+    /// The number of distinct episodes on levels that are not on the scale.
     pub unknown: u64,
-    /// The numbers of episodes with settings that the scale was not calibrated with, by the differing settings:
-    /// `--commit 3`.
+    /// The numbers of episodes with settings for which the scale was not calibrated. The key lists the
+    /// differing settings, such as `--commit 3`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub left_out: BTreeMap<String, u64>,
 }
 
-/// The ability of a person according to one release.
+/// The ability of a person, estimated from one release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MonthAbility {
     /// The name of the release.
     pub month: String,
-    /// The number of wins among the different episodes.
+    /// The number of wins among the distinct episodes.
     pub won: u64,
-    /// The number of different episodes.
+    /// The number of distinct episodes.
     pub episodes: u64,
     /// The number of games played.
     pub games: u64,
-    /// The ability, in logits above the mean difficulty of the first release.
+    /// The ability in logits, relative to the mean difficulty of the first release.
     pub ability: Option<Span>,
-    /// `true` for each end of the interval that the data determine.
+    /// For the lower and the upper end of the interval, `true` if the data determine that end.
     pub is_bounded: [bool; 2],
-    /// The total standard error, and its components.
+    /// The total standard error of the ability, and its components.
     pub error: Option<ErrorParts>,
-    /// The standard deviation of the person's matches with games.
+    /// The standard deviation of the person's mismatches with games.
     pub mismatch_sd: Option<f64>,
-    /// The reason for a missing ability.
+    /// The reason why the ability could not be estimated.
     pub refusal: Option<Refusal>,
-    /// The drift of the release according to the anchors.
+    /// The drift of the release, estimated from the anchors.
     pub drift: Option<Estimate>,
 }
 
-/// A standard error with its components: total² = sampling² + mismatch² + link².
+/// A standard error and its components, with total² = sampling² + mismatch² + link².
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorParts {
-    /// The total error.
+    /// The total standard error.
     pub total: f64,
-    /// The error caused by the limited number of episodes.
+    /// The component caused by the limited number of episodes.
     pub sampling: f64,
-    /// The error caused by games that suit the person more or less, and by errors of difficulties.
+    /// The component caused by errors of the difficulties, and by games that suit the person better or worse
+    /// than others.
     pub mismatch: f64,
-    /// The error of the link between the release and the first one.
+    /// The component caused by the link between the release and the first release.
     pub link: f64,
 }
 
-/// The reason for a missing ability.
+/// The reason why an ability could not be estimated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Refusal {
-    /// The release is linked only by planners, because it has fewer than two anchors, and planners say too little
-    /// about readers.
+    /// The release has fewer than two anchors, so only planners link it to the scale, and planners are not
+    /// informative enough about readers.
     FewAnchors {
         /// The number of anchors that played the release.
         anchors: u64,
-        /// The lower bound of the correlation, if it is known.
+        /// The lower bound of the correlation between the difficulties for planners and for readers, if it is
+        /// known.
         correlation_low: Option<f64>,
     },
 }
 
-/// Returns the abilities of persons on the releases that they played.
+/// Returns the abilities of persons on each release that they played.
 pub fn abilities(scale: &ScaleFile, persons: &[PersonPlays]) -> Vec<PersonAbility> {
     persons.iter().map(|person| of_person(scale, person)).collect()
 }
@@ -107,8 +109,8 @@ pub(super) fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbilit
 }
 
 impl ScaleFile {
-    /// Returns `true` if a reader's ability can be estimated on the release with the given index, either through
-    /// anchors, or through planners if the correlation is strong enough.
+    /// Returns `true` if a reader's ability can be estimated on the release with the given index. The release
+    /// must be linked through anchors, or through planners with a sufficient correlation.
     pub fn links_readers(&self, month: usize) -> bool {
         let is_anchored = month == 0 || self.months[month].anchors >= ANCHORS;
         is_anchored || self.correlation.is_some_and(|found| found.low >= LEAST_CORRELATION)

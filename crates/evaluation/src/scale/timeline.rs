@@ -1,4 +1,4 @@
-//! Months on one scale: the abilities of players over time, and the difficulty of each month.
+//! A timeline of the months on one scale, with the abilities of players and the difficulty of each month.
 
 use super::file::{Estimate, ScaleFile, Span};
 use super::person::{MonthAbility, PersonAbility, Refusal, of_person};
@@ -10,17 +10,17 @@ use serde::Serialize;
 use statistics::{Z95, benjamini_hochberg, chi_squared_p};
 use std::collections::BTreeSet;
 
-/// The months of a scale with the abilities of players on them.
+/// The months of a scale, with the abilities of players on them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Timeline {
-    /// The step limit.
+    /// The maximum number of actions per episode.
     pub max_steps: u64,
     /// The correlation between the difficulties for planners and for readers.
     pub correlation: Option<Span>,
-    /// The months, in order from the first one.
+    /// The months of the scale, starting with the first month.
     pub months: Vec<TimelineMonth>,
-    /// The players. Those that the scale was not calibrated with come first. Each group is sorted by descending mean
-    /// ability.
+    /// The players of the timeline. Players that were not used to calibrate the scale come first. Each of the
+    /// two groups is sorted by descending mean ability.
     pub players: Vec<TimelinePlayer>,
 }
 
@@ -31,22 +31,22 @@ pub struct TimelineMonth {
     pub name: String,
     /// The root digest of the month, if it is a snapshot.
     pub snapshot: Option<Digest>,
-    /// The number of games.
+    /// The number of games in the month.
     pub games: u64,
-    /// The number of levels.
+    /// The number of levels in the month.
     pub levels: u64,
-    /// The mean difficulty relative to the first month, for any planner and for any reader.
+    /// The mean difficulty relative to the first month, for arbitrary planners and for arbitrary readers.
     pub shifts: [Estimate; 2],
-    /// The same difference for exactly the planners of the scale.
+    /// The mean difficulty relative to the first month, for exactly the planners of the scale.
     pub planners_shift: Estimate,
     /// The standard deviations of the difficulties of the month's levels, for planners and for readers.
     pub spreads: [f64; 2],
     /// The mean misfit of the month's games, which is about 1 if the episodes fit the model.
     pub misfit: f64,
-    /// The number of the scale's readers that played the month.
+    /// The number of anchors that played the month. Anchors are the readers among the scale's examinees.
     pub anchors: u64,
-    /// The additional difficulty of the month for the anchors, beyond the one that its difficulty for planners
-    /// implies.
+    /// The additional difficulty of the month for the anchors, beyond the value implied by its difficulty for
+    /// planners.
     pub drift: Option<Estimate>,
     /// `true` if the 95% interval of the drift excludes 0.
     pub is_drift_flagged: bool,
@@ -58,35 +58,38 @@ pub struct TimelinePlayer {
     /// The abilities of the player.
     #[serde(flatten)]
     pub ability: PersonAbility,
-    /// `true` if the scale was calibrated with the player, so that its abilities are not independent evidence.
+    /// `true` if the player was used to calibrate the scale, so that its abilities are not independent
+    /// evidence.
     pub is_examinee: bool,
-    /// The versions of the suite that the player was evaluated with, in the order of the ability's `months`.
+    /// The versions of the suite with which the player was evaluated, in the order of the ability's `months`.
     pub suites: Vec<BTreeSet<String>>,
-    /// The evidence for a change; `None` with fewer than two months in which the player both won and lost.
+    /// The evidence that the ability changed. `None` if the player has both won and lost in fewer than two
+    /// months.
     pub change: Option<Change>,
 }
 
 /// The evidence that a player's ability changed over the months.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// The number of months in which the player both won and lost episodes. Other months have no interval with two
-    /// ends.
+    /// The number of months in which the player both won and lost episodes. In other months, the interval of
+    /// the ability has only one end.
     pub months: u64,
-    /// The mean of the abilities, weighted by their errors.
+    /// The mean of the abilities, weighted by the inverse squares of their errors.
     pub mean: Estimate,
-    /// The ability in the last of these months minus the ability in the first.
+    /// The ability in the last month minus the ability in the first month. Only months in which the player
+    /// both won and lost are considered.
     pub from_first_to_last: Span,
-    /// The sum of the squared deviations from the mean, each divided by the square of its error.
+    /// The sum of the squared deviations from the mean, each divided by the square of the ability's error.
     pub chi_squared: f64,
-    /// The probability of a sum at least as large if the ability never changed.
+    /// The probability that the sum is at least as large if the ability never changed.
     pub p: f64,
-    /// The p-value adjusted for the number of players (Benjamini and Hochberg).
+    /// The p-value adjusted for the number of players by the Benjamini–Hochberg method.
     pub q: f64,
 }
 
 impl Timeline {
-    /// Computes the abilities of the players on the months of a scale. Cost: that of one ability for each player and
-    /// month.
+    /// Computes the abilities of the players on the months of a scale. Cost: one estimate of an ability for
+    /// each player and month.
     pub fn of(scale: &ScaleFile, persons: &[PersonPlays]) -> Timeline {
         let mut players = persons.iter().map(|person| TimelinePlayer::of(scale, person)).collect_vec();
         let tested = (0..players.len()).filter(|&at| players[at].change.is_some()).collect_vec();
@@ -133,7 +136,8 @@ impl Timeline {
         }
     }
 
-    /// Returns the players whose ability changed, at 5% with the adjusted p-value, and the number of players tested.
+    /// Returns the players whose ability changed, and the number of players tested. A change is significant
+    /// if the adjusted p-value is at most 5%.
     pub fn changed(&self) -> (Vec<&TimelinePlayer>, usize) {
         let tested = self.players.iter().filter(|player| player.change.is_some()).collect_vec();
         let count = tested.len();
@@ -146,7 +150,8 @@ impl Timeline {
         )
     }
 
-    /// Returns all numbers as tables: abilities, changes, months, and the underlying results.
+    /// Returns all numbers as tables. The tables contain the abilities, the changes, the months, and the
+    /// underlying results.
     pub fn tables(&self) -> Vec<Table> {
         vec![self.abilities(), self.changes(), self.difficulties(), self.plays()]
     }
@@ -255,7 +260,8 @@ impl Timeline {
         table
     }
 
-    /// Returns the table of the results by player and month: the number of wins and of different episodes.
+    /// Returns a table of the results by player and month, with the number of wins and the number of distinct
+    /// episodes.
     fn plays(&self) -> Table {
         let note = "Wins out of the distinct episodes that were placed; a dash if the player did not play. \
                     Suite: the versions of arcade used for the evaluations.";
@@ -306,7 +312,8 @@ impl TimelinePlayer {
 }
 
 impl Change {
-    /// Computes the change; `None` with fewer than two months with wins and losses. `q` is set to `p` for now.
+    /// Computes the change of an ability. Returns `None` if fewer than two months have both wins and losses.
+    /// `q` is set to `p` until it is adjusted.
     fn of(months: &[MonthAbility]) -> Option<Change> {
         let placed = months.iter().filter(|month| month.is_bounded == [true, true]);
         let placed =

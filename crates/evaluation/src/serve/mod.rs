@@ -1,9 +1,9 @@
-//! Players of known strength that see only the prompt, either behind chat completions on loopback or called directly.
+//! Players of known strength that see only the prompt. They are served behind chat completions on loopback,
+//! or called directly ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)).
 //!
-//! They have no access to the game that is played, so everything they know comes from the conversation. They
-//! therefore test the whole path from the state through the prompt and the answer to the action, and can also test
-//! third-party harnesses ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)). The same conversation always
-//! gets the same answer.
+//! These players have no access to the game that is played, so everything they know comes from the
+//! conversation. Therefore, they test the whole path from the state through the prompt and the answer to the
+//! action. They can also test third-party harnesses. The same conversation always gets the same answer.
 
 mod origin;
 mod prompted;
@@ -26,23 +26,25 @@ use shown::Shown;
 use std::fmt;
 use std::str::FromStr;
 
-/// The names of the players that need only a prompt, from weakest to strongest. `planner:NAME` is also accepted.
+/// The names of the players that need only a prompt, from weakest to strongest. Names of the form
+/// `planner:NAME` are also accepted.
 pub const PROMPT_PLAYERS: &[&str] = &["random", "reflex"];
 
-/// A player that answers prompts.
+/// A player that answers prompts without access to the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PromptPlayer {
-    /// A random action other than nil, drawn from the digest of the conversation.
+    /// Plays random actions other than nil, derived from the digest of the conversation.
     Random,
-    /// The shortest way to a good target according to the rules, as described in
-    /// [the documentation](../../../../docs/how-to/serve-player.md).
+    /// Takes the shortest way to a good target according to the rules, as described in [the
+    /// documentation](../../../../docs/how-to/serve-player.md).
     Reflex,
-    /// A planner on the position reconstructed from the prompt, for games whose prompt shows everything relevant.
+    /// Plans from the position reconstructed from the prompt. The prompt of the game must show everything
+    /// relevant.
     Planner(PlannerSpec),
 }
 
 impl PromptPlayer {
-    /// Checks that the player can answer a conversation, at the cost of reading it.
+    /// Checks that the player can answer a conversation. Cost: that of reading the conversation.
     ///
     /// # Errors
     /// Returns an error if the conversation lacks information that the player needs.
@@ -55,8 +57,8 @@ impl PromptPlayer {
         }
     }
 
-    /// Returns the player's answer to a conversation. Cost: O(bytes); for a planner, its budget in forward-model
-    /// calls.
+    /// Returns the player's answer to a conversation. Cost: O(bytes), or the budget in forward-model calls
+    /// for a planner.
     ///
     /// # Errors
     /// Returns an error if the conversation lacks information that the player needs.
@@ -127,7 +129,7 @@ impl Model for PromptPlayer {
     }
 }
 
-/// Returns the seed of the player's random choices, which is a digest of the whole conversation, byte for byte.
+/// Returns the seed of the player's random choices, which is a digest of every byte of the conversation.
 fn seed(messages: &[ChatMessage]) -> Seed {
     let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 served conversation");
     for message in messages {
@@ -140,7 +142,7 @@ fn seed(messages: &[ChatMessage]) -> Seed {
     Seed::from_text(&hasher.finalize().to_hex())
 }
 
-/// Returns the number of tokens billed for a text here, which is one per four bytes.
+/// Returns the number of tokens that the server bills for a text, which is one per four bytes.
 fn tokens(text: &str) -> u64 {
     text.len().div_ceil(4) as u64
 }
@@ -149,7 +151,7 @@ fn prompt_tokens(messages: &[ChatMessage]) -> u64 {
     messages.iter().map(|message| tokens(&message.text)).sum()
 }
 
-/// Returns the actions other than nil, or all actions if there are no others.
+/// Returns all actions except nil, or the unchanged list if it contains only nil.
 fn actions_except_nil(actions: &[Action]) -> Vec<Action> {
     let actions_except_nil: Vec<Action> =
         actions.iter().copied().filter(|&action| action != Action::Nil).collect();

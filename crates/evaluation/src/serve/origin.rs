@@ -1,9 +1,12 @@
-//! Checks of the request's origin. Programs on this machine may send requests, but browser pages from other sites may
-//! not.
+//! Checks the origin of requests. Programs on this machine may send requests, but web pages from other sites
+//! may not.
 //!
-//! A page from anywhere can make a browser send requests to 127.0.0.1. Such requests are recognised by the requested
-//! host name (`Host`, which DNS rebinding cannot hide), the origin of the page (`Origin`), and the content type: a
-//! page may send text to any server, but JSON only to servers that allow it, which this server does not.
+//! Any web page can make a browser send requests to 127.0.0.1. Three headers reveal such requests:
+//!
+//! - `Host` holds the requested host name, which DNS rebinding cannot hide.
+//! - `Origin` holds the origin of the page.
+//! - `Content-Type` is not JSON. A page may send text to any server, but JSON only to servers that allow it,
+//!   and this server does not.
 
 use super::refusal::refusal;
 use axum::extract::Request;
@@ -11,7 +14,7 @@ use axum::http::{HeaderMap, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
-/// The names of this machine.
+/// The host names that refer to this machine.
 const LOOPBACK: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
 
 pub(super) async fn check(request: Request, next: Next) -> Response {
@@ -21,7 +24,7 @@ pub(super) async fn check(request: Request, next: Next) -> Response {
     }
 }
 
-/// Returns the reason for rejecting a request with these headers, if there is one.
+/// Returns the reason for rejecting a request with the given method and headers, if there is one.
 fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static str, &'static str)> {
     let all = |name| headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default());
     let hosts: Vec<&str> = all(header::HOST).collect();
@@ -54,7 +57,7 @@ fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static
     None
 }
 
-/// Returns `true` if a name, optionally with a port, refers to this machine.
+/// Returns `true` if a host name with an optional port refers to this machine.
 fn is_loopback(authority: &str) -> bool {
     let is_port = |rest: &str| {
         rest.is_empty()

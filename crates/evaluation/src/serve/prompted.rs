@@ -1,4 +1,5 @@
-//! A served player without a server. It gets the same prompts, and its answers are read in the same way.
+//! A served player that is called directly, without a server. It gets the same prompts, and its answers are
+//! read in the same way.
 
 use super::PromptPlayer;
 use crate::log::Journal;
@@ -7,8 +8,8 @@ use crate::prompt::{Attempt, Past, Prompter};
 use crate::turn::Turn;
 use std::sync::Arc;
 
-/// An agent that plays the answers of a [`PromptPlayer`] to the prompts of a game. Its log holds no prompts, because
-/// they are determined by the settings and the state.
+/// An agent that plays the answers of a [`PromptPlayer`] to the prompts of a game. Its log contains no
+/// prompts, because they are determined by the settings and the state.
 #[derive(Debug)]
 pub struct Prompted {
     player: PromptPlayer,
@@ -34,7 +35,7 @@ impl Agent for Prompted {
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {
-        // The same prompt gets the same answer, so the text need not be kept.
+        // The same prompt gets the same answer, so the answer need not be stored.
         self.act(turn, &mut Journal::in_memory()).map(|_| ())
     }
 }

@@ -1,11 +1,11 @@
-//! Refusals of requests.
+//! Error responses for requests that are rejected.
 
 use axum::Json;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde_json::json;
 
-/// Returns an error in the format of the real APIs.
+/// Returns an error response in the format of the real APIs.
 pub(super) fn refusal(status: StatusCode, code: &str, message: &str) -> Response {
     let kind = if status.is_server_error() { "server_error" } else { "invalid_request_error" };
     let error = json!({"error": {"message": message, "type": kind, "param": null, "code": code}});

@@ -1,7 +1,8 @@
-//! Planning on a position that is reconstructed from the prompt.
+//! Plans from a position that is reconstructed from the prompt.
 //!
-//! This works if the prompt shows everything relevant: the rules as VGDL, a deterministic game that waits for the
-//! player, and sprites without hidden state. If this is not certain, there is no answer.
+//! The prompt must show everything relevant. The rules must be shown as VGDL, the game must be deterministic
+//! and wait for the player, and the sprites must have no hidden state. If any of these conditions is
+//! uncertain, the player does not answer.
 
 use super::Unanswerable;
 use super::shown::Shown;
@@ -13,7 +14,7 @@ use engine::syntax::{Description, MappingLine, parse};
 use engine::{Action, Analysis, Direction, Game, Level, State};
 use std::collections::BTreeMap;
 
-/// The number of forward-model calls per decision, if the planner's name does not set it.
+/// The number of forward-model calls per decision, if the planner's name does not contain a budget.
 const BUDGET: Budget = Budget(1000);
 
 /// The effects that change only sprite positions and the avatar's resources.
@@ -43,11 +44,11 @@ const SHOWN_EFFECTS: &[&str] = &[
 /// The terminations that depend only on sprite positions or the clock.
 const SHOWN_ENDINGS: &[&str] = &["SpriteCounter", "SpriteCounterMore", "MultiSpriteCounter", "Timeout"];
 
-/// Plans the due actions on the position that a prompt shows.
+/// Plans the due actions from the position that a prompt shows.
 ///
 /// # Errors
-/// Returns an error if the prompt does not show a position of a game that can be planned on. The message states the
-/// missing part.
+/// Returns an error if the prompt does not show a position from which the player can plan. The message states
+/// what is missing.
 pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Result<Vec<Action>, Unanswerable> {
     let (game, state) = position(shown, seed.child("unused", 0))
         .map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))?;
@@ -60,16 +61,16 @@ pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Resul
     Ok(actions)
 }
 
-/// Checks that a position can be planned on.
+/// Checks that a prompt shows a position from which the player can plan.
 ///
 /// # Errors
-/// See [`choose`].
+/// Returns an error in the same cases as [`choose`].
 pub(super) fn check(shown: &Shown<'_>, spec: &PlannerSpec) -> Result<(), Unanswerable> {
     let found = position(shown, Seed::from_text("unused"));
     found.map(drop).map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))
 }
 
-/// Reconstructs the position that a prompt shows, in an equivalent game, or returns the reason why this is
+/// Reconstructs the position that a prompt shows, in an equivalent game. Returns the reason if this is
 /// impossible. The result does not depend on the seed.
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
@@ -82,7 +83,7 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Position { game, level } = Position::of(description, shown)?;
     let facing = shown.you.and_then(|you| you.facing).and_then(direction);
     let held = shown.held.iter().flatten();
-    // The prompt gives names in the plural for several.
+    // For amounts above one, the prompt gives the names of resources in the plural.
     let resource = |name: &str, amount: i32| {
         game.sprite_types().find(|&stype| match amount {
             1 => game.name(stype) == name,
@@ -94,8 +95,8 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     Ok((game, state))
 }
 
-/// Checks that a board, the avatar's resources and its direction determine the state of a game, and returns the
-/// reason if they do not.
+/// Checks that the state of a game is determined by the board and by the avatar's resources and direction.
+/// Returns the reason if the state is not determined.
 fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     let game = analysis.game();
     let possible = || game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
@@ -135,7 +136,7 @@ fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     }
 }
 
-/// A game with a level mapping for the position, and the position as a level.
+/// A reconstructed position: a game with a suitable level mapping, and the position in the form of a level.
 struct Position {
     game: Game,
     level: Level,
@@ -209,7 +210,7 @@ mod tests {
     use crate::turn::{Turn, choices};
     use std::path::Path;
 
-    /// Returns the visible part of a state, without ticks and score.
+    /// Returns the visible part of a state, without the tick and the score.
     fn seen(legend: &Legend, game: &Game, state: &State) -> impl PartialEq + std::fmt::Debug + use<> {
         let seen = game.observe(state);
         let board = (encoding::grid(&seen, legend), encoding::stacks(&seen, legend));
@@ -218,7 +219,8 @@ mod tests {
         (seen.outcome, avatar, resources, board)
     }
 
-    /// Positions of corpus games that can be planned on continue in the same way as the original states.
+    /// Positions of corpus games that are reconstructed from prompts continue in the same way as the original
+    /// states.
     #[test]
     fn positions_read_from_a_board_play_like_the_original() {
         let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };

@@ -1,4 +1,4 @@
-//! OpenAI-compatible chat completions that a player answers.
+//! A server with OpenAI-compatible chat completions, which a player answers.
 
 use super::refusal::refusal;
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use tokio::sync::oneshot;
 
-/// A server that is bound to its port but is not answering yet.
+/// A server that is bound to its port but does not answer yet.
 #[derive(Debug)]
 pub struct Server {
     player: PromptPlayer,
@@ -28,7 +28,8 @@ pub struct Server {
 }
 
 impl Server {
-    /// Binds a port of 127.0.0.1, or any free port if `port` is 0. Only this machine can reach it.
+    /// Binds a port of 127.0.0.1, or any free port if `port` is 0. Only programs on this machine can reach
+    /// the server.
     ///
     /// # Errors
     /// Returns an error if the port cannot be bound.
@@ -41,7 +42,7 @@ impl Server {
         bound.map_err(EvaluationError::io("listen on", place.as_ref()))
     }
 
-    /// Replaces the limits.
+    /// Replaces the server's limits.
     pub fn within(self, bounds: Bounds) -> Server {
         Server { bounds, ..self }
     }
@@ -51,12 +52,13 @@ impl Server {
         self.address
     }
 
-    /// Returns the base URL for clients.
+    /// Returns the base URL that clients must use.
     pub fn base_url(&self) -> String {
         format!("http://{}/v1", self.address)
     }
 
-    /// Answers until the program ends. A player that thinks for a long time does not delay other requests.
+    /// Answers requests until the program ends. A player that thinks for a long time does not delay other
+    /// requests.
     ///
     /// # Errors
     /// Returns an error if the server cannot be started.
@@ -64,7 +66,7 @@ impl Server {
         self.run_until(std::future::pending())
     }
 
-    /// Answers in the background until the returned handle is dropped.
+    /// Answers requests in the background until the returned handle is dropped.
     pub fn spawn(self) -> Running {
         let base_url = self.base_url();
         let (stop, stopped) = oneshot::channel();
@@ -94,7 +96,7 @@ pub struct Running {
 }
 
 impl Running {
-    /// Returns the base URL for clients.
+    /// Returns the base URL that clients must use.
     pub fn base_url(&self) -> &str {
         &self.base_url
     }
@@ -129,7 +131,7 @@ fn router(player: PromptPlayer, bounds: Bounds) -> Router {
         .with_state(Arc::new(Serving { player, bodies: Bodies::new(bounds) }))
 }
 
-/// The state needed for an answer.
+/// The state that is needed to answer a request.
 struct Serving {
     player: PromptPlayer,
     bodies: Bodies,
@@ -168,7 +170,7 @@ async fn complete(
         Ok(read) => read,
         Err(why) => return unreadable(&why),
     };
-    // A client that has sent its request and waits for the player does not block other clients.
+    // A connection whose complete request is waiting for the player does not block other clients.
     let _kept = asker.keep();
     let answered = tokio::task::spawn_blocking(move || {
         let answered = completion(&serving.player, &body);
@@ -182,7 +184,7 @@ async fn complete(
     }
 }
 
-/// Returns the answer to a request whose body could not be read.
+/// Returns the response to a request whose body could not be read.
 fn unreadable(why: &Unread) -> Response {
     let (status, code) = match why {
         Unread::TooLarge(_) => (StatusCode::PAYLOAD_TOO_LARGE, "unreadable_body"),

@@ -1,53 +1,55 @@
-//! The content of a conversation, parsed from its text (`docs/reference/prompts.md` describes the sections).
+//! Parses the text of a conversation (`docs/reference/prompts.md` describes the sections of prompts).
 
 use super::unanswerable::Unanswerable;
 use crate::client::ChatMessage;
 use engine::Action;
 use std::collections::BTreeMap;
 
-/// The maximum number of actions in a plan, because a served player does not know how long the game lasts.
+/// The maximum number of actions in a plan. A limit is needed because a served player does not know how long
+/// the game lasts.
 const MAX_PLAN: u64 = 1000;
 
-/// The character of the avatar, unless the legend defines others.
+/// The character of the avatar, unless the legend defines a different character.
 const AVATAR: char = '@';
 
-/// A prompt in parsed form.
+/// The parsed content of a prompt.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shown<'a> {
-    /// The sentences of the rules in order, including those about the keys.
+    /// The sentences of the rules in order, including the sentences about the keys.
     pub(super) rules: Vec<&'a str>,
     /// The rules as VGDL, if the prompt has them in this form.
     pub(super) vgdl: Option<&'a str>,
     pub(super) actions: Vec<Action>,
-    /// The number of columns of the board; 0 without a board.
+    /// The number of columns of the board, or 0 if there is no board.
     pub(super) columns: usize,
-    /// The names in each cell, in row-major order, from the lowest to the uppermost, without floors.
+    /// The names in each cell, in row-major order. Within a cell, they run from the lowest to the uppermost
+    /// sprite, without floors.
     pub(super) cells: Vec<Vec<&'a str>>,
-    /// The names that the board does not show.
+    /// The names of floors, which the board does not show.
     pub(super) floors: Vec<&'a str>,
     pub(super) tick: u32,
-    /// The player's position and type; `None` if the player is gone.
+    /// The player's position and type, or `None` if the player is gone.
     pub(super) you: Option<You<'a>>,
-    /// The player's resources; `None` if the prompt does not list them.
+    /// The player's resources, or `None` if the prompt does not list them.
     pub(super) held: Option<BTreeMap<&'a str, i32>>,
-    /// The number of actions to answer with.
+    /// The number of actions that the answer must contain.
     pub(super) due: u64,
-    /// `true` if the prompt asks for a plan instead of a single action.
+    /// `true` if the prompt requests a plan instead of a single action.
     is_plan: bool,
-    /// The numbered actions, if answers are numbers as in the reference's style.
+    /// The numbered actions, if answers must be numbers, as in the reference's style.
     numbered: Option<Vec<Action>>,
 }
 
 /// The position and type of the player.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct You<'a> {
-    /// The player's type, as far as the prompt states it.
+    /// The player's type as stated in the prompt, or else the name of the player in the legend.
     pub(super) name: &'a str,
     pub(super) cell: usize,
     pub(super) facing: Option<Action>,
 }
 
-/// Returns the first section of a message with this heading.
+/// Returns the first section of a message with the given heading.
 fn section<'a>(message: &'a ChatMessage, heading: &str) -> Option<&'a str> {
     crate::prompt::sections(&message.text)
         .into_iter()
@@ -56,8 +58,8 @@ fn section<'a>(message: &'a ChatMessage, heading: &str) -> Option<&'a str> {
 }
 
 impl<'a> Shown<'a> {
-    /// Parses a conversation: the static part from its first message, and the turn from the last message that
-    /// contains one.
+    /// Parses a conversation. The static part is in the first message, and the turn is in the last message
+    /// that contains one.
     ///
     /// # Errors
     /// Returns an error if the conversation lists no actions.
@@ -109,7 +111,7 @@ impl<'a> Shown<'a> {
         Ok(shown)
     }
 
-    /// Formats actions as the conversation requires: a single action, or the runs of a plan.
+    /// Formats actions in the form that the conversation requires, which is a single action or a plan.
     pub(super) fn answer(&self, actions: &[Action]) -> String {
         let action = actions.first().copied().unwrap_or(Action::Nil);
         match &self.numbered {
@@ -129,7 +131,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// Parses `nil, up, left`, or one line per action with its number.
+    /// Parses a list such as `nil, up, left`, or one line per action with its number.
     fn read_actions(&mut self, section: &str) {
         let numbered =
             |line: &str| line.split_once(": ACTION_").and_then(|(_, name)| action(&name.to_lowercase()));
@@ -170,7 +172,7 @@ impl<'a> Shown<'a> {
         self.you = self.you.filter(|you| you.cell < self.cells.len());
     }
 
-    /// Parses the piles, one per line: `frost over snow: (3,4) (5,4)`.
+    /// Parses piles of sprites, one per line, such as `frost over snow: (3,4) (5,4)`.
     fn read_stacks(&mut self, section: &'a str) {
         for line in section.lines() {
             let Some((names, places)) = line.split_once(": ") else { continue };
@@ -195,7 +197,8 @@ struct Symbols<'a> {
 }
 
 impl<'a> Symbols<'a> {
-    /// Parses `w wall`, `@ you: bare or armed`, `. nothing or floor`, or `wall -> 'w'` in the reference's style.
+    /// Parses a legend with lines such as `w wall`, `@ you: bare or armed` and `. nothing or floor`, or with
+    /// lines such as `wall -> 'w'` in the reference's style.
     fn of(legend: &'a str) -> Symbols<'a> {
         let mut symbols = Symbols { names: BTreeMap::new(), you: AVATAR, floors: Vec::new() };
         for line in legend.lines() {
@@ -223,7 +226,7 @@ impl<'a> Symbols<'a> {
     }
 }
 
-/// Parses `2 key, 1 gem.`, possibly followed by other sentences, or `nothing.`
+/// Parses resources such as `2 key, 1 gem.` or `nothing.`, possibly followed by other sentences.
 fn holdings(text: &str) -> BTreeMap<&str, i32> {
     let list = text.split_once('.').map_or(text, |(list, _)| list);
     let items = list.split(", ").filter_map(|item| item.split_once(' '));
@@ -236,7 +239,7 @@ fn leading_number(text: &str) -> Option<u64> {
     text[..end].parse().ok()
 }
 
-/// Parses a list of actions: `nil, up, left`.
+/// Parses a list of actions such as `nil, up, left`.
 fn actions_of(list: &str) -> Vec<Action> {
     list.split(", ").filter_map(|word| action(word.trim())).collect()
 }

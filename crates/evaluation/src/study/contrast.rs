@@ -1,4 +1,5 @@
-//! Comparisons of two players: different models, a model in both modes, and a model with and without an aid.
+//! Compares pairs of players. A pair may consist of different models, of one model in both modes, or of one
+//! model with and without an aid.
 
 use crate::study::player::{CONTEXTUAL, ZERO_SHOT};
 use crate::study::scores::{Estimate, StudyEpisode, observations};
@@ -11,81 +12,84 @@ use statistics::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Comparisons of pairs of players. Each of the three lists is a separate family for the Benjamini–Hochberg
-/// correction: all pairs on all levels, on all games, and over all games. A family includes every pair with episodes
-/// on both sides, even ties, so that it does not depend on the results.
+/// The comparisons of pairs of players. Each of the three lists is a separate family for the
+/// Benjamini–Hochberg correction. A family includes every pair with episodes on both sides, even if the
+/// results are equal, so that the family does not depend on the results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Contrasts {
-    /// The comparisons by pair and level.
+    /// The comparisons of each pair on each level.
     pub by_level: Vec<Comparison>,
-    /// The comparisons by pair and game, over all levels of the game.
+    /// The comparisons of each pair on each game, over all levels of the game.
     pub by_game: Vec<Comparison>,
-    /// The comparisons by pair, over all games that both players played.
+    /// The comparisons of each pair over all games that both players played.
     pub overall: Vec<OverallComparison>,
 }
 
 /// A comparison of two players on a level or a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// The indices into the players of the study.
+    /// The indices of the two players in the study.
     pub players: [usize; 2],
-    /// The index into the games of the study.
+    /// The index of the game in the study.
     pub game: usize,
-    /// The number of the level; `None` for all levels.
+    /// The number of the level, or `None` for all levels of the game.
     pub level: Option<usize>,
-    /// The number of wins of each player, with identical episodes counted once.
+    /// The number of wins of each player. Identical episodes count once.
     pub wins: [u64; 2],
-    /// The number of episodes of each player, with identical ones counted once.
+    /// The number of episodes of each player. Identical episodes count once.
     pub episodes: [u64; 2],
     /// The two-sided p-value of Fisher's exact test.
     pub p: f64,
     /// The p-value corrected for all comparisons in the list (Benjamini–Hochberg).
     pub q: f64,
-    /// Cohen's h of the first player's win rate against the second's.
+    /// Cohen's h, which compares the first player's win rate with the second player's.
     pub h: f64,
-    /// The first player's win rate minus the second's, with Newcombe's interval.
+    /// The first player's win rate minus the second player's, with Newcombe's interval.
     pub difference: Estimate,
 }
 
-/// A comparison of two players on all levels that both played. The difference, interval, h, p and q are computed from
-/// the same two rates, which are means over games of means over the levels of a game. They hold for similar games.
+/// A comparison of two players on all levels that both played.
+///
+/// The difference, its interval, h, p and q are computed from the same two rates. Each rate is a mean over
+/// games of means over the levels of a game. The results apply to similar games.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverallComparison {
-    /// The indices into the players of the study.
+    /// The indices of the two players in the study.
     pub players: [usize; 2],
-    /// The number of wins of each player on these levels.
+    /// The number of wins of each player on the common levels.
     pub wins: [u64; 2],
-    /// The number of episodes of each player on these levels.
+    /// The number of episodes of each player on the common levels.
     pub episodes: [u64; 2],
     /// The number of levels that both players played.
     pub levels: u64,
     /// The number of games that both players played.
     pub games: u64,
-    /// The rate of each player.
+    /// The win rate of each player.
     pub rates: [f64; 2],
-    /// The first rate minus the second.
+    /// The first player's rate minus the second player's.
     pub difference: f64,
-    /// The difference with the interval of the paired t test over games; `None` with fewer than two games.
+    /// The difference of the rates with the interval of the paired t test over games. `None` with fewer than
+    /// two games.
     pub over_games: Option<Estimate>,
-    /// The difference if all aborted episodes of the first player had been lost and all of the second player won, and
-    /// vice versa. `None` if no episode was aborted.
+    /// The bounds of the difference. They are computed as if all aborted episodes of one player had been lost
+    /// and all aborted episodes of the other player had been won. `None` if no episode was aborted.
     pub bounds: Option<[f64; 2]>,
-    /// The two-sided p-value of the paired t test over games; `None` with fewer than two games.
+    /// The two-sided p-value of the paired t test over games. `None` with fewer than two games.
     pub p: Option<f64>,
-    /// The p-value corrected for all pairs in the list that have one (Benjamini–Hochberg).
+    /// The p-value corrected for all pairs in the list that have a p-value (Benjamini–Hochberg).
     pub q: Option<f64>,
-    /// Cohen's h of the two players' rates.
+    /// Cohen's h, computed from the two players' rates.
     pub h: f64,
-    /// The exact test within levels, which holds for exactly these levels and not for other games.
+    /// The exact test within levels, which applies to exactly the played levels rather than to other games.
     pub within_levels: WithinLevels,
 }
 
-/// The exact stratified test (Cochran, Mantel, Haenszel), which treats identical episodes as one observation.
+/// The exact stratified test (Cochran, Mantel, Haenszel). Identical episodes count as one observation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WithinLevels {
     /// The two-sided p-value.
     pub p: f64,
-    /// Mantel and Haenszel's common odds ratio; `None` if it is infinite.
+    /// The common odds ratio of Mantel and Haenszel, or `None` if it is infinite.
     pub odds_ratio: Option<f64>,
 }
 
@@ -94,13 +98,13 @@ pub struct WithinLevels {
 struct Counts {
     /// The numbers of wins and of ended episodes.
     all: (u64, u64),
-    /// The same numbers, with identical episodes counted once.
+    /// The numbers of wins and of ended episodes. Identical episodes count once.
     distinct: (u64, u64),
     /// The number of aborted episodes.
     aborted: u64,
 }
 
-/// The results of a player by game and level.
+/// The results of a player, by the indices of game and level.
 type Results = BTreeMap<(usize, usize), Counts>;
 
 impl Contrasts {
@@ -140,8 +144,9 @@ impl Contrasts {
         contrasts
     }
 
-    /// Compares models in the same mode with each other, and with players that are not models. The modes and aids of
-    /// one model are compared in [`Contrasts::modes`] and [`Contrasts::aids`], its other conditions here.
+    /// Compares models in the same mode with each other, and with players that are not models. A model is
+    /// also compared with itself under different conditions. Its modes and aids are compared in
+    /// [`Contrasts::modes`] and [`Contrasts::aids`].
     pub(crate) fn pairs(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.tuple_combinations().filter(|((_, ours), (_, theirs))| {
@@ -155,7 +160,7 @@ impl Contrasts {
         Contrasts::of(study, &pairs.map(|((a, _), (b, _))| [a, b]).collect_vec())
     }
 
-    /// Compares the two modes of the same model, zero-shot first and contextual second.
+    /// Compares the two modes of each model, with zero-shot mode first.
     pub(crate) fn modes(study: &Study) -> Contrasts {
         let partner = |(a, ours): (usize, &super::Player)| {
             let is_partner = |theirs: &super::Player| {
@@ -169,7 +174,8 @@ impl Contrasts {
         Contrasts::of(study, &pairs)
     }
 
-    /// Compares the same model in the same mode without an aid first and with it second.
+    /// Compares each model without an aid and with an aid in the same mode. The variant without the aid comes
+    /// first.
     pub(crate) fn aids(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.clone().cartesian_product(players).filter(|((_, without), (_, with))| {
@@ -189,7 +195,8 @@ impl Contrasts {
         self.overall.is_empty()
     }
 
-    /// Returns the three lists as tables, by increasing p-value. Longer lists are cut after the first `most` rows.
+    /// Returns the three lists as tables, sorted by increasing p-value. Longer lists are shortened to `most`
+    /// rows.
     pub(crate) fn tables(&self, study: &Study, id: &str, title: &str, most: usize) -> Vec<Table> {
         if self.is_empty() {
             return Vec::new();
@@ -322,7 +329,7 @@ impl OverallComparison {
     }
 }
 
-/// Returns the rates of both players on each game, which are means over its levels.
+/// Returns the rates of both players on each game. Each rate is a mean over the levels of the game.
 fn by_game(
     levels: &[(usize, usize)],
     results: [&Results; 2],
@@ -338,8 +345,9 @@ fn by_game(
     games.into_values().map(mean).collect()
 }
 
-/// Returns the difference if all aborted episodes had gone against the first player, and if all had gone in its
-/// favour, over the levels that both players started. `None` if no episode was aborted.
+/// Returns the bounds of the difference on the levels that both players started. The bounds assume that all
+/// aborted episodes went against the first player, or in its favour. Returns `None` if no episode was
+/// aborted.
 fn bounds(results: [&Results; 2]) -> Option<[f64; 2]> {
     let levels: Vec<(usize, usize)> =
         results[0].keys().filter(|level| results[1].contains_key(level)).copied().collect();

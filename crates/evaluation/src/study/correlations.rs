@@ -1,4 +1,5 @@
-//! Correlations with winning: the correlation matrix of the paper (`spec/06` §3 and §5.5).
+//! The correlations between winning and other variables, as in the correlation matrix of the paper (`spec/06`
+//! §3 and §5.5).
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
@@ -6,38 +7,40 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{bonferroni, correlation_p, pearson, spearman};
 
-/// The correlated variables.
+/// The variables whose correlations are computed.
 pub const CORRELATED: [&str; 4] = ["win", "meaningful", "steps", "distance"];
 
-/// The correlations over the episodes of models (of all players, if there is no model) between winning (0 or 1), the
-/// meaningful step ratio, the number of steps, and the distance in cells walked.
+/// The correlations between four variables over the episodes of models, or of all players if there is no
+/// model. The variables are winning (0 or 1), the meaningful step ratio, the number of steps, and the
+/// distance walked in cells.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Correlations {
-    /// The number of episodes with all four values.
+    /// The number of episodes in which all four values are known.
     pub episodes: u64,
-    /// The number of episodes excluded because a value is missing: no step, or no avatar.
+    /// The number of episodes that were excluded because a value is missing. An episode without steps or
+    /// without an avatar lacks a value.
     pub excluded: u64,
-    /// The correlations of the six pairs of variables.
+    /// The correlations of all six pairs of variables.
     pub pairs: Vec<Correlation>,
 }
 
-/// The correlation of two of [`CORRELATED`].
+/// The correlation between two of the variables in [`CORRELATED`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Correlation {
-    /// The indices into [`CORRELATED`].
+    /// The indices of the two variables in [`CORRELATED`].
     pub pair: [usize; 2],
-    /// Pearson's coefficient, with its test; `None` if a variable is constant.
+    /// Pearson's coefficient and its test, or `None` if a variable is constant.
     pub pearson: Option<Test>,
-    /// Spearman's coefficient, with its test (t approximation).
+    /// Spearman's coefficient and its test by the t approximation, or `None` if a variable is constant.
     pub spearman: Option<Test>,
 }
 
-/// A coefficient and its test.
+/// A correlation coefficient and its test.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Test {
     /// The coefficient, from −1 to 1.
     pub r: f64,
-    /// The two-sided p-value, with episodes treated as independent.
+    /// The two-sided p-value. Episodes are treated as independent.
     pub p: f64,
     /// The p-value corrected for the number of pairs (Bonferroni).
     pub adjusted: f64,

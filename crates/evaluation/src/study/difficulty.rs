@@ -1,4 +1,4 @@
-//! The difficulty of games and levels for their players (`spec/06` §2.6).
+//! The difficulty of games and levels for the players of a study (`spec/06` §2.6).
 
 use crate::study::Study;
 use crate::study::scores::{Scores, mean};
@@ -6,25 +6,25 @@ use report::{Table, TableCell};
 use serde::Serialize;
 
 base::named_enum! {
-    /// A difficulty class of a level or a game.
+    /// A difficulty class of a level or a game, based on its score.
     pub enum DifficultyLabel {
-        /// A score of at least 0.8.
+        /// The score is at least 0.8.
         VeryEasy = "very_easy",
-        /// A score of at least 0.6.
+        /// The score is at least 0.6 and below 0.8.
         Easy = "easy",
-        /// A score of at least 0.4.
+        /// The score is at least 0.4 and below 0.6.
         Medium = "medium",
-        /// A score of at least 0.2.
+        /// The score is at least 0.2 and below 0.4.
         Hard = "hard",
-        /// A score below 0.2.
+        /// The score is below 0.2.
         VeryHard = "very_hard",
-        /// No wins, regardless of the score.
+        /// There are no wins, regardless of the score.
         Unbeaten = "unbeaten",
     }
 }
 
 impl DifficultyLabel {
-    /// Returns the label for a score with at least one win.
+    /// Returns the class for the score of a level or game with at least one win.
     fn of(ease: f64) -> DifficultyLabel {
         match ease {
             ease if ease >= 0.8 => DifficultyLabel::VeryEasy,
@@ -39,20 +39,20 @@ impl DifficultyLabel {
 /// The difficulty of a level, or of a game over all its levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DifficultyRow {
-    /// The index into the games of the study.
+    /// The index of the game in the study.
     pub game: usize,
-    /// The number of the level; `None` for the whole game.
+    /// The number of the level, or `None` for the whole game.
     pub level: Option<usize>,
     /// The mean win rate of the players.
     pub win_rate: Option<f64>,
     /// The mean normalised reward of the players.
     pub normalised_reward: Option<f64>,
-    /// The mean step efficiency of the players that won.
+    /// The mean step efficiency of the players that have won.
     pub efficiency: Option<f64>,
-    /// The score `0.6 win rate + 0.2 normalised reward + 0.2 efficiency`, where higher is easier; `None` if a
-    /// component is missing.
+    /// The score `0.6 win rate + 0.2 normalised reward + 0.2 efficiency`. A higher score means an easier
+    /// level. `None` if a component is missing.
     pub ease: Option<f64>,
-    /// The class of the score; `None` if the score is missing although there is a win.
+    /// The class of the score. `None` if there is a win but the score is missing.
     pub label: Option<DifficultyLabel>,
 }
 
@@ -76,7 +76,7 @@ impl DifficultyRow {
     }
 }
 
-/// Returns all games, each followed by its levels.
+/// Returns the rows of all games. Each game is followed by its levels.
 pub(crate) fn difficulties(study: &Study) -> Vec<DifficultyRow> {
     let of_game = |(game, facts): (usize, &super::StudyGame)| {
         let levels = facts.levels.iter().map(|level| Some(level.number));

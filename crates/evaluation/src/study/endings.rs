@@ -1,4 +1,5 @@
-//! The episodes that were not won, by cause: the sprite and the rule that ended them, and the distance from a win.
+//! Groups the episodes that were not won by their cause, which is the sprite and the rule that ended them,
+//! and computes the distance from a win.
 
 use crate::metrics::{EndingKind, GoalDistance};
 use crate::study::{Study, StudyEpisode};
@@ -11,46 +12,46 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The episodes of a player on a game that ended with the same cause.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EndingRow {
-    /// The index into the players of the study.
+    /// The index of the player in the study.
     pub player: usize,
-    /// The index into the games of the study.
+    /// The index of the game in the study.
     pub game: usize,
-    /// The kind of the cause.
+    /// The kind of ending.
     pub kind: EndingKind,
-    /// The cause as a phrase: `died of touching dragonfly`.
+    /// The cause as a phrase, such as `died of touching dragonfly`.
     pub cause: String,
-    /// The sprites of the cause as a phrase, if there are any: `of touching dragonfly`.
+    /// The sprites of the cause as a phrase, such as `of touching dragonfly`, if there are any.
     pub particulars: Option<String>,
-    /// The line of the game that caused the ending, as written.
+    /// The line of the game description that caused the ending, as written.
     pub rule: Option<String>,
-    /// The number of episodes.
+    /// The number of episodes with this cause.
     pub episodes: u64,
-    /// The numbers of the levels with these episodes.
+    /// The numbers of the levels on which these episodes were played.
     pub levels: BTreeSet<usize>,
-    /// The smallest distance from a win among these episodes.
+    /// The smallest distance from a win among the episodes with this cause.
     pub nearest: Option<GoalDistance>,
 }
 
-/// The episodes that a player did not win.
+/// A summary of the episodes that a player did not win.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EndingSummary {
-    /// The index into the players of the study.
+    /// The index of the player in the study.
     pub player: usize,
-    /// The number of episodes.
+    /// The number of episodes that were not won.
     pub episodes: u64,
-    /// The number of episodes by kind of cause. Kinds that did not occur are missing.
+    /// The number of episodes by kind of ending. Kinds that did not occur are omitted.
     pub kinds: BTreeMap<EndingKind, u64>,
-    /// The causes, most frequent first, as indices into the rows of the study.
+    /// The indices of the player's rows in the study, most frequent cause first.
     pub causes: Vec<usize>,
 }
 
-/// Returns one row for each player, game and cause. Models come before references, each group in the order of the
-/// leaderboard, and the most frequent causes come first.
+/// Returns one row for each player, game and cause. Models come before reference players, each group in the
+/// order of the leaderboard. For each player, the most frequent causes come first.
 pub(crate) fn endings(study: &Study) -> Vec<EndingRow> {
     players(study).flat_map(|player| of_player(study, player)).collect()
 }
 
-/// Returns the players in the order of the tables.
+/// Returns the players in the order in which tables list them.
 fn players(study: &Study) -> impl Iterator<Item = usize> + '_ {
     let players = study.leaderboard.iter().map(|row| row.player);
     players.sorted_by_key(|&player| study.players[player].is_reference())
@@ -79,7 +80,7 @@ fn of_player(study: &Study, player: usize) -> Vec<EndingRow> {
     rows.into_values().sorted_by_key(|row| Reverse(row.episodes)).collect()
 }
 
-/// Returns the smallest of the distances, and the first one among equal ones.
+/// Returns the smallest of the distances. If several distances are equal, the first one is returned.
 pub(crate) fn nearest<'a>(distances: impl Iterator<Item = &'a GoalDistance>) -> Option<&'a GoalDistance> {
     distances.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
 }
@@ -103,7 +104,8 @@ impl Study {
     /// cause of each kind comes before other causes of that kind. Aborted episodes come last.
     pub fn telling(&self, player: usize, count: usize) -> Vec<&StudyEpisode> {
         let causes: Vec<&EndingRow> = self.endings.iter().filter(|row| row.player == player).collect();
-        // For each cause, its index among the causes of its kind, and the number of episodes so far.
+        // `numbers` holds the index of each cause among the causes of its kind, and `seen` the number of its
+        // episodes so far.
         let of_kind = |at: usize| causes[..at].iter().filter(|row| row.kind == causes[at].kind).count();
         let numbers: Vec<usize> = (0..causes.len()).map(of_kind).collect();
         let mut seen = vec![0_usize; causes.len()];

@@ -1,4 +1,4 @@
-//! The movement in won and lost episodes (`spec/06` §2.7 and §5.4).
+//! Compares the movement in won episodes with the movement in other episodes (`spec/06` §2.7 and §5.4).
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
@@ -10,25 +10,25 @@ use statistics::{bonferroni, quantile, welch};
 use std::collections::BTreeMap;
 
 base::named_enum! {
-    /// A failure-mode metric.
+    /// A failure-mode metric, computed for each episode.
     pub enum FailureMeasure {
         /// The fraction of steps that were not meaningful.
         BumpRate = "bump_rate",
-        /// The length of the longest run of steps that were not meaningful.
+        /// The length of the longest sequence of steps that were not meaningful.
         MaxBumps = "max_bumps",
         /// The bump rate in the last quarter of the steps.
         LateBumpRate = "late_bump_rate",
-        /// The fraction of steps that returned directly to the previous cell.
+        /// The fraction of steps that returned to the cell of two steps before.
         OscillationRate = "oscillation_rate",
         /// The number of distinct cells visited by the avatar.
         UniqueCells = "unique_cells",
-        /// The unique cells divided by the area of their bounding rectangle.
+        /// The number of distinct cells visited divided by the area of their bounding rectangle.
         Coverage = "coverage",
     }
 }
 
 impl FailureMeasure {
-    /// Returns the name for headings.
+    /// Returns the name of the metric for use in headings.
     pub fn title(self) -> &'static str {
         match self {
             FailureMeasure::BumpRate => "bump rate",
@@ -54,31 +54,33 @@ impl FailureMeasure {
     }
 }
 
-/// A metric over the won and the other episodes of models (of all players, if there is no model).
+/// The values of a metric in won episodes and in other episodes of models. If there is no model, all players
+/// are included.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailureMode {
-    /// The metric.
+    /// The failure-mode metric.
     pub measure: FailureMeasure,
     /// The values in won episodes.
     pub won: Vec<f64>,
     /// The values in all other episodes.
     pub lost: Vec<f64>,
-    /// The number of episodes without a value.
+    /// The number of episodes that were excluded because the metric has no value.
     pub excluded: u64,
-    /// Welch's test of the means, won minus lost; `None` with fewer than two values on a side, or without variance.
+    /// Welch's test of the difference between the means, won minus other episodes. `None` if either side has
+    /// fewer than two values, or if there is no variance.
     pub welch: Option<WelchTest>,
 }
 
 /// The result of Welch's t test.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WelchTest {
-    /// The difference of the means, in standard errors.
+    /// The t statistic, which is the difference between the means in standard errors.
     pub t: f64,
     /// The degrees of freedom.
     pub df: f64,
-    /// The two-sided p-value, with episodes treated as independent.
+    /// The two-sided p-value. Episodes are treated as independent.
     pub p: f64,
-    /// The p-value corrected for the six metrics (Bonferroni). The paper does not correct here.
+    /// The p-value corrected for the six metrics (Bonferroni). The paper does not apply this correction.
     pub adjusted: f64,
 }
 
@@ -103,16 +105,16 @@ pub(crate) fn failures(study: &Study) -> Vec<FailureMode> {
     modes
 }
 
-/// The oscillation of a player on a level.
+/// The oscillation rate of a player on a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OscillationRow {
-    /// The index into the players of the study.
+    /// The index of the player in the study.
     pub player: usize,
-    /// The index into the games of the study.
+    /// The index of the game in the study.
     pub game: usize,
     /// The number of the level.
     pub level: usize,
-    /// The mean oscillation rate.
+    /// The mean oscillation rate of the episodes.
     pub rate: f64,
     /// The number of episodes.
     pub episodes: u64,
@@ -120,8 +122,8 @@ pub struct OscillationRow {
     pub wins: u64,
 }
 
-/// Returns the levels on which models (all players, if there is no model) oscillate, most oscillation first. Levels
-/// without oscillation are omitted.
+/// Returns the levels on which models oscillate, highest rate first. If there is no model, all players are
+/// included. Levels without oscillation are omitted.
 pub(crate) fn oscillations(study: &Study) -> Vec<OscillationRow> {
     let mut groups: BTreeMap<(usize, usize, usize), Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.tested() {

@@ -1,4 +1,4 @@
-//! The horizon of players, which is the commitment at which they still win half of their episodes.
+//! The horizons of players. A player's horizon is the commitment at which it still wins half of its episodes.
 
 use crate::study::scores::Estimate;
 use crate::study::{Player, Study, StudyEpisode};
@@ -12,53 +12,56 @@ use std::collections::BTreeMap;
 const RESAMPLES: usize = 1000;
 
 base::named_enum! {
-    /// The games of a horizon, by what the player must foresee.
+    /// The kind of games on which a horizon is measured, by what a player must foresee.
     pub enum Foresight {
         /// Deterministic games, in which the future follows from the rules.
         Exact = "deterministic",
         /// Stochastic games, in which a plan must work for every outcome.
         Robust = "stochastic",
-        /// Both kinds of games, and games whose kind is unknown.
+        /// Games of both kinds, and games whose kind is unknown.
         All = "all",
     }
 }
 
-/// A player's horizon, which is the commitment at which it still wins half of its episodes.
+/// A player's horizon, which is the commitment at which the player still wins half of its episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HorizonRow {
     /// The player, without its commitment.
     pub player: Player,
-    /// The games.
+    /// The kind of games on which the horizon is measured.
     pub games: Foresight,
-    /// The win rates by commitment, in ascending order.
+    /// The win rates, sorted by ascending commitment.
     pub rates: Vec<CommitmentRate>,
-    /// The horizon, in ticks, with its interval over games.
+    /// The horizon in ticks, with its interval over games.
     pub horizon: Option<Estimate>,
-    /// The bounds of the horizons that can be reported: from a quarter of the smallest effective commitment, but at
-    /// least one tick, to four times the largest one.
+    /// The lowest and the highest horizon that can be reported. The lowest is a quarter of the smallest
+    /// effective commitment, but at least one tick. The highest is four times the largest effective
+    /// commitment.
     pub range: [f64; 2],
 }
 
-/// The win rate of a player at one commitment.
+/// The win rate of a player with one commitment.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CommitmentRate {
     /// The commitment in the notation of results: a number, or `all`.
     pub commit: String,
-    /// The mean of the effective commitments, in ticks. They are at most the shortest known win of the level.
+    /// The mean of the effective commitments, in ticks. An effective commitment is at most the length of the
+    /// level's shortest known win.
     pub ticks: f64,
-    /// The win rate.
+    /// The win rate with its interval.
     pub rate: Option<Estimate>,
     /// The number of ended episodes.
     pub episodes: u64,
 }
 
 impl HorizonRow {
-    /// Formats the horizon: `12`, or `≥ 80` if only a bound is known; `–` if it is unknown.
+    /// Formats the horizon, such as `12`, or `≥ 80` if only a bound is known. An unknown horizon is formatted
+    /// as `–`.
     pub fn told_value(&self) -> String {
         self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
     }
 
-    /// Formats the interval, or a single bound if both ends equal it.
+    /// Formats the interval of the horizon, or a single bound if both ends are equal.
     pub fn told_interval(&self) -> String {
         self.horizon.map_or(String::new(), |found| {
             let [low, high] = [found.low, found.high].map(|end| self.bounded(end));
@@ -66,7 +69,7 @@ impl HorizonRow {
         })
     }
 
-    /// Returns the label of the player, with the kind of games unless it is [`Foresight::All`].
+    /// Returns the label of the player and the kind of games. The kind is omitted for [`Foresight::All`].
     pub fn title(&self) -> String {
         match self.games {
             Foresight::All => self.player.label(),
@@ -74,7 +77,7 @@ impl HorizonRow {
         }
     }
 
-    /// Formats a number of ticks. The bounds of the range get a sign.
+    /// Formats a number of ticks. At the ends of the range, the number is preceded by `≤` or `≥`.
     fn bounded(&self, ticks: f64) -> String {
         let [least, most] = self.range;
         let sign = if ticks <= least {
@@ -89,8 +92,8 @@ impl HorizonRow {
     }
 }
 
-/// Returns one row for each player with several commitments and each kind of game that it played, furthest horizon
-/// first.
+/// Returns one row for each player with several commitments and each kind of games that it played. The
+/// furthest horizon comes first.
 pub(super) fn horizons(study: &Study) -> Vec<HorizonRow> {
     let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
@@ -124,8 +127,8 @@ pub(super) fn horizons(study: &Study) -> Vec<HorizonRow> {
     rows
 }
 
-/// Returns the number of ticks in the shortest known win of each level, by game and level: the proved one, or the
-/// shortest win of any player in the study.
+/// Returns the length of the shortest known win in ticks, by game and level. The shortest known win is a proved
+/// one, or else the shortest win of any player in the study.
 fn shortest_wins(study: &Study) -> BTreeMap<(usize, usize), u64> {
     let mut shortest = BTreeMap::new();
     let wins = study.episodes.iter().filter(|episode| episode.metrics.won());
@@ -144,7 +147,7 @@ fn row(
     episodes: &[&StudyEpisode],
     shortest: &BTreeMap<(usize, usize), u64>,
 ) -> HorizonRow {
-    // A commitment beyond the shortest win is effectively a commitment to the win.
+    // A commitment beyond the shortest win is effectively a commitment to the length of the win.
     let ticks = |episode: &StudyEpisode| {
         let metrics = &episode.metrics;
         let known = shortest.get(&(episode.game, metrics.level)).copied().unwrap_or(u64::MAX);
@@ -164,7 +167,7 @@ fn row(
     let seed = blake3::hash(format!("horizon {} {}", player.label(), games.name()).as_bytes());
     let found = half_point(&groups, RESAMPLES, super::LEVEL, *seed.as_bytes());
     let doses = || groups.iter().flatten().flatten().map(|trials| trials.dose);
-    // No player looks more often than before every action.
+    // No player decides more often than once per action.
     let range = [(doses().fold(f64::INFINITY, f64::min) / 4.0).max(1.0), doses().fold(0.0, f64::max) * 4.0];
     let by_commitment = episodes.iter().copied().into_group_map_by(|episode| episode.metrics.commit);
     let rates = by_commitment.into_iter().sorted_by_key(|(commit, _)| *commit).map(|(commit, episodes)| {
@@ -184,7 +187,7 @@ fn row(
     HorizonRow { player, games, rates: rates.collect(), horizon, range }
 }
 
-/// Returns the table of horizons; `None` without commitments.
+/// Returns the table of horizons, or `None` if there are no horizons.
 pub(super) fn table(study: &Study) -> Option<Table> {
     if study.horizons.is_empty() {
         return None;

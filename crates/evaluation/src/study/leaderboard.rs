@@ -1,4 +1,4 @@
-//! The win rates of the players, and their costs.
+//! The leaderboard of a study, with the win rates of the players and their costs.
 
 use crate::metrics::{Choices, Spending};
 use crate::study::Study;
@@ -7,27 +7,29 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The results of a player on all levels it played.
+/// The results of a player on all levels that it played.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LeaderRow {
-    /// The index into the players of the study.
+    /// The index of the player in the study.
     pub player: usize,
-    /// The scores.
+    /// The scores over all of the player's episodes.
     pub scores: Scores,
-    /// The win rate if all aborted episodes had been lost, and if all had been won; `None` if no episode was aborted.
+    /// The bounds of the win rate, computed as if all aborted episodes had been lost, or all had been won.
+    /// `None` if no episode was aborted.
     pub bounds: Option<[f64; 2]>,
-    /// The origins of the choices.
+    /// The origins of the player's choices.
     pub choices: Choices,
-    /// The cost of the choices.
+    /// The cost of the player's choices.
     pub spending: Spending,
     /// The mean number of input and output tokens per step.
     pub tokens_per_step: Option<f64>,
-    /// The number of aborted episodes by reason.
+    /// The number of aborted episodes, by the reason for the abort.
     #[serde(rename = "broken_off")]
     pub aborted: BTreeMap<String, u64>,
 }
 
-/// Returns one row per player, sorted by win rate, then by overall score, then in the order of the study.
+/// Returns one row per player, sorted by win rate. Players with equal win rates are sorted by overall score,
+/// and then in the order of the study.
 pub(crate) fn leaderboard(study: &Study) -> Vec<LeaderRow> {
     let mut rows: Vec<LeaderRow> = (0..study.players.len()).map(|player| row(study, player)).collect();
     rows.sort_by(|a, b| {
@@ -58,7 +60,7 @@ fn row(study: &Study, player: usize) -> LeaderRow {
     LeaderRow { player, scores, bounds, choices, spending, tokens_per_step, aborted }
 }
 
-/// Returns the leaderboard and the table of the choices' origins.
+/// Returns two tables: the leaderboard, and the origins of the players' choices.
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let player = |row: &LeaderRow| TableCell::text(study.players[row.player].label());
     let leaders = Table::of(

@@ -1,4 +1,4 @@
-//! The reference results of a release beside the players of a study, on the same levels.
+//! Compares the players of a study with the reference results of a release, on the same levels.
 
 use crate::commitment::Commitment;
 use crate::study::scores::Estimate;
@@ -8,29 +8,30 @@ use serde::Serialize;
 use statistics::{Z95, rate_over_games, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The results of a reference player, or of a player of the study, with a commitment, on the levels of a tier that
-/// have reference results.
+/// The results of one player with one commitment on the levels of a tier that have reference results. The
+/// player is a reference player or a player of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MarkRow {
     /// The tier of the levels.
     pub tier: u8,
-    /// The number of actions that the player commits to at each look, or `all`.
+    /// The number of actions that the player commits to at each decision, or `all`.
     pub commit: String,
     /// The name of a reference player, or the label of a player of the study without its commitment.
     pub player: String,
     /// `true` for a reference player, whose results come from the release.
     pub is_mark: bool,
-    /// The number of levels.
+    /// The number of levels in the tier.
     pub levels: u64,
     /// The number of episodes.
     pub episodes: u64,
-    /// The number of episodes won.
+    /// The number of won episodes.
     pub wins: u64,
-    /// The win rate. Its interval holds for similar games, or for exactly these levels if there is only one game.
+    /// The win rate. Its interval applies to similar games, or to exactly the played levels if there is only
+    /// one game.
     pub rate: Option<Estimate>,
 }
 
-/// The numbers of wins and episodes on each level.
+/// The numbers of wins and episodes, by the indices of game and level.
 type Counts = BTreeMap<(usize, usize), (u64, u64)>;
 
 /// Returns the rows, sorted by tier, commitment and win rate.
@@ -94,7 +95,7 @@ fn row(tier: u8, commit: Commitment, player: String, is_mark: bool, counts: &Cou
     }
 }
 
-/// Returns the table of reference results; `None` without any.
+/// Returns the table of reference results, or `None` if there are no reference results.
 pub(super) fn table(study: &Study) -> Option<Table> {
     if study.marks.is_empty() {
         return None;

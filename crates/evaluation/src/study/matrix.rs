@@ -1,4 +1,4 @@
-//! Heat maps as data: one value for each player on each game or level.
+//! The data of heat maps, with one value for each player on each game or level.
 
 use crate::study::Study;
 use crate::study::player::Player;
@@ -8,11 +8,11 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 base::named_enum! {
-    /// The value shown by a heat map.
+    /// A measure that a heat map can show.
     pub enum Measure {
         /// The number of wins divided by the number of episodes.
         WinRate = "win_rate",
-        /// The overall score.
+        /// The overall score of the paper.
         Overall = "overall",
         /// The mean normalised reward.
         NormalisedReward = "normalised_reward",
@@ -26,7 +26,7 @@ base::named_enum! {
 }
 
 impl Measure {
-    /// Returns the name for headings.
+    /// Returns the name of the measure for use in headings.
     pub fn title(self) -> &'static str {
         match self {
             Measure::WinRate => "Win rate",
@@ -38,7 +38,8 @@ impl Measure {
         }
     }
 
-    /// Returns `true` if higher values are better, `false` if lower values are, and `None` if neither are.
+    /// Returns `true` if higher values are better, and `false` if lower values are better. Returns `None` if
+    /// neither direction is better.
     pub fn higher_is_better(self) -> Option<bool> {
         match self {
             Measure::Steps => None,
@@ -47,12 +48,12 @@ impl Measure {
         }
     }
 
-    /// Returns `true` if the value is a ratio within 0..=1.
+    /// Returns `true` if the value of the measure is always between 0 and 1.
     pub fn is_fraction(self) -> bool {
         self != Measure::Steps
     }
 
-    /// Returns the value from the scores of a set of episodes.
+    /// Returns the value of the measure for a set of episodes with the given scores.
     pub fn of(self, scores: &Scores) -> Option<f64> {
         match self {
             Measure::WinRate => scores.win_rate.map(|rate| rate.value),
@@ -66,19 +67,19 @@ impl Measure {
 }
 
 base::named_enum! {
-    /// The players shown by a heat map. Players that are not models are shown in all heat maps.
+    /// The modes whose models a heat map shows. Players that are not models are shown in all heat maps.
     pub enum Scope {
-        /// Models in zero-shot mode.
+        /// Only models in zero-shot mode.
         ZeroShot = "zero-shot",
-        /// Models in contextual mode.
+        /// Only models in contextual mode.
         Contextual = "contextual",
-        /// Models, with the episodes of both modes pooled.
+        /// All models. The episodes of both modes are pooled.
         Both = "both",
     }
 }
 
 impl Scope {
-    /// Returns the label of a player's row, if the player is shown.
+    /// Returns the label of the player's row, or `None` if the player is not shown.
     fn row(self, player: &Player) -> Option<String> {
         match (self, player.mode.as_deref()) {
             (_, None) | (Scope::Both, _) => Some(player.short_label()),
@@ -87,45 +88,46 @@ impl Scope {
     }
 }
 
-/// The scores of all players on all games or levels, which are the data of every heat map.
+/// The scores of all players on all games or levels. Every heat map is drawn from these scores.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Matrix {
     /// The scope, which determines the players included.
     pub scope: Scope,
-    /// The rows.
+    /// The rows of the matrix.
     pub rows: Vec<MatrixRow>,
-    /// The columns.
+    /// The columns of the matrix.
     pub columns: Vec<MatrixColumn>,
-    /// The scores of a row's players on a column's levels, row-major; `None` if no episode was played.
+    /// The scores of each row's players on each column's levels, in row-major order. `None` if no episode was
+    /// played.
     pub cells: Vec<Vec<Option<Scores>>>,
 }
 
 /// A row of a [`Matrix`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MatrixRow {
-    /// The label.
+    /// The label of the row.
     pub label: String,
-    /// `true` if the row shows a baseline and not a model.
+    /// `true` if the row shows a baseline rather than a model.
     pub reference: bool,
-    /// The indices into the players of the study. [`Scope::Both`] can have two.
+    /// The indices of the row's players in the study. With [`Scope::Both`], a row can have two players.
     pub players: Vec<usize>,
 }
 
-/// A column of a [`Matrix`]: a level, or a game with all its levels.
+/// A column of a [`Matrix`], which is a level or a game with all its levels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MatrixColumn {
-    /// The label.
+    /// The label of the column.
     pub label: String,
-    /// The index into the games of the study.
+    /// The index of the game in the study.
     pub game: usize,
-    /// The number of the level; `None` for all levels.
+    /// The number of the level, or `None` for all levels of the game.
     pub level: Option<usize>,
-    /// The number of ticks in the shortest win, if its optimality is proved.
+    /// The number of ticks in the shortest win, if the win is proved to be optimal.
     pub optimal_ticks: Option<usize>,
 }
 
 impl Matrix {
-    /// Builds the matrix of a scope, either by levels or by games.
+    /// Builds the matrix of a scope, by level or by game.
     pub(crate) fn of(study: &Study, scope: Scope, by_level: bool) -> Matrix {
         let rows = rows(study, scope);
         let mut columns = Vec::new();
@@ -157,8 +159,8 @@ impl Matrix {
         self.cells.iter().map(|row| row.iter().map(value).collect()).collect()
     }
 
-    /// Returns a measure as a table, with games or levels as rows and players as columns. `grain` is part of its file
-    /// name.
+    /// Returns the values of a measure as a table, with games or levels as rows and players as columns.
+    /// `grain` is part of the table's file name.
     pub(crate) fn table(&self, measure: Measure, grain: &str) -> Table {
         let digits = if measure.is_fraction() { 2 } else { 1 };
         let scope = self.scope.name();
@@ -166,7 +168,7 @@ impl Matrix {
         let title = format!("{} by {grain}, {scope}", measure.title());
         let note = if measure == Measure::WinRate { "With Wilson's 95% interval." } else { "" };
         let names = self.rows.iter().map(|row| row.label.as_str());
-        // The table shows the optimum beside the steps on a level.
+        // The table of steps by level also shows the optimum.
         let with_optimum =
             measure == Measure::Steps && self.columns.iter().any(|column| column.level.is_some());
         let optimum = with_optimum.then_some("fewest to win (proved)");
@@ -188,7 +190,7 @@ impl Matrix {
     }
 }
 
-/// Returns the rows of a scope in the order of the study, models before references.
+/// Returns the rows of a scope in the order of the study. Models come before reference players.
 fn rows(study: &Study, scope: Scope) -> Vec<MatrixRow> {
     let mut rows: Vec<MatrixRow> = Vec::new();
     let mut places: BTreeMap<(bool, String), usize> = BTreeMap::new();

@@ -1,10 +1,11 @@
-//! Recognition of a game's left-right mirror image (`docs/how-to/twins.md`).
+//! Recognises the left-right mirror image of a game (`docs/how-to/twins.md`).
 
 use crate::mask;
 use engine::syntax::SpriteLine;
 use engine::{Description, Direction, Game};
 
-/// Returns `true` if the rules of one game are those of the other with left and right exchanged, under any names.
+/// Returns `true` if the rules of two games are the same except that left and right are exchanged. Names may
+/// differ.
 pub(super) fn is_image(one: &Game, other: &Game) -> bool {
     let facing = |game: &Game| -> Vec<Direction> {
         let concrete = game.sprite_types().filter(|&stype| game.class(stype).is_some());
@@ -15,7 +16,7 @@ pub(super) fn is_image(one: &Game, other: &Game) -> bool {
     image == facing(other) && rules(one, true) == rules(other, false)
 }
 
-/// Returns the canonical text of a level with left and right exchanged.
+/// Returns the canonical text of a level in which left and right are exchanged.
 pub(super) fn level(text: &str) -> String {
     text.lines().map(|row| row.chars().rev().chain(['\n']).collect::<String>()).collect()
 }
@@ -28,8 +29,8 @@ fn direction(direction: Direction) -> Direction {
     }
 }
 
-/// Returns rules without the orientations of types, which the compiled games contain. If `swap` is set, left and
-/// right are exchanged in the rest.
+/// Returns rules without the orientations of sprite types, which the compiled games contain. If `swap` is
+/// `true`, left and right are exchanged in the remaining rules.
 fn undirected(rules: &Description, swap: bool) -> Description {
     let mut rules = rules.clone();
     sprites(&mut rules.sprites, swap);
@@ -53,7 +54,7 @@ fn sprites(lines: &mut [SpriteLine], swap: bool) {
     }
 }
 
-/// Replaces one of two words by the other.
+/// Replaces each of two words by the other word.
 fn exchange(text: &mut String, [one, other]: [&str; 2]) {
     if text == one {
         other.clone_into(text);

@@ -1,4 +1,5 @@
-//! A study: the combined results of several players, and every table of a report as plain data.
+//! Studies. A study combines the results of several players, and provides every table of a report as plain
+//! data.
 //!
 //! ```
 //! use infinite_arcade_evaluation::study::{Player, Study};
@@ -59,60 +60,62 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 const LEVEL: f64 = 0.95;
-/// The maximum number of rows in a comparison table of a report. The data contain all rows.
+/// The maximum number of rows in a comparison table of a report. The data of the study contain all rows.
 const MAX_COMPARISONS: usize = 100;
 
-/// The results of several players and their analysis. Indices named `player` and `game` refer to the first two lists.
+/// The results of several players and their analysis. Indices named `player` and `game` refer to the lists
+/// `players` and `games`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Study {
-    /// The players, in the order in which their results were given.
+    /// The players of the study, in the order in which their results were given.
     pub players: Vec<Player>,
-    /// The games.
+    /// The games of the study.
     pub games: Vec<StudyGame>,
-    /// All episodes, including aborted ones, sorted by player, game, level and run.
+    /// All episodes, including aborted episodes, sorted by player, game, level and run.
     pub episodes: Vec<StudyEpisode>,
-    /// The caveats for comparisons, such as different step limits or missing episodes.
+    /// The notes about limits of the comparisons, such as different step limits or missing episodes.
     pub notes: Vec<String>,
     /// The leaderboard, best player first.
     pub leaderboard: Vec<LeaderRow>,
-    /// The heat maps by game, one for each [`Scope`] with models. Without models, there is only the map of both
-    /// modes.
+    /// The heat maps by game, one for each [`Scope`] that has models. Without models, there is only one heat
+    /// map, for both modes.
     pub by_game: Vec<Matrix>,
-    /// The heat maps by level.
+    /// The heat maps by level, one for each [`Scope`] that has models.
     pub by_level: Vec<Matrix>,
     /// The comparisons of models with each other, and with players that are not models.
     pub pairs: Contrasts,
-    /// The comparisons between zero-shot and contextual mode of the same model.
+    /// The comparisons of each model in zero-shot mode with the same model in contextual mode.
     pub modes: Contrasts,
-    /// The comparisons of the same model without and with an aid.
+    /// The comparisons of each model without an aid with the same model with the aid.
     pub aids: Contrasts,
-    /// The correlations with winning.
+    /// The correlations between winning and other variables.
     pub correlations: Correlations,
-    /// The failure modes: the movement in won and lost episodes.
+    /// The failure modes, which compare the movement in won episodes with the movement in other episodes.
     pub failures: Vec<FailureMode>,
-    /// The levels on which players move back and forth, most oscillation first.
+    /// The levels on which players move back and forth, highest oscillation rate first.
     pub oscillations: Vec<OscillationRow>,
-    /// The results of every player by game.
+    /// The results of each player by game.
     pub sweeps: Vec<Sweep>,
     /// The difficulty of games and levels.
     pub difficulties: Vec<DifficultyRow>,
-    /// The duration of decisions.
+    /// The durations of decisions.
     pub times: Vec<TimeRow>,
     /// The episodes that were not won, by player, game and cause.
     pub endings: Vec<EndingRow>,
-    /// The same episodes, summarised by player.
+    /// The episodes that were not won, summarised by player.
     pub ending_summaries: Vec<EndingSummary>,
-    /// The results by the kind of game that the release states; empty if the results record no kinds.
+    /// The results by the kind of game that the release states. The list is empty if the results record no
+    /// kinds.
     pub kinds: Vec<TaxonomyRow>,
-    /// The results by the taxonomy of the rules.
+    /// The results by the taxonomy that is derived from the rules.
     pub taxonomy: Vec<TaxonomyRow>,
-    /// The horizons of the players with several commitments, by kind of game.
+    /// The horizons of the players that have several commitments, by kind of game.
     pub horizons: Vec<HorizonRow>,
-    /// The reference results of the levels' releases, and the results of the players on these levels; empty if there
-    /// are no reference results.
+    /// The reference results on the levels, with the results of the players on the same levels. The list is
+    /// empty if the releases contain no reference results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<MarkRow>,
-    /// The predictions of the rules after series of levels.
+    /// The players' predictions of the rules after series of levels.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub predictions: Vec<PredictionRow>,
     /// The statistical power of the episodes.
@@ -124,29 +127,29 @@ pub struct Study {
 pub struct StudyGame {
     /// The name of the game's folder.
     pub id: String,
-    /// The title in the game's own theme.
+    /// The title of the game in its own theme.
     pub title: String,
-    /// The kind of game that the release states; empty if it is not recorded.
+    /// The kind of game that the release states. The text is empty if the kind is not recorded.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub kind: String,
-    /// The kind of game according to its rules, with one sentence per aspect of the taxonomy.
+    /// The kind of game according to its rules, as one sentence for each aspect of the taxonomy.
     pub taxonomy: Vec<String>,
-    /// `true` for a stochastic game; `None` if this is unknown.
+    /// `true` for a stochastic game, or `None` if it is unknown whether the game is stochastic.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub is_stochastic: Option<bool>,
     /// The levels of the game.
     pub levels: Vec<StudyLevel>,
-    /// The reference results that the release keeps for the levels.
+    /// The reference results for the levels, which the release contains.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<LevelMark>,
 }
 
-/// A level of a game of a study.
+/// A level of a game in a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StudyLevel {
     /// The number of the level.
     pub number: usize,
-    /// The number of ticks in the shortest win, if its optimality is proved.
+    /// The number of ticks in the shortest win, if the win is proved to be optimal.
     pub optimal_ticks: Option<usize>,
 }
 
@@ -168,8 +171,9 @@ impl From<&Subject> for StudyGame {
 }
 
 impl Study {
-    /// Builds a study from the episodes of players. If `games` lacks a game or level of an episode, it is added with
-    /// only its ID or number. Cost: O(episodes log episodes), and one Fisher test for each pair of players and level.
+    /// Builds a study from the episodes of players. A game or level that occurs in an episode but not in
+    /// `games` is added with only its ID or number. Cost: O(episodes log episodes), and one Fisher test for
+    /// each pair of players on each level.
     pub fn new(results: Vec<(Player, Vec<EpisodeMetrics>)>, games: Vec<StudyGame>) -> Study {
         let mut study = Study { games, ..Study::default() };
         let mut practice = 0;
@@ -274,8 +278,8 @@ impl Study {
         }
     }
 
-    /// Returns the players whose results are combined in numbers about several players: those on the track of the
-    /// first player, and baselines that read no prompts.
+    /// Returns the players that are included in numbers about several players. They are the players on the
+    /// track of the first player, and the baselines that read no prompts.
     pub(crate) fn on_first_track(&self) -> impl Iterator<Item = usize> + '_ {
         let first = self.players.iter().find(|player| player.track().is_some() || !player.is_reference());
         let first = first.or(self.players.first());
@@ -294,7 +298,8 @@ impl Study {
         scopes.collect()
     }
 
-    /// Returns the episodes of a player, restricted to a game or a level if one is given. Cost: O(log episodes).
+    /// Returns the episodes of a player. If a game or a level is given, only its episodes are returned. Cost:
+    /// O(log episodes).
     pub fn on(&self, player: usize, game: Option<usize>, level: Option<usize>) -> &[StudyEpisode] {
         let first = (player, game.unwrap_or(0), level.unwrap_or(0));
         let last = (player, game.unwrap_or(usize::MAX), level.unwrap_or(usize::MAX));
@@ -313,7 +318,7 @@ impl Study {
         self.episodes.iter().filter(move |episode| is_tested(episode.player) && episode.metrics.counts())
     }
 
-    /// Returns the name of a game or a level: `aliens`, `aliens-0`.
+    /// Returns the name of a game or a level, such as `aliens` or `aliens-0`.
     pub fn place(&self, game: usize, level: Option<usize>) -> String {
         let id = &self.games[game].id;
         level.map_or_else(|| id.clone(), |level| format!("{id}-{level}"))
@@ -351,7 +356,7 @@ impl Study {
     }
 }
 
-/// Returns the player, game and level, which are the sort key of episodes.
+/// Returns the player, game and level of an episode, which form the sort key of episodes.
 fn place(episode: &StudyEpisode) -> (usize, usize, usize) {
     (episode.player, episode.game, episode.metrics.level)
 }

@@ -1,5 +1,5 @@
-//! Distinguishing players with the same name. A person is a model with its prompts, its decoding settings, and the
-//! served version. Results that differ in any of these are separate rows of a report.
+//! Distinguishes players with the same name. A person is a model with its prompts, its decoding settings and
+//! its served version. Results that differ in any of these settings are separate rows of a report.
 
 use crate::metrics::EpisodeMetrics;
 use crate::run::Entrant;
@@ -11,19 +11,20 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The episodes of one person in a results folder.
 pub(crate) struct PersonResults {
     player: Player,
-    /// All settings that determine requests and answers, by path: `model.decoding.temperature`.
+    /// All settings that determine requests and answers, by path, such as `model.decoding.temperature`.
     facts: BTreeMap<String, String>,
     episodes: Vec<EpisodeMetrics>,
 }
 
-/// The path of the model's version among the facts.
+/// The path of the model's served version among the facts.
 const SERVED: &str = "served by";
-/// The path of the games' surface among the facts.
+/// The path of the games' surface among the facts. The surface states how the games differ from their twins
+/// in an earlier folder.
 const TWIN: &str = "games";
 
 impl PersonResults {
-    /// Splits the episodes of a results folder by the versions of the model that answered. If the games are twins of
-    /// those in an earlier folder, `surface` describes the difference.
+    /// Splits the episodes of a results folder by the versions of the model that answered. If the games are
+    /// twins of games in an earlier folder, `surface` describes the difference.
     pub(crate) fn of(
         entrant: &Entrant,
         surface: Option<&str>,
@@ -31,7 +32,7 @@ impl PersonResults {
     ) -> Vec<PersonResults> {
         let mut facts = BTreeMap::new();
         flatten("", &entrant.details, &mut facts);
-        // The same model on a different server is the same person.
+        // The same model on a different server counts as the same person.
         facts.retain(|path, _| path != "model.server" && !path.starts_with("model.server."));
         if let Some(surface) = surface {
             facts.insert(TWIN.to_owned(), surface.to_owned());
@@ -40,7 +41,7 @@ impl PersonResults {
         for episode in episodes {
             parts.entry(episode.served_by.clone()).or_default().push(episode);
         }
-        // An episode without an answer reveals no version, so it stays with the first one.
+        // An episode without an answer reveals no version, so it is assigned to the first version.
         if parts.len() > 1
             && let Some(unserved) = parts.remove(&BTreeSet::new())
             && let Some(first) = parts.values_mut().next()
@@ -62,7 +63,7 @@ impl PersonResults {
     }
 }
 
-/// Returns the results with distinct players wherever their facts differ. The players' conditions state the
+/// Assigns distinct players to results with different facts. The conditions of each player state the
 /// differences.
 pub(crate) fn told_apart(results: Vec<PersonResults>) -> Vec<(Player, Vec<EpisodeMetrics>)> {
     let mut differing: BTreeMap<Player, BTreeMap<String, BTreeSet<Option<String>>>> = BTreeMap::new();
@@ -96,7 +97,7 @@ pub(crate) fn told_apart(results: Vec<PersonResults>) -> Vec<(Player, Vec<Episod
     results.into_iter().map(named).collect()
 }
 
-/// Lists the leaves of a JSON value by path.
+/// Adds the leaves of a JSON value to a map, by path.
 fn flatten(path: &str, value: &Value, into: &mut BTreeMap<String, String>) {
     let inner = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
     match value {
@@ -141,7 +142,7 @@ mod tests {
         check(&folders, &[("m (zero-shot)", 1), ("m (zero-shot)", 1)]);
     }
 
-    /// The provider changed the model in the middle of an evaluation.
+    /// In this test, the provider changes the model in the middle of an evaluation.
     #[test]
     fn versions_served_are_persons() {
         let episodes =

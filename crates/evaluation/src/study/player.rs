@@ -4,24 +4,25 @@ use crate::run::Entrant;
 use crate::track;
 use serde::Serialize;
 
-/// A player of a study. Equal players in several results folders are the same player.
+/// A player of a study. If equal players occur in several results folders, they are the same player.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Player {
-    /// The name in tables.
+    /// The name of the player in tables.
     pub name: String,
-    /// `zero-shot` or `contextual`; `None` for players that are not models.
+    /// The mode, `zero-shot` or `contextual`, or `None` for players that are not models.
     pub mode: Option<String>,
     /// The differences of the player's prompts from the default, sorted, with one flag per difference.
     pub aids: Vec<String>,
-    /// The settings in which the player differs from other players with the same name, mode and aids, sorted, as
-    /// phrases: `temperature 0`, `served by m-2026-08`. Empty if there are no such players.
+    /// The settings in which the player differs from other players with the same name, mode and aids. They
+    /// are sorted phrases such as `temperature 0` or `served by m-2026-08`. The list is empty if there are no
+    /// such players.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub conditions: Vec<String>,
 }
 
-/// The mode without memory.
+/// The name of the mode without earlier turns.
 pub const ZERO_SHOT: &str = "zero-shot";
-/// The mode that shows earlier turns.
+/// The name of the mode that shows earlier turns.
 pub const CONTEXTUAL: &str = "contextual";
 
 impl Player {
@@ -35,8 +36,8 @@ impl Player {
         Player { mode: Some(mode.to_owned()), ..Player::reference(name) }
     }
 
-    /// Returns `true` if the player is a baseline for comparisons: random, a planner, or a replay. Models, programs
-    /// (`cmd:`), people and mailboxes are not baselines.
+    /// Returns `true` if the player is a baseline for comparisons, such as a random player, a planner or a
+    /// replay. Models, programs (`cmd:`), people and mailboxes are not baselines.
     ///
     /// ```
     /// use infinite_arcade_evaluation::study::Player;
@@ -48,21 +49,21 @@ impl Player {
         self.mode.is_none() && !examined
     }
 
-    /// Returns the track with its version, such as `masked@1`; `None` for players with custom prompts, and for
-    /// players that read no prompts.
+    /// Returns the track with its version, such as `masked@1`. Returns `None` for players with custom
+    /// prompts, and for players that read no prompts.
     pub fn track(&self) -> Option<&str> {
         self.aids.iter().find_map(|aid| aid.strip_prefix(track::AID))
     }
 
-    /// Returns `true` if the results of the two players can be compared, because they are on the same track, or one
-    /// of them is a baseline that reads no prompts.
+    /// Returns `true` if the results of the two players can be compared. The players must be on the same
+    /// track, or one of them must be a baseline that reads no prompts.
     pub fn is_comparable(&self, other: &Player) -> bool {
         let is_free = |player: &Player| player.track().is_none() && player.is_reference();
         self.track() == other.track() || is_free(self) || is_free(other)
     }
 
-    /// Returns the name with mode, aids and conditions on one line ([`report::visible`]), which is unique within a
-    /// study.
+    /// Returns the name with mode, aids and conditions on one line ([`report::visible`]). The label is unique
+    /// within a study.
     ///
     /// ```
     /// use infinite_arcade_evaluation::study::{CONTEXTUAL, Player};
@@ -79,7 +80,7 @@ impl Player {
         report::visible(&label).into_owned()
     }
 
-    /// Returns the name with aids and conditions, for tables that already show the mode.
+    /// Returns the name with aids and conditions, for tables that show the mode elsewhere.
     pub fn short_label(&self) -> String {
         Player { mode: None, ..self.clone() }.label()
     }

@@ -1,4 +1,5 @@
-//! The statistical power of a plan of games, levels and runs, either before the run or for the episodes played.
+//! The statistical power of a plan with a number of games, levels and runs. The plan may be a future
+//! evaluation, or the episodes already played.
 
 use crate::study::Study;
 use itertools::Itertools;
@@ -6,11 +7,11 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{Design, Spread};
 
-/// The power of a plan with the test over games at 5% ([`statistics::paired_over_games`]) and the standard deviations
-/// of [`Spread::default`].
+/// The power of a plan, computed for the test over games at the 5% level ([`statistics::paired_over_games`])
+/// and the standard deviations of [`Spread::default`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PowerRow {
-    /// The plan as a phrase.
+    /// A phrase that describes the plan.
     pub plan: String,
     /// The number of games.
     pub games: u64,
@@ -26,7 +27,7 @@ pub struct PowerRow {
     pub from_half: Option<f64>,
 }
 
-/// Returns the power of a plan and, for comparison, of plans with the same number of episodes or fewer.
+/// Returns the power of a plan, and for comparison the power of plans with no more episodes.
 ///
 /// ```
 /// use infinite_arcade_evaluation::study::power;
@@ -68,7 +69,7 @@ fn row(plan: &str, design: Design) -> PowerRow {
     }
 }
 
-/// Returns the power of a study's episodes, based on the player with the fewest games.
+/// Returns the power of a study's episodes. The design is that of the player with the fewest games.
 pub(crate) fn of_study(study: &Study) -> Vec<PowerRow> {
     let played = |player: usize| {
         let ended = || study.on(player, None, None).iter().filter(|episode| episode.metrics.counts());

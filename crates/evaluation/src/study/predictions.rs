@@ -5,18 +5,20 @@ use crate::study::{Player, Study};
 use report::{Table, TableCell};
 use serde::Serialize;
 
-/// The predictions of a player.
+/// The results of a player's predictions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PredictionRow {
-    /// The player.
+    /// The player that made the predictions.
     pub player: Player,
-    /// The number of answers, including unusable ones.
+    /// The number of answers, including unusable answers.
     pub answers: u64,
     /// The number of correct predictions.
     pub right: u64,
-    /// The number of predicted kinds and facts.
+    /// The number of predictions that could be correct, which are the pairs of sprite types and facts that
+    /// the rules determine.
     pub of: u64,
-    /// The mean insight of the answers that have one ([`Grade::insight`](crate::predictions::Grade::insight)).
+    /// The mean insight of the answers ([`Grade::insight`](crate::predictions::Grade::insight)). Answers
+    /// without an insight are excluded.
     pub insight: Option<f64>,
 }
 
@@ -39,7 +41,7 @@ pub(super) fn rows(study: &Study) -> Vec<PredictionRow> {
     rows
 }
 
-/// Returns the table of predictions; `None` without any.
+/// Returns the table of predictions, or `None` if there are no predictions.
 pub(super) fn table(study: &Study) -> Option<Table> {
     (!study.predictions.is_empty()).then(|| {
         Table::of(

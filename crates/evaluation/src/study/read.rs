@@ -1,4 +1,4 @@
-//! Reading a study from results folders.
+//! Reads a study from results folders.
 
 use crate::error::EvaluationError;
 use crate::log::Event;
@@ -14,20 +14,25 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The logs of episodes, each with its game.
+/// The logs of a player's episodes, each with its game.
 pub type PlayedLogs<'a> = Vec<(&'a Subject, Vec<Event>)>;
 
 impl Study {
-    /// Reads a study from results folders. Every episode is replayed from its log. Folders of the same person (name,
-    /// mode, aids, prompts, decoding, served version) are merged. Games with the same ID are one game if they have
-    /// the same rules under different names and levels that start in the same states, or if their rules and levels
-    /// are mirrored. Their results belong to separate players.
+    /// Reads a study from results folders. Every episode is replayed from its log.
     ///
-    /// Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the current rayon pool.
+    /// Folders of the same person are merged. Persons are the same if their name, mode, aids, prompts,
+    /// decoding and served version are equal.
+    ///
+    /// Games with the same ID count as one game in two cases. Either their rules are equal except for names,
+    /// and their levels start in the same states, or their rules and levels are mirrored. Results on the two
+    /// variants belong to separate players.
+    ///
+    /// Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the current rayon
+    /// pool.
     ///
     /// # Errors
-    /// Returns an error if a folder or log cannot be read, if a replay differs from its log, if two folders hold the
-    /// same episode of the same player, or if the same name stands for different games or levels.
+    /// Returns an error if a folder or log cannot be read, if a replay differs from its log, if two folders
+    /// hold the same episode of the same player, or if the same name stands for different games or levels.
     pub fn read(folders: &[PathBuf]) -> Result<Study, EvaluationError> {
         let mut results: Vec<PersonResults> = Vec::new();
         let mut names = Names::default();
@@ -44,7 +49,7 @@ impl Study {
             seeds.insert(evaluation.settings.seed.clone());
             let tasks = evaluation.tasks();
             evaluation.check_logs(&tasks)?;
-            // Nothing is kept for episodes that were not started.
+            // Episodes that were not started are dropped.
             let measure = |task| measured(&evaluation, task, EpisodeMetrics::of).transpose();
             let measured = tasks.par_iter().filter_map(measure);
             let mut measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
@@ -99,7 +104,7 @@ impl Study {
         Ok(study)
     }
 
-    /// Builds a study from episodes in memory: the players, each with its logs and their games.
+    /// Builds a study from episodes in memory. Each player is given with its logs and the games of the logs.
     ///
     /// # Errors
     /// Returns an error if a replay differs from its log.
@@ -124,7 +129,7 @@ impl Study {
     }
 }
 
-/// The games and the episodes of the folders read so far, by name.
+/// The games and the episodes in the folders read so far, by name.
 #[derive(Default)]
 struct Names {
     games: Vec<KnownGame>,
@@ -135,25 +140,25 @@ struct Names {
 struct KnownGame {
     game: StudyGame,
     rules: Game,
-    /// The canonical texts of the levels.
+    /// The canonical texts of the levels, by number.
     levels: BTreeMap<usize, String>,
-    /// The hashes of the levels' first states under a fixed seed.
+    /// The hashes of the levels' first states under a fixed seed, by number.
     starts: BTreeMap<usize, StateHash>,
 }
 
 /// The relation of a game to a game in an earlier folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Surface {
-    /// The same game, or the first game with its ID.
+    /// The game is the same game, or the first game with its ID.
     Own,
-    /// The same game under different names, whose levels start in the same states.
+    /// The game is the same except for its names, and its levels start in the same states.
     Renamed,
-    /// The left-right mirror image.
+    /// The game is the left-right mirror image.
     Mirrored,
 }
 
 impl Surface {
-    /// Returns a phrase for the difference; `None` if there is no difference.
+    /// Returns a phrase for the difference from the earlier game, or `None` if there is no difference.
     fn words(self) -> Option<&'static str> {
         match self {
             Surface::Own => None,
@@ -164,7 +169,8 @@ impl Surface {
 }
 
 impl KnownGame {
-    /// Returns the relation to a different game with the same ID, or a description of the difference.
+    /// Returns the relation to a different game with the same ID. If there is no such relation, returns a
+    /// description of the difference.
     fn surface(&self, subject: &Subject, levels: &BTreeMap<usize, String>) -> Result<Surface, String> {
         let differing = |image: fn(&str) -> String| {
             let mut shared =
@@ -232,7 +238,7 @@ impl Names {
         Ok(surface)
     }
 
-    /// Checks that no other folder contains these episodes.
+    /// Checks that no other folder contains the given episodes of the player.
     fn claim<'a>(
         &mut self,
         player: &Player,
@@ -257,7 +263,7 @@ impl Names {
         self.games.iter().map(|known| known.game.clone()).collect()
     }
 
-    /// Returns a note if not every player has played every episode.
+    /// Returns a note if some episodes were not played by all players.
     fn unpaired(&self) -> Option<String> {
         let mut counts: BTreeMap<(&str, usize, u64), usize> = BTreeMap::new();
         let mut players: Vec<&Player> = Vec::new();
@@ -275,12 +281,12 @@ impl Names {
     }
 }
 
-/// The persons of results folders with their episodes, and the settings of each folder. Unlike in a study, games in
-/// several folders may share an ID.
+/// The persons in results folders with their episodes, and the settings of each folder. Unlike in a study,
+/// different games in several folders may share an ID.
 pub(crate) type Persons = (Vec<(Player, Vec<EpisodeMetrics>)>, Vec<Settings>);
 
-/// Reads the persons of results folders, distinguished as in a study. Practice episodes are omitted. The metrics of
-/// the other episodes are those of [`EpisodeMetrics::of_course`].
+/// Reads the persons in results folders, which are distinguished as in a study. Practice episodes are
+/// omitted. The metrics of the other episodes are those of [`EpisodeMetrics::of_course`].
 ///
 /// # Errors
 /// Returns an error if a folder or log cannot be read, or if a replay differs from its log.
@@ -308,7 +314,7 @@ pub(crate) fn persons(folders: &[PathBuf]) -> Result<Persons, EvaluationError> {
     Ok((persons, settings))
 }
 
-/// Returns the metrics of an episode; `None` if it was not started.
+/// Returns the metrics of an episode, or `None` if the episode was not started.
 fn measured(
     evaluation: &Evaluation,
     task: &Task<'_>,

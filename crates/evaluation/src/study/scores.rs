@@ -1,4 +1,4 @@
-//! The scores of a set of episodes, such as those of a player on a level, on a game, or on all games.
+//! The scores of a set of episodes, such as the episodes of a player on a level, on a game, or on all games.
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::LEVEL;
@@ -8,14 +8,14 @@ use serde::Serialize;
 use statistics::{Interval, RateOverGames, Z95, rate_over_games, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A number with a 95% confidence interval.
+/// An estimated number and its 95% confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// The number.
+    /// The estimated number.
     pub value: f64,
-    /// The lower bound.
+    /// The lower bound of the interval.
     pub low: f64,
-    /// The upper bound.
+    /// The upper bound of the interval.
     pub high: f64,
 }
 
@@ -25,11 +25,12 @@ impl Estimate {
         Estimate { value, low, high }
     }
 
-    /// Returns the win rate of ended episodes; `None` without episodes. For several games, the interval holds for
-    /// similar games ([`rate_over_games`]). For one game, it is Wilson's interval and holds for exactly its levels.
+    /// Returns the win rate of ended episodes, or `None` if there are no episodes. For several games, the
+    /// interval applies to similar games ([`rate_over_games`]). For one game, the interval is Wilson's and
+    /// applies to exactly its levels.
     ///
-    /// Identical episodes of a player on a level are one observation: the rate counts all of them, but the interval
-    /// does not.
+    /// Identical episodes of a player on a level are one observation. The rate counts all of them, but the
+    /// interval does not.
     pub(super) fn rate(ended: &[&StudyEpisode]) -> Option<Estimate> {
         let mut games: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
         for episode in ended {
@@ -42,7 +43,8 @@ impl Estimate {
         }
         let &[(wins, episodes)] = &counts[..] else { return None };
         let (seen, of) = observations(ended.iter().copied());
-        // The numbers of copies of won and lost episodes may differ. The rate remains that of all episodes.
+        // The numbers of copies of won and lost episodes may differ. Therefore, the rate is computed from all
+        // episodes.
         let (rate, interval) = (wins as f64 / episodes as f64, wilson(seen, of, Z95));
         Some(Estimate { value: rate, low: interval.low.min(rate), high: interval.high.max(rate) })
     }
@@ -57,22 +59,22 @@ impl Estimate {
 /// An episode of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudyEpisode {
-    /// The index of the player among the players of the study.
+    /// The index of the player in the study.
     pub player: usize,
-    /// The index of the game among the games of the study.
+    /// The index of the game in the study.
     pub game: usize,
-    /// The score relative to the range of all players on this level: `(r − min) / (max − min + 1e-8)`. `None` if the
-    /// range is empty or the episode was aborted.
+    /// The score relative to the range of all players' scores on this level,
+    /// `(r − min) / (max − min + 1e-8)`. `None` if the range is empty or the episode was aborted.
     pub normalised_reward: Option<f64>,
-    /// The maximum number of steps of any player's episode on this level.
+    /// The maximum number of steps in any player's episode on this level.
     pub most_steps: u64,
-    /// The metrics.
+    /// The metrics of the episode.
     #[serde(flatten)]
     pub metrics: EpisodeMetrics,
 }
 
-/// The scores of a set of episodes. Means are over the episodes with a known value. Aborted episodes count only in
-/// `excluded`.
+/// The scores of a set of episodes. Each mean is over the episodes whose value is known. Aborted episodes
+/// count only in `excluded`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Scores {
     /// The number of ended episodes.
@@ -81,12 +83,12 @@ pub struct Scores {
     pub excluded: u64,
     /// The number of wins.
     pub wins: u64,
-    /// The number of episodes that were ended by the step limit.
+    /// The number of episodes that reached the step limit.
     pub timeouts: u64,
-    /// The number of observations, where identical episodes of a player on a level count once.
+    /// The number of observations. Identical episodes of a player on a level are one observation.
     pub observations: u64,
-    /// The number of wins divided by the number of episodes. The interval holds for similar games, or for exactly
-    /// these levels if they belong to one game.
+    /// The number of wins divided by the number of episodes. The interval applies to similar games, or to
+    /// exactly the played levels if they belong to one game.
     pub win_rate: Option<Estimate>,
     /// The mean meaningful step ratio.
     pub meaningful: Option<f64>,
@@ -98,23 +100,24 @@ pub struct Scores {
     pub score: Option<f64>,
     /// The mean normalised reward.
     pub normalised_reward: Option<f64>,
-    /// The mean of `1 − steps / limit`.
+    /// The mean of the fraction of unused steps, `1 − steps / limit`.
     #[serde(rename = "spared")]
     pub unused_steps: Option<f64>,
-    /// The overall score of the paper: the mean of the meaningful step ratio, the unused steps, the normalised reward
-    /// and the win rate. `None` if one of the four is missing.
+    /// The overall score of the paper, which is the mean of the meaningful step ratio, the fraction of unused
+    /// steps, the normalised reward and the win rate. `None` if one of the four values is missing.
     pub overall: Option<f64>,
-    /// The step efficiency: `1 − mean steps of wins / most steps of any episode` on a level, averaged over the levels
-    /// with wins.
+    /// The step efficiency, which is averaged over the levels with wins. On a level, it is
+    /// `1 − mean steps of wins / most steps of any episode`.
     pub efficiency: Option<f64>,
-    /// The mean of `optimal ticks / steps` over the wins on levels with a proved optimum.
+    /// The mean of `optimal ticks / steps` over the wins on levels whose shortest win is proved to be
+    /// optimal.
     pub optimality: Option<f64>,
     /// The mean bump rate.
     pub bump_rate: Option<f64>,
 }
 
 impl Scores {
-    /// Computes the scores of these episodes. Cost: O(episodes log episodes).
+    /// Computes the scores of the given episodes. Cost: O(episodes log episodes).
     pub fn of<'a>(episodes: impl IntoIterator<Item = &'a StudyEpisode>) -> Scores {
         let all: Vec<&StudyEpisode> = episodes.into_iter().collect();
         let ended: Vec<&StudyEpisode> =
@@ -152,8 +155,8 @@ impl Scores {
     }
 }
 
-/// Returns the number of wins and the number of different episodes. Episodes of a player on a level with the same
-/// actions and boards are identical.
+/// Returns the number of wins and the number of episodes, without duplicates. Episodes of a player on a level
+/// are identical if they have the same actions and boards.
 pub(crate) fn observations<'a>(ended: impl Iterator<Item = &'a StudyEpisode>) -> (u64, u64) {
     let mut seen: BTreeSet<(usize, usize, usize, Digest)> = BTreeSet::new();
     let new = ended.filter(|episode| {
@@ -175,19 +178,19 @@ fn efficiency(ended: &[&StudyEpisode]) -> Option<f64> {
     mean(levels.filter_map(|(steps, most)| Some(1.0 - mean(steps)? / most as f64)))
 }
 
-/// Returns the arithmetic mean; `None` for no values.
+/// Returns the arithmetic mean, or `None` if there are no values.
 pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     statistics::Summary::of(&values.into_iter().collect::<Vec<f64>>()).map(|summary| summary.mean)
 }
 
-/// Returns the levels of these episodes, as pairs of game and number.
+/// Returns the levels of the given episodes, as pairs of game index and level number.
 pub(crate) fn levels_of<'a>(
     episodes: impl IntoIterator<Item = &'a StudyEpisode>,
 ) -> BTreeSet<(usize, usize)> {
     episodes.into_iter().map(|episode| (episode.game, episode.metrics.level)).collect()
 }
 
-/// Fills in normalised rewards and maximum steps.
+/// Sets the normalised rewards and the maximum numbers of steps of all episodes.
 pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
     let place = |episode: &StudyEpisode| (episode.metrics.track.clone(), episode.game, episode.metrics.level);
     let mut ranges: BTreeMap<_, (f64, f64, u64)> = BTreeMap::new();
@@ -201,7 +204,8 @@ pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
             continue;
         };
         let score = episode.metrics.score;
-        // The small term keeps the paper's quotient from dividing by 0. In that case, the value is missing here.
+        // The small term keeps the paper's quotient from dividing by 0. If the range is empty, the value is
+        // missing here.
         let reward = (score - least) / (most - least + 1e-8);
         episode.normalised_reward = (most > least && episode.metrics.counts()).then_some(reward);
         episode.most_steps = steps;

@@ -1,20 +1,21 @@
-//! The results of a player by game, and their totals: the sweep of the paper (`spec/06` §4 and §5.2).
+//! The results of each player by game with their totals, which are called the sweep in the paper (`spec/06`
+//! §4 and §5.2).
 
 use crate::study::Study;
 use crate::study::scores::{Estimate, Scores, levels_of};
 use report::{Table, TableCell};
 use serde::Serialize;
 
-/// The results of a player by game.
+/// The results of a player, by game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sweep {
-    /// The index into the players of the study.
+    /// The index of the player in the study.
     pub player: usize,
-    /// The rows, one per game played, in the order of the study.
+    /// The results by game, for each game that the player played, in the order of the study.
     pub games: Vec<SweepRow>,
-    /// The scores over all games.
+    /// The scores over all games played.
     pub total: Scores,
-    /// The number of levels played.
+    /// The number of levels played in all games.
     pub levels: u64,
     /// The number of levels that were played but never won.
     pub zero_win_levels: u64,
@@ -23,11 +24,11 @@ pub struct Sweep {
 /// The results of a player on a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SweepRow {
-    /// The index into the games of the study.
+    /// The index of the game in the study.
     pub game: usize,
-    /// The scores over all levels.
+    /// The scores over all levels of the game that the player played.
     pub scores: Scores,
-    /// The number of levels played.
+    /// The number of levels of the game that the player played.
     pub levels: u64,
     /// The number of levels that were played but never won.
     pub zero_win_levels: u64,
@@ -57,11 +58,11 @@ impl Sweep {
     }
 }
 
-/// A row of a table: the player, what it played, the scores, the number of levels, and the number of levels never
-/// won.
+/// A row of a table: the player, the game or games, the scores, the number of levels played, and the number
+/// of levels never won.
 type Row<'a> = (String, String, &'a Scores, u64, u64);
 
-/// Returns the table of all games and its summary.
+/// Returns the table of results by game and its summary.
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let note = "Never won: levels without a single win. Efficiency: 1 − mean steps of wins / most steps of any episode on the \
                 level, over the levels that were won.";

@@ -1,14 +1,14 @@
-//! The duration of decisions.
+//! The durations of decisions.
 
 use crate::study::Study;
 use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::quantile;
 
-/// The decisions of a player, including those of aborted episodes.
+/// The durations of a player's decisions, including decisions in aborted episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeRow {
-    /// The index into the players of the study.
+    /// The index of the player in the study.
     pub player: usize,
     /// The number of decisions.
     pub decisions: u64,
@@ -16,9 +16,9 @@ pub struct TimeRow {
     pub median_ms: Option<f64>,
     /// The 90th percentile of the duration, in milliseconds.
     pub p90_ms: Option<f64>,
-    /// The median number of forward-model calls per decision, for players that make calls.
+    /// The median number of forward-model calls per decision, for players that make such calls.
     pub median_calls: Option<f64>,
-    /// The 90th percentile of the number of forward-model calls.
+    /// The 90th percentile of the number of forward-model calls per decision.
     pub p90_calls: Option<f64>,
 }
 

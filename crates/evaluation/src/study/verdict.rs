@@ -1,5 +1,5 @@
-//! The results of a study in plain words: who is best, how certain this is, on which kinds of game, and how each
-//! player fails.
+//! Summarises a study in plain words: which player is best, how certain the result is, which kinds of game
+//! were won, and how each player fails.
 
 use crate::metrics::{EndingKind, GoalDistance};
 use crate::study::endings::nearest;
@@ -10,13 +10,15 @@ use std::cmp::Reverse;
 
 /// The maximum number of players whose failures are described.
 const TOLD: usize = 6;
-/// The number of kinds of game that are listed at either end.
+/// The number of kinds of game listed as won most, and the number listed as won least.
 const KINDS: usize = 3;
 
 impl Study {
-    /// Returns the results in plain words. The first paragraph describes the best model (of all players, if there is
-    /// no model): its win rate, its comparison with the next one, and the kinds of game that it wins. The other
-    /// paragraphs describe, for each player, how it failed. Empty if no episode has ended.
+    /// Summarises the results in plain words. Returns no paragraphs if no episode has ended.
+    ///
+    /// The first paragraph is about the best model, or the best player if there is no model. It states the
+    /// win rate, compares the player with the next player, and lists the kinds of game that it wins. Each of
+    /// the other paragraphs describes how one player failed.
     pub fn verdict(&self) -> Vec<String> {
         let tested = |row: &&LeaderRow| !self.players[row.player].is_reference();
         let played = || self.leaderboard.iter().filter(|row| row.scores.episodes > 0);
@@ -47,7 +49,8 @@ impl Study {
             };
             self.leaderboard.iter().filter(is_other)
         };
-        // A higher rate may come from easier levels, so the other player may be ahead on the levels that both played.
+        // A higher win rate may come from easier levels, so the other player may be ahead on the levels that
+        // both players played.
         let is_ahead = |other: &LeaderRow| {
             let found =
                 self.comparison(row, other).and_then(|(sign, found)| Some(sign * found.over_games?.value));
@@ -67,8 +70,8 @@ impl Study {
         format!("{label} {won}: {value}% ({wins} of {episodes} episodes); {about}, {low} to {high}%.")
     }
 
-    /// Returns the comparison of two players, with the sign that turns its differences into those of the first
-    /// player.
+    /// Returns the comparison of two players, with a sign. Multiplied by the sign, the differences are those
+    /// of the first player relative to the second.
     fn comparison(&self, one: &LeaderRow, other: &LeaderRow) -> Option<(f64, &OverallComparison)> {
         let all = [&self.pairs, &self.modes, &self.aids].into_iter().flat_map(|contrasts| &contrasts.overall);
         all.filter_map(|found| match found.players {
@@ -116,8 +119,8 @@ impl Study {
         })
     }
 
-    /// Describes the kinds of game on which a player won most and least; `None` if its results cover fewer than two
-    /// kinds.
+    /// Describes the kinds of game that a player won most often and least often. Returns `None` if its
+    /// results cover fewer than two kinds.
     fn kinds_of(&self, row: &LeaderRow) -> Option<String> {
         let of_player =
             self.kinds.iter().filter(|kind| kind.player == row.player && kind.scores.episodes > 0);
@@ -142,7 +145,7 @@ impl Study {
         Some(format!("By kind of game, it won most in {most}; least in {least}."))
     }
 
-    /// Describes how the episodes that a player did not win ended.
+    /// Describes the endings of the episodes that a player did not win.
     fn failures_of(&self, row: &LeaderRow) -> Option<String> {
         let summary = self.ending_summaries.iter().find(|summary| summary.player == row.player)?;
         let causes = || summary.causes.iter().map(|&at| &self.endings[at]);

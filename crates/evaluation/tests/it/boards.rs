@@ -1,4 +1,4 @@
-//! Tests of boards, legends and images for models.
+//! Tests of boards, legends and images in prompts.
 
 use crate::walk::{Walk, corpus, game, public_games};
 use engine::{Action, Observation};
@@ -7,7 +7,7 @@ use evaluation::prompt::{PromptSettings, Prompter};
 use evaluation::{Subject, SubjectFacts, encoding};
 use std::collections::BTreeMap;
 
-/// Returns the names by symbol, without floors.
+/// Returns the type names by symbol, without floors.
 fn by_symbol(legend: &Legend) -> BTreeMap<char, &str> {
     let told = legend.entries().iter().filter(|entry| entry.role != EntryRole::Floor);
     told.map(|entry| (entry.symbol, entry.name.as_str())).collect()
@@ -28,7 +28,8 @@ fn legends_have_a_character_for_each_thing() {
     }
 }
 
-/// Parses the grid and the lines about piles, and returns the names in each cell, from the lowest to the uppermost.
+/// Parses the grid and the lines about piles. Returns the names in each cell, from the lowest to the
+/// uppermost sprite.
 fn read_back(seen: &Observation, legend: &Legend) -> Vec<Vec<String>> {
     let names = by_symbol(legend);
     let grid = encoding::grid(seen, legend);
@@ -46,7 +47,7 @@ fn read_back(seen: &Observation, legend: &Legend) -> Vec<Vec<String>> {
     cells
 }
 
-/// Checks that everything except floors is shown, and the avatar at its position.
+/// Checks that everything except floors is shown, and that the avatar is shown at its position.
 fn tells_everything(subject: &Subject, legend: &Legend, seen: &Observation) {
     let id = &subject.id;
     let own = |name: &str| seen.avatar.as_ref().is_some_and(|avatar| avatar.name == name);
@@ -55,14 +56,14 @@ fn tells_everything(subject: &Subject, legend: &Legend, seen: &Observation) {
         let is_here = seen.avatar.as_ref().is_some_and(|avatar| (avatar.column, avatar.row) == place);
         let entry =
             |name: &String| legend.entry(name).unwrap_or_else(|| panic!("{id}: {name} is not in the legend"));
-        // Sprites in the observation that are never drawn (`invisible=`) are not shown.
+        // Sprites that are never drawn (`invisible=`) are in the observation but are not shown.
         let game = &subject.game;
         let seen =
             |name: &str| !game.sprite_type(name).is_some_and(|stype| subject.analysis.facts(stype).hidden);
         let others =
             all.iter().filter(|name| !own(name) && seen(name) && entry(name).role != EntryRole::Floor);
         let others: Vec<&str> = others.map(String::as_str).collect();
-        // All states of the avatar look the same to the reader of a board.
+        // All states of the avatar look the same on the board.
         let (below, top) = if is_here { read.split_at(read.len() - 1) } else { (&read[..], &[][..]) };
         assert!(top.iter().all(|name| entry(name).role == EntryRole::Avatar), "{id}: {read:?} at {place:?}");
         let dead = |name: &String| entry(name).role == EntryRole::Avatar && below.len() == 1;
@@ -86,7 +87,8 @@ fn boards_can_be_read_back_completely() {
     }
 }
 
-/// The same holds for games that were written without prompts in mind, and every prompt can be written.
+/// Boards of the public games also show everything, although these games were not written for prompts. Every
+/// prompt can be rendered.
 #[test]
 fn boards_of_public_games_can_be_read_back() {
     for subject in public_games() {
@@ -112,7 +114,7 @@ fn boards_of_public_games_can_be_read_back() {
     }
 }
 
-/// An avatar that turns into a different one by taking a key, and can shoot then.
+/// A game whose avatar turns into a different avatar when it takes a key, and can shoot afterwards.
 const KNIGHT: &str = "BasicGame
   SpriteSet
     moss > Immovable
@@ -181,7 +183,7 @@ fn available_actions_are_listed_where_they_change() {
     assert!(shown.contains("## Board\n@...i\n"), "{shown}");
 }
 
-/// Two birds of one type that turn back at walls, rain that always falls, and a field of soil.
+/// A game with two birds of one type that turn back at walls, rain that always falls, and a field of soil.
 const FIELD: &str = "BasicGame
   SpriteSet
     floor > Immovable hidden=True
@@ -225,14 +227,14 @@ fn directions_are_told_where_they_vary_and_scenery_is_not_listed() {
         "{around:?}"
     );
     walk.play(Action::Down);
-    // One soil is gone, and a short list is harmless.
+    // One soil sprite is gone, so that the list is short enough to be shown.
     let around = encoding::grounding(&walk.now, &legend);
     assert!(around.iter().any(|line| line.starts_with("soil: ")), "{around:?}");
     walk.play(Action::Nil);
     assert_eq!(encoding::directions(&walk.now, &legend), ["bird: left (8,1), right (2,1)"]);
 }
 
-/// The direction of sprites that stand still is reported if it changes.
+/// The directions of sprites that stand still are listed if the directions change.
 #[test]
 fn points_tell_the_way_to_which_they_are_set() {
     let yard = FIELD

@@ -1,4 +1,5 @@
-//! Tests of players that commit to several actions: what is played, logged, resumed, replayed and shown.
+//! Tests of players that commit to several actions. The tests cover how plans are played, logged, resumed,
+//! replayed and shown.
 
 use crate::walk::game;
 use base::Seed;
@@ -15,7 +16,7 @@ use evaluation::{
 use std::fs;
 use std::sync::{Arc, Mutex};
 
-/// A corridor with a door at its end; the avatar can shoot once it has taken the bow.
+/// A game with a corridor and a door at its end. The avatar can shoot once it has taken the bow.
 const GAME: &str = "
 BasicGame
     SpriteSet
@@ -52,11 +53,13 @@ fn task<'a>(subject: &'a Subject, commit: &str, max_steps: u64) -> Task<'a> {
     Task { subject, level: &subject.levels[0], run: 0, seed, max_steps, commit, track: None, series: None }
 }
 
-/// An agent that gives these plans, with `None` for an unusable answer, and records what it is shown.
+/// An agent that answers with the given plans and records what it is shown. A plan of `None` is an unusable
+/// answer.
 #[derive(Clone, Default)]
 struct Planned {
     plans: Vec<Option<Vec<Action>>>,
-    /// The number of actions before each look, and the number of actions reported since the previous look.
+    /// The number of actions before each decision, and the number of actions reported since the previous
+    /// decision.
     looks: Arc<Mutex<Vec<(u64, usize)>>>,
 }
 
@@ -74,7 +77,7 @@ impl Agent for Planned {
     }
 }
 
-/// Parses plans from the initials of actions, with `-` for an unusable answer: `rr u -`.
+/// Parses plans such as `rr u -` from the initials of their actions. A `-` stands for an unusable answer.
 fn planned(plans: &str) -> Planned {
     let action = |initial: char| match initial {
         'r' => Action::Right,
@@ -91,8 +94,8 @@ fn played(task: &Task<'_>, agent: impl Agent + 'static, journal: &mut Journal) {
     play(task, &mut Contestant::Agent(Box::new(agent)), journal).expect("it can be played");
 }
 
-/// Plays plans, and checks the initials of the actions played, with a `|` before each decision, the looks and the
-/// outcome.
+/// Plays plans, and checks the played actions, the decisions and the outcome. `expect` holds the initials of
+/// the actions, with a `|` before each decision.
 #[track_caller]
 fn check(commit: &str, max_steps: u64, plans: &str, actions: &str, looks: &[(u64, usize)], end: &str) {
     let (subject, agent) = (subject(), planned(plans));
@@ -130,7 +133,7 @@ fn plans_are_played_without_another_look() {
 
 #[test]
 fn plans_of_another_length_are_defined() {
-    // Missing actions do nothing, and actions beyond the commitment are not played.
+    // Doing nothing replaces missing actions, and actions beyond the commitment are not played.
     check("4", 8, "r rrrrrr", "|rnnn|rrrr", &[(0, 0), (4, 4)], "Ongoing");
     check("all", 6, "rr", "|rrnnnn", &[(0, 0)], "Ongoing");
     check("all", 6, "rrrrrrrrr", "|rrrrrr", &[(0, 0)], "Ongoing");
@@ -139,7 +142,7 @@ fn plans_of_another_length_are_defined() {
 
 #[test]
 fn unavailable_actions_do_nothing() {
-    // The avatar takes the bow in the second tick, and can shoot only then.
+    // The avatar takes the bow in the second tick, and can shoot only afterwards.
     check("6", 6, "srrsrl", "|nrrurl", &[(0, 0)], "Ongoing");
 }
 
@@ -209,7 +212,7 @@ fn changed_plans_are_refused() {
     );
 }
 
-/// The prompts of all commitments, and served players that answer them in the requested format.
+/// Served players answer the prompts of all commitments in the requested format.
 #[test]
 fn served_players_read_what_is_due() {
     let subject = game("quiet-jars");
@@ -245,7 +248,8 @@ fn the_reference_asks_for_one_action() {
     assert!(error.contains("the reference's prompts ask for one action"), "{error}");
 }
 
-/// The next look reports the plan to the player: the actions, the positions, the unavailable actions, and the points.
+/// The next decision shows the result of the plan, with its actions, positions, unavailable actions and
+/// points.
 #[test]
 fn plans_are_told_at_the_next_look() {
     let subject = subject();

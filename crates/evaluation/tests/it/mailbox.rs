@@ -1,4 +1,4 @@
-//! Tests of mailboxes: files that are not answers, folders that are not mailboxes, and interruptions.
+//! Tests of mailboxes, with files that are not answers, folders that are not mailboxes, and interruptions.
 
 use crate::games::corridor;
 use base::Seed;
@@ -21,7 +21,7 @@ impl Progress for Silent {
     fn episode(&self, _: &Task<'_>, _: &PlayResult) {}
 }
 
-/// Returns settings with one run of each level, and with at most three decisions.
+/// Returns settings with one run of each level and at most three decisions per episode.
 fn settings(subjects: &[Subject], seed: &str) -> Settings {
     Settings {
         format: FORMAT,
@@ -86,7 +86,7 @@ fn wait<T>(home: &Path, found: impl Fn(&Desk) -> Option<T>) -> T {
     }
 }
 
-/// Waits for the prompt at a step and an attempt.
+/// Waits for the prompt with the given step and attempt.
 fn prompt(home: &Path, step: u64, attempt: u32) -> OpenPrompt {
     wait(home, |desk| {
         let is_it =
@@ -165,8 +165,8 @@ fn files_that_are_no_answers_are_set_aside() {
     assert_eq!(steps.collect::<Vec<_>>(), [Validity::Valid, Validity::Invalid, Validity::Valid]);
 }
 
-/// A program that is killed leaves any part of the log, and any files. The final log is the same, and no answered
-/// turn is asked again.
+/// A killed program may leave any part of the log and any files. The final log is still the same, and no
+/// answered turn is asked again.
 #[test]
 fn interrupted_episodes_are_resumed() {
     let whole = tempfile::tempdir().unwrap();
@@ -213,7 +213,8 @@ fn interrupted_episodes_are_resumed() {
     };
     thread::scope(|scope| {
         for (answered, (at, _)) in replies.enumerate() {
-            // The answer is logged (with its file still present), or was written but not read, or was not written.
+            // The answer was logged and its file is still present, or the answer was written but not read, or
+            // the answer was not written.
             for (kept, is_written) in [(at + 1, true), (at, true), (at, false)] {
                 scope.spawn(move || check(answered, kept, is_written));
             }
@@ -221,7 +222,7 @@ fn interrupted_episodes_are_resumed() {
     });
 }
 
-/// A mailbox that cannot be written aborts the episode, and --resume plays it to its end.
+/// A mailbox that cannot be written aborts the episode, and `--resume` continues the episode to its end.
 #[test]
 fn unwritable_mailboxes_leave_the_episode_open() {
     let home = tempfile::tempdir().unwrap();
@@ -276,7 +277,7 @@ fn foreign_folders_are_refused() {
     assert!(Desk::open(&folder).unwrap().view().unwrap().is_running);
     drop(first);
     assert!(!Desk::open(&folder).unwrap().view().unwrap().is_running);
-    // Without an episode, the mailbox belongs to no evaluation.
+    // A mailbox without an episode belongs to no evaluation.
     drop(open(&folder, "another", false).unwrap());
     fs::create_dir(folder.join("corridor-lvl0-run0")).unwrap();
     assert!(refused("another", false).contains("continue it with --resume"));
@@ -290,7 +291,8 @@ fn foreign_folders_are_refused() {
     assert!(refused("another", true).contains("not a file of a mailbox"));
 }
 
-/// An evaluation that stops does not wait for answers to its other episodes; their prompts stay open.
+/// An evaluation that stops does not wait for answers to its other episodes. The prompts of these episodes
+/// stay open.
 #[test]
 fn waiting_episodes_give_up_when_the_evaluation_stops() {
     let home = tempfile::tempdir().unwrap();
@@ -323,8 +325,8 @@ fn waiting_episodes_give_up_when_the_evaluation_stops() {
     prompt(home.path(), 0, 0);
 }
 
-/// A player, who shares the mailbox, can replace the evaluation's files by links. The targets of the links stay
-/// unchanged.
+/// The player shares the mailbox, and can replace the evaluation's files with links. The targets of the links
+/// stay unchanged.
 #[cfg(unix)]
 #[test]
 fn links_in_the_place_of_our_files_are_not_followed() {
@@ -352,7 +354,7 @@ fn links_in_the_place_of_our_files_are_not_followed() {
     symlink(&victim, games.join("game.vgdl")).unwrap();
     begin().unwrap();
     assert!(!games.join("game.vgdl").is_symlink());
-    // A log is begun at the target of a link.
+    // A log is started at the target of a link.
     for target in [&victim, &home.join("absent")] {
         let log = results.join("episodes/x.jsonl");
         symlink(target, &log).unwrap();

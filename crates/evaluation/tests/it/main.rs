@@ -1,4 +1,4 @@
-//! Tests of evaluations from prompts to tables, against scripted servers and players.
+//! Tests of whole evaluations, from prompts to tables, with scripted servers and players.
 
 extern crate infinite_arcade_evaluation as evaluation;
 

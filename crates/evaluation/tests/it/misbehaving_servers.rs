@@ -1,5 +1,5 @@
-//! Tests of servers that misbehave in every way: each failure is classified, no answer is lost, and nothing is
-//! charged twice.
+//! Tests of servers that misbehave. Each failure is classified, no answer is lost, and nothing is charged
+//! twice.
 
 use crate::server::{FakeClock, Response, Server};
 use evaluation::client::{
@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-/// A key that a server could repeat.
+/// An API key that a misbehaving server could repeat.
 const KEY: &str = "sk-zebra-0123456789abcdef";
 
 fn request(text: &str) -> ChatRequest {
@@ -24,7 +24,7 @@ fn request(text: &str) -> ChatRequest {
     }
 }
 
-/// Connects to a model on a server, with a key, three tries and a fake clock.
+/// Connects to a model on a server, with a key, up to three tries and a fake clock.
 fn connect(server: &Server, change: impl FnOnce(&mut ModelOptions)) -> (Connection, Arc<FakeClock>) {
     let mut options = ModelOptions::new("some-model");
     options.base_url = Some(server.base_url());
@@ -38,8 +38,8 @@ fn connect(server: &Server, change: impl FnOnce(&mut ModelOptions)) -> (Connecti
     (connection, clock)
 }
 
-/// Returns transient failures, each with a name, the server's reaction, and the status and a part of the message of
-/// the failure.
+/// Returns transient failures. Each has a name, the server's reaction, and the expected status and part of
+/// the message.
 fn transient_failures() -> Vec<(&'static str, Response, Option<u16>, &'static str)> {
     let error = |message: &str| json!({ "error": { "message": message } }).to_string();
     let later = httpdate::fmt_http_date(FakeClock::begin() + Duration::from_secs(40));
@@ -280,7 +280,7 @@ fn many_threads_share_limits_and_servers() {
         0 => Response::reply(503, ""),
         3 => Response::Cut(Vec::new()),
         _ => {
-            // Give requests time to overlap.
+            // The pause gives requests time to overlap.
             thread::sleep(Duration::from_millis(2));
             Response::completion("up")
         }

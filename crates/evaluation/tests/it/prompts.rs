@@ -1,7 +1,7 @@
 //! Tests of the prompts of the corpus games.
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it prompts` rewrites the files of `golden/`. Review their
-//! diff like code. A changed word requires a new [`evaluation::prompt::VERSION`].
+//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it prompts` rewrites the files in `golden/`.
+//! Review their diff like code. A change to any word requires a new [`evaluation::prompt::VERSION`].
 
 use crate::walk::{Walk, corpus, game};
 use base::Digest;
@@ -27,7 +27,7 @@ pub(crate) fn text(messages: &[ChatMessage]) -> String {
     messages.iter().map(one).collect::<Vec<_>>().join("\n")
 }
 
-/// Compares a text with a file of `golden/`, or writes the file.
+/// Compares a text with a file in `golden/`, or writes the file.
 pub(crate) fn golden(name: &str, got: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name);
     if std::env::var_os("BLESS").is_some() {
@@ -56,8 +56,8 @@ fn first_turns_of_all_games() {
     golden("first_turns.txt", &lines);
 }
 
-/// Whole prompts of a game with several avatar states, of a game with shots, and of a game that never stands still,
-/// and prompts of the other kinds.
+/// Prompts of all styles are compared with golden files. The games include a game with several avatar states,
+/// a game with shots, and a game that never stands still.
 #[test]
 fn prompts_to_read() {
     let plans = ["10", "all"].map(|commit| {
@@ -102,7 +102,7 @@ fn prompts_to_read() {
     show("reference_contextual.txt", "first-ice", &PromptSettings { mode: Mode::Contextual, ..reference }, 2);
 }
 
-/// The last tick is the one in the rules, unless the prompt has no rules.
+/// The last tick stated in a turn equals the last tick in the rules, unless the prompt has no rules.
 #[test]
 fn the_last_tick_matches_the_rules() {
     let subject = game("first-ice");
@@ -114,7 +114,7 @@ fn the_last_tick_matches_the_rules() {
     }
 }
 
-/// If a limit of decisions comes before the Timeout, it is the only limit that the prompt states.
+/// If the step limit comes before the Timeout, the prompt states only the step limit.
 #[test]
 fn the_rules_know_the_limit_of_decisions() {
     let subject = game("first-ice");
@@ -157,8 +157,8 @@ fn the_last_message_tells_the_outcome() {
     }
 }
 
-/// The number of tokens per step. `cargo test -p infinite-arcade-evaluation --test it prompts -- --nocapture tokens`
-/// prints the table of `docs/reference/prompts.md`.
+/// Measures the number of tokens per step. `cargo test -p infinite-arcade-evaluation --test it prompts --
+/// --nocapture tokens` prints the table in `docs/reference/prompts.md`.
 #[test]
 fn tokens_of_the_default_prompt() {
     let (mut whole, mut turns, mut parts) = (Vec::new(), Vec::new(), BTreeMap::<String, Vec<u64>>::new());
@@ -166,7 +166,7 @@ fn tokens_of_the_default_prompt() {
         let prompter = prompter(&subject, &PromptSettings::default());
         for level in 0..subject.levels.len() {
             let mut walk = Walk::new(&subject, level);
-            // The first turn, and one after some movement.
+            // The first turn and a later turn are measured.
             for _ in 0..2 {
                 let tokens = prompter.prompt(&walk.turn(), &[], &[]).tokens;
                 whole.push(tokens.total);
@@ -226,8 +226,8 @@ fn vgdl_in_prompts_is_the_game() {
     }
 }
 
-/// A name is leaked if a masked prompt contains it and no masked prompt of any other game does, because it is not
-/// part of the common wording then.
+/// A name counts as leaked if a masked prompt contains it and no masked prompt of another game contains it.
+/// Such a name is not part of the common wording.
 #[test]
 fn masked_prompts_contain_no_names() {
     let words = |subject: &Subject, rules: Rules| -> BTreeSet<String> {
@@ -347,8 +347,8 @@ fn digests_distinguish_settings() {
     assert_ne!(standard.digest(), prompter(&subject, &other).digest());
 }
 
-/// Whole turns are dropped, oldest first. In between, the conversation only grows at its end. It never exceeds its
-/// budget, except through the static part and the newest turn.
+/// If the budget would be exceeded, whole turns are dropped, oldest first. Otherwise, the conversation only
+/// grows at its end. Only the static part and the newest turn can exceed the budget.
 #[test]
 fn histories_keep_to_their_budget() {
     let subject = game("first-ice");
@@ -376,7 +376,7 @@ fn histories_keep_to_their_budget() {
                 walk = Walk::new(&subject, 0);
             }
         }
-        // A quarter is freed at once.
+        // A quarter of the budget is freed at once.
         let expected = match budget {
             0 | 1200 | 2000 => 0..=120,
             _ => 2..=60,

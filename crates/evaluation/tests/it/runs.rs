@@ -1,4 +1,5 @@
-//! Tests of evaluations of built-in players: the files written, and interruptions that leave no trace.
+//! Tests of evaluations with built-in players. The tests cover the written files, and interruptions that must
+//! have no effect on the results.
 
 use crate::games::corridor;
 use agents::Budget;
@@ -106,7 +107,7 @@ fn players_are_paired() {
     assert_ne!(random[0], random[1]);
 }
 
-/// The resumed evaluation has the same logs, regardless of what was written before the program was killed.
+/// A resumed evaluation has the same logs, whatever was written before the program was killed.
 #[test]
 fn interrupted_evaluations_are_resumed() {
     let home = tempfile::tempdir().unwrap();
@@ -117,7 +118,7 @@ fn interrupted_evaluations_are_resumed() {
     for (part, cut) in [0, 1, 5, 9].into_iter().enumerate() {
         let folder = home.path().join(format!("cut{part}"));
         Evaluation::create(&folder, settings(&subjects), subjects.clone()).unwrap();
-        // One log is complete, one is cut within a line, and the others are not started.
+        // One log is complete, one log is truncated within a line, and the other logs do not exist.
         for (at, (name, _)) in undisturbed.iter().take(2).enumerate() {
             let bytes = fs::read(whole.join("episodes").join(name)).unwrap();
             let kept = if at == 0 { bytes.len() } else { bytes.len() * cut / 10 };
@@ -204,7 +205,7 @@ fn results_folders_are_locked_and_checked() {
     assert!(refusal(Evaluation::open(&folder)).contains("not the settings of an evaluation"));
 }
 
-/// A log whose replay differs is not resumed.
+/// An episode is not resumed if its log does not replay, or is not a log.
 #[test]
 fn damaged_logs_are_reported() {
     let home = tempfile::tempdir().unwrap();
@@ -230,7 +231,7 @@ fn damaged_logs_are_reported() {
     assert!(error.contains(": line 1 is not an event of an episode"), "{error}");
 }
 
-/// A player without any usable answer.
+/// A player that never gives a usable answer.
 struct Mute;
 
 impl Agent for Mute {
@@ -258,7 +259,7 @@ impl Progress for Stopping {
     }
 }
 
-/// A stop reaches episodes that are waiting for answers.
+/// Stopping an evaluation also aborts episodes that are waiting for answers.
 #[test]
 fn a_stop_reaches_waiting_episodes() {
     let (home, subjects) = (tempfile::tempdir().unwrap(), vec![corridor()]);

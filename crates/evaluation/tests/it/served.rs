@@ -1,5 +1,5 @@
-//! Tests of served players, which play the same moves over the network as in a direct call, and report errors in the
-//! format of the real APIs.
+//! Tests of served players. They play the same moves over the network as in a direct call, and report errors
+//! in the format of the real APIs.
 
 use crate::sweeping;
 use base::Seed;
@@ -19,7 +19,7 @@ use std::time::Duration;
 /// The maximum number of decisions per episode.
 const LIMIT: u64 = 200;
 
-/// Reads a game of the corpus with its first level.
+/// Reads a game of the corpus, with its first level only.
 fn corpus_game(folder: &Path) -> Subject {
     let text = |file: &str| std::fs::read_to_string(folder.join(file)).unwrap();
     let name = folder.file_name().unwrap().to_str().unwrap();
@@ -42,7 +42,7 @@ fn offered(game: &Game, state: &State) -> Vec<Action> {
     [Action::Nil].iter().chain(game.actions(state)).copied().collect()
 }
 
-/// Plays a level with the answers to its prompts, and returns the actions and the outcome.
+/// Plays a level with the given answers to its prompts. Returns the actions and the outcome.
 fn episode(
     subject: &Subject,
     settings: &PromptSettings,
@@ -51,7 +51,7 @@ fn episode(
     beginning(LIMIT, subject, settings, answer)
 }
 
-/// Plays the first decisions of a level.
+/// Plays the first decisions of a level, up to `limit`.
 fn beginning(
     limit: u64,
     subject: &Subject,
@@ -103,7 +103,7 @@ fn spawn(player: &str) -> Running {
     Server::bind(player.parse().unwrap(), 0).unwrap().spawn()
 }
 
-/// Posts a request and returns the status and the document of the reply.
+/// Posts a request, and returns the status and the JSON document of the reply.
 fn post(server: &Running, path: &str, body: &str) -> (u16, Value) {
     let agent: ureq::Agent = ureq::Agent::config_builder().http_status_as_error(false).build().into();
     let request = agent.post(format!("{}{path}", server.base_url()));
@@ -123,7 +123,7 @@ fn body(model: &str, messages: &[ChatMessage]) -> String {
     json!({"model": model, "messages": messages, "temperature": 0.7}).to_string()
 }
 
-/// Sends a conversation through a model's client.
+/// Sends a conversation through a model's client, and returns the answer.
 fn through(model: &dyn Model, messages: &[ChatMessage]) -> String {
     let (messages, sample) = (messages.to_vec(), Seed::from_text("through"));
     model.chat(&ChatRequest { messages, decoding: Decoding::default(), sample }).unwrap().text
@@ -161,7 +161,7 @@ fn reflex_is_better_than_random() {
     assert!(reflex > random, "{reflex} {random}");
 }
 
-/// A lamp behind a gate that a key opens, a deadly moth, and a bat to be shot.
+/// A game with a lamp behind a gate that a key opens, a deadly moth, and a bat that must be shot.
 const LAMP: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    lamp > Door\n    gate > Immovable\n    key > Resource limit=2\n    moth > Immovable\n    bat > Immovable\n    dart > Missile\n    avatar > ShootAvatar stype=dart\n  LevelMapping\n    . > floor\n    A > avatar floor\n    l > lamp floor\n    g > gate floor\n    k > key floor\n    m > moth floor\n    b > bat floor\n  InteractionSet\n    avatar wall > stepBack\n    gate avatar > killIfOtherHasMore resource=key limit=1\n    avatar gate > stepBack\n    key avatar > collectResource\n    avatar moth bat > killSprite\n    bat dart > killBoth\n    dart wall > killSprite\n    lamp avatar > killSprite scoreChange=5\n  TerminationSet\n    MultiSpriteCounter stype1=lamp stype2=bat win=True\n    SpriteCounter stype=avatar win=False\n";
 
 #[test]
@@ -175,14 +175,15 @@ fn reflex_follows_the_rules() {
             assert!(actions.len() <= limit, "{level}{rules:?} {actions:?}");
         }
     };
-    // Straight to the lamp; around the moth; first the key, then the gate; the bat from a distance.
+    // The player must go straight to the lamp, go around the moth, take the key before the gate, or shoot the
+    // bat from a distance.
     check("wwwwww\nwA..lw\nwwwwww\n", 12);
     check("wwwwwww\nwA.m.lw\nw.....w\nwwwwwww\n", 24);
     check("wwwwwwww\nw.A.wl.w\nw...g..w\nwk..w..w\nwwwwwwww\n", 60);
     check("wwwwwwww\nwA....bw\nw......w\nwwwwwwww\n", 12);
 }
 
-/// The rules say `1 key` for the price of a shot where the turn says `2 keys`.
+/// The rules state the price of a shot as `1 key`, but the turn states the resources as `2 keys`.
 #[test]
 fn reflex_counts_what_it_holds() {
     let check = |game: &str, level: &str| {
@@ -199,7 +200,7 @@ fn reflex_counts_what_it_holds() {
     check(&paid, "wwwwwwww\nwA.k..bw\nwwwwwwww\n");
 }
 
-/// Two crates that must be pushed onto two drains, past each other.
+/// A game with two crates that must be pushed past each other onto two drains.
 const CELLAR: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    drain > Door\n    crate > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    . > floor\n    A > avatar floor\n    x > crate floor\n    o > drain floor\n  InteractionSet\n    avatar wall > stepBack\n    crate avatar > bounceForward\n    crate wall crate > undoAll\n    crate drain > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=crate win=True\n    Timeout limit=100 win=False\n";
 const CELLAR_LEVEL: &str = "wwwwwww\nw...o.w\nw.x...w\nw.Ax.ow\nw.....w\nwwwwwww\n";
 
@@ -207,7 +208,8 @@ const CELLAR_LEVEL: &str = "wwwwwww\nw...o.w\nw.x...w\nw.Ax.ow\nw.....w\nwwwwwww
 fn a_planner_wins_from_the_position_in_the_prompt() {
     let cellar = subject("cellar", CELLAR, CELLAR_LEVEL);
     let player: PromptPlayer = "planner:mcts".parse().unwrap();
-    // The player's draws come from the prompt, so different characters on the board give different draws.
+    // The player's random choices are derived from the prompt, so different characters on the board give
+    // different choices.
     let wins = (0..5).filter(|&number| {
         let settings = PromptSettings {
             rules: Rules::Vgdl,
@@ -316,7 +318,7 @@ fn handwritten_requests_are_answered() {
     assert_eq!(models["data"][0]["id"], "random");
 }
 
-/// Opens a connection that stops reading after `patience`.
+/// Opens a connection whose reads time out after `patience`.
 fn connection(server: &Running, patience: Duration) -> TcpStream {
     let address = server.base_url().strip_prefix("http://").unwrap().strip_suffix("/v1").unwrap();
     let stream = TcpStream::connect(address).unwrap();
@@ -335,7 +337,7 @@ fn raw(server: &Running, bytes: &str) -> String {
     reply
 }
 
-/// A foreign page in a browser on this machine gets no answers from a served player.
+/// A web page from another site in a browser on this machine gets no answers from a served player.
 #[test]
 fn foreign_pages_are_refused() {
     let server = spawn("random");
@@ -382,8 +384,8 @@ fn slow_clients_are_disconnected() {
     assert!(reply.starts_with("HTTP/1.1 408") && reply.contains("request_timeout"), "{reply}");
 }
 
-/// If all connections are taken, the client that has been silent for the longest time is dropped. This affects idle
-/// clients, and clients that send requests and read nothing.
+/// If all connections are taken, the client that has been silent for the longest time is disconnected. This
+/// rule affects idle clients, and clients that send requests but read nothing.
 #[test]
 fn idle_and_slow_clients_give_way() {
     let ask = "GET /v1/models HTTP/1.1\r\nHost: localhost\r\n";
@@ -393,12 +395,12 @@ fn idle_and_slow_clients_give_way() {
     for _ in 0..4 {
         assert!(raw(&server, &last).starts_with("HTTP/1.1 200"));
     }
-    // There are never more than two connections.
+    // There are never more than two open connections.
     assert_eq!(idle[0].read(&mut [0; 1]).unwrap_or(0), 0);
     let mut greedy = [connection(&server, GENEROUS), connection(&server, GENEROUS)];
     for client in &mut greedy {
         client.set_write_timeout(Some(Duration::from_millis(300))).unwrap();
-        // Write until neither side can send more.
+        // The client writes until neither side can send more.
         while client.write_all(format!("{ask}\r\n").repeat(1000).as_bytes()).is_ok() {}
     }
     for _ in 0..4 {
@@ -406,30 +408,30 @@ fn idle_and_slow_clients_give_way() {
     }
 }
 
-/// A client that reads nothing is disconnected, even if no other client comes.
+/// A client that reads nothing is disconnected, even if no other client connects.
 #[test]
 fn clients_that_read_nothing_are_disconnected() {
     let short = Duration::from_millis(200);
     let server = bounded(Bounds { write_time: short, head_time: GENEROUS, ..Bounds::default() });
     let mut client = connection(&server, GENEROUS);
     let many = "GET /v1/models HTTP/1.1\r\nHost: localhost\r\n\r\n".repeat(1000);
-    // Writing fails only because the server has closed the connection.
+    // A write fails only because the server has closed the connection.
     client.set_write_timeout(Some(GENEROUS)).unwrap();
     let gone = std::iter::repeat_with(|| client.write_all(many.as_bytes())).find_map(Result::err).unwrap();
     assert!(!matches!(gone.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut), "{gone}");
 }
 
-/// The bodies in flight use no more memory in total than the bounds allow.
+/// The total memory for bodies in flight stays within the bounds.
 #[test]
 fn bodies_are_bounded() {
     let server =
         bounded(Bounds { body: 48 << 10, bodies: 64 << 10, body_time: GENEROUS, ..Bounds::default() });
     let mut half = connection(&server, GENEROUS);
     half.write_all(format!("{HEAD}Content-Length: {}\r\n\r\n{{", 48 << 10).as_bytes()).unwrap();
-    // The server reads the sent part, so space for the body is reserved.
+    // The server has read the first part of the body, so it has reserved space for the whole body.
     half.flush().unwrap();
     let request = format!("{HEAD}Content-Length: {}\r\n\r\n{}", 32 << 10, " ".repeat(32 << 10));
-    // There is still space for a small body.
+    // There is still enough space for a small body.
     assert!(raw(&server, &format!("{HEAD}Content-Length: 2\r\n\r\n{{}}")).starts_with("HTTP/1.1 400"));
     let mut waiting = connection(&server, Duration::from_millis(500));
     waiting.write_all(request.as_bytes()).unwrap();
@@ -440,7 +442,7 @@ fn bodies_are_bounded() {
     let mut reply = String::new();
     waiting.read_to_string(&mut reply).unwrap();
     assert!(reply.starts_with("HTTP/1.1 400") && reply.contains("invalid_json"), "{reply}");
-    // Too large by its stated length, and too large in chunks.
+    // The body is too large by its stated length, or too large in chunks.
     let much = (48 << 10) + 1;
     let stated = raw(&server, &format!("{HEAD}Content-Length: {much}\r\n\r\n{}", " ".repeat(much)));
     assert!(stated.starts_with("HTTP/1.1 413"), "{stated}");

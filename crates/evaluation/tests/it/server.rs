@@ -1,4 +1,4 @@
-//! A scripted server on loopback that answers well or badly, and a clock that advances only during sleep.
+//! A scripted server on loopback with good and bad answers, and a clock that advances only during sleep.
 
 #![allow(dead_code, reason = "every test file uses its part")]
 
@@ -13,29 +13,29 @@ use std::time::{Duration, SystemTime};
 /// The server's reaction to a request.
 #[derive(Clone, Debug)]
 pub(crate) enum Response {
-    /// Sends a reply.
+    /// Sends a complete HTTP reply.
     Reply {
-        /// The status.
+        /// The HTTP status of the reply.
         status: u16,
-        /// The headers in addition to the body's length.
+        /// The headers of the reply, except for the length of its body.
         headers: Vec<(String, String)>,
-        /// The body.
+        /// The body of the reply.
         body: Vec<u8>,
     },
     /// Sends nothing until the server is dropped.
     Hang,
-    /// Sends these bytes, which are not valid HTTP, and closes the connection.
+    /// Sends the given bytes, which are not a complete HTTP reply, and closes the connection.
     Cut(Vec<u8>),
 }
 
 /// A request as the server received it.
 #[derive(Clone, Debug)]
 pub(crate) struct ReceivedRequest {
-    /// The path and query.
+    /// The path and query of the request.
     pub(crate) path: String,
-    /// The headers, with names in lower case.
+    /// The headers of the request, with names in lower case.
     pub(crate) headers: Vec<(String, String)>,
-    /// The body.
+    /// The body of the request.
     pub(crate) body: String,
 }
 
@@ -52,12 +52,12 @@ impl ReceivedRequest {
 }
 
 impl Response {
-    /// Returns a reply with this status and body.
+    /// Returns a reply with the given status and body.
     pub(crate) fn reply(status: u16, body: impl Into<Vec<u8>>) -> Response {
         Response::Reply { status, headers: Vec::new(), body: body.into() }
     }
 
-    /// Adds a header.
+    /// Adds a header to a reply.
     pub(crate) fn with_header(self, name: &str, value: &str) -> Response {
         match self {
             Response::Reply { status, mut headers, body } => {
@@ -68,7 +68,7 @@ impl Response {
         }
     }
 
-    /// Returns a chat completion with this text, 100 tokens of prompt and 10 tokens of answer.
+    /// Returns a chat completion with the given text, which reports 100 prompt tokens and 10 answer tokens.
     pub(crate) fn completion(text: &str) -> Response {
         let body = json!({
             "model": "served",
@@ -79,7 +79,7 @@ impl Response {
     }
 }
 
-/// The server. It answers every request on a separate connection.
+/// A scripted server, which answers every request on a separate connection.
 pub(crate) struct Server {
     address: SocketAddr,
     shared: Arc<Shared>,
@@ -103,7 +103,8 @@ struct State {
 }
 
 impl Server {
-    /// Starts a server that calls `script` for the reaction to each request. Requests are counted from 0.
+    /// Starts a server that calls `script` to get its reaction to each request. The argument of `script` is
+    /// the index of the request.
     pub(crate) fn start(
         script: impl Fn(usize, &ReceivedRequest) -> Response + Send + Sync + 'static,
     ) -> Server {
@@ -116,22 +117,23 @@ impl Server {
         Server { address, shared, thread: Some(thread) }
     }
 
-    /// Starts a server with these reactions in turn. The last one is repeated.
+    /// Starts a server that reacts to successive requests with the given reactions. The last reaction is
+    /// repeated.
     pub(crate) fn scripted(acts: Vec<Response>) -> Server {
         Server::start(move |number, _| acts[number.min(acts.len() - 1)].clone())
     }
 
-    /// Returns the value for `--base-url`.
+    /// Returns the server's base URL, as used for `--base-url`.
     pub(crate) fn base_url(&self) -> String {
         format!("http://{}/v1", self.address)
     }
 
-    /// Returns all requests so far.
+    /// Returns all requests received so far.
     pub(crate) fn received(&self) -> Vec<ReceivedRequest> {
         self.shared.state.lock().unwrap().received.clone()
     }
 
-    /// Returns the maximum number of concurrent requests.
+    /// Returns the maximum number of requests that were in progress at the same time.
     pub(crate) fn max_concurrent(&self) -> usize {
         self.shared.state.lock().unwrap().max_concurrent
     }
@@ -141,7 +143,7 @@ impl Drop for Server {
     fn drop(&mut self) {
         self.shared.state.lock().unwrap().closed = true;
         self.shared.closed.notify_all();
-        // Wakes up the thread that is waiting for connections.
+        // The connection wakes up the thread that is waiting for connections.
         let _ = TcpStream::connect(self.address);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
@@ -161,7 +163,7 @@ fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
     }
 }
 
-/// Serves one request. Connection errors are the client's concern.
+/// Serves one request. Connection errors are ignored, because the client must handle them.
 fn serve(mut stream: TcpStream, shared: &Shared) {
     let Some(received) = read(&mut stream) else { return };
     let number = {
@@ -172,7 +174,8 @@ fn serve(mut stream: TcpStream, shared: &Shared) {
         state.received.len() - 1
     };
     let act = (shared.script)(number, &received);
-    // This comes before the answer, because the client may send the next request as soon as it has the answer.
+    // The request must be counted as finished before the answer is sent. Otherwise, the client could already
+    // send the next request.
     let leave = || shared.state.lock().unwrap().at_once -= 1;
     match act {
         Response::Reply { status, headers, body } => {
@@ -217,12 +220,12 @@ fn read(stream: &mut TcpStream) -> Option<ReceivedRequest> {
 pub(crate) struct FakeClock(Mutex<Vec<Duration>>);
 
 impl FakeClock {
-    /// Returns all sleeps.
+    /// Returns the durations of all sleeps.
     pub(crate) fn sleeps(&self) -> Vec<Duration> {
         self.0.lock().unwrap().clone()
     }
 
-    /// Returns the initial date.
+    /// Returns the date at which the clock starts.
     pub(crate) fn begin() -> SystemTime {
         SystemTime::UNIX_EPOCH + Duration::from_secs(1_796_000_000)
     }

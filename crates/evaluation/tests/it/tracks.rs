@@ -1,7 +1,8 @@
-//! Tests of tracks: their prompts, the information that the prompts must hide, and series of levels.
+//! Tests of tracks, including their prompts, the information that the prompts must hide, and series of
+//! levels.
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it tracks` rewrites the files of `golden/`. A changed
-//! word in one of them requires a new version of the track.
+//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it tracks` rewrites the files in `golden/`. A
+//! change to any word requires a new version of the track.
 
 use crate::games::corridor;
 use crate::prompts::{golden, text};
@@ -31,11 +32,12 @@ fn prompter(subject: &Subject, track: Track) -> Prompter {
     Prompter::within(subject, track.settings(), 200, Commitment::ONE).unwrap()
 }
 
-/// Returns the conversation over two levels of a game in `discover`, with a few random steps on each.
+/// Returns the conversation over two levels of a game on the track `discover`, with up to `steps` random
+/// steps on each level.
 fn series(subject: &Subject, steps: usize) -> Vec<ChatMessage> {
     let prompter = prompter(subject, Track::Discover);
     let (mut past, mut previous, mut messages) = (Vec::new(), None::<LevelEnd>, Vec::new());
-    // Some kinds of the game, by its own names.
+    // The question asks about sprite types under the game's own names.
     let first = Walk::new(subject, 0);
     let own = |name: &String| first.now.avatar.as_ref().is_some_and(|avatar| avatar.name == *name);
     let kinds: BTreeSet<String> =
@@ -84,14 +86,14 @@ fn words(text: &str) -> BTreeSet<&str> {
     text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty()).collect()
 }
 
-/// Returns `true` if a word is a neutral name, a number, or in capitals.
+/// Returns `true` if a word reveals nothing, because it is a neutral name, a number, or in capitals.
 fn says_nothing(word: &str) -> bool {
     let rest = word.strip_prefix('t').unwrap_or(word).trim_end_matches('s');
     !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit())
 }
 
-/// A name is leaked if a masked prompt contains it and no masked prompt of any other game does, because it is not
-/// part of the common wording then. Walls and avatars are also renamed.
+/// A name counts as leaked if a masked prompt contains it and no masked prompt of another game contains it.
+/// Such a name is not part of the common wording. Walls and avatars are also renamed.
 #[test]
 fn masked_prompts_tell_no_names() {
     let games = corpus();
@@ -117,14 +119,16 @@ fn masked_prompts_tell_no_names() {
     }
 }
 
-/// The words of prompts without rules, besides neutral names, numbers and the characters of the legend and the board.
+/// The words that prompts without rules may contain, in addition to neutral names, numbers and the characters
+/// of the legend and the board.
 const VOCABULARY: &str = "You are at facing up left down right nil use Level of which is for practice counts Tick most hold nothing Your health \
      Actions now was played did not move moved here from turned to face became gone back met cell cells before new in and more Moved \
      have won lost The score after action actions It over without a winner Its limit reached win All levels What do you expect touching \
      each these kinds End your answer with four lines the it true separated by commas or none KILLS kills least while STOPS cannot \
      enter its GOES disappears turns into another kind once when what takes SCORES changes over ACTION wait";
 
-/// In `discover`, games differ only in neutral names and characters, and in whether there is anything to shoot.
+/// On the track `discover`, the prompts of games differ only in neutral names and characters, and in whether
+/// there is anything to shoot.
 #[test]
 fn prompts_without_rules_tell_no_rules() {
     let vocabulary: BTreeSet<&str> = VOCABULARY.split_whitespace().collect();
@@ -162,7 +166,8 @@ fn prompts_without_rules_tell_no_rules() {
     assert!(fixed.values().all(|parts| parts.len() == 1), "{fixed:?}");
 }
 
-/// The truth about the kinds of the corpus according to the rules, with which predictions are graded.
+/// The truth about the sprite types of the corpus follows from the rules, and predictions are graded by
+/// comparison with it.
 #[test]
 fn truths_of_the_corpus() {
     let mut lines = String::new();
@@ -187,8 +192,8 @@ fn truths_of_the_corpus() {
     golden("touch_facts.txt", &lines);
 }
 
-/// During play, an avatar that holds nothing never shares a cell with a kind that stops it, and never survives a tick
-/// in a cell that contained a kind that kills it.
+/// During play, an avatar that holds nothing never shares a cell with a type that stops it. It never survives
+/// a tick in a cell that contained a type that kills it.
 #[test]
 fn truths_hold_in_play() {
     let mut contacts = 0;
@@ -208,7 +213,7 @@ fn truths_hold_in_play() {
                 if !(has_entered && holds_nothing(now) && holds_nothing(before)) || cell >= now.cells.len() {
                     continue;
                 }
-                // A sprite that appears only then was not touched.
+                // A sprite that appeared after the move was not touched.
                 for name in before.cells[cell].iter().filter(|name| now.cells[cell].contains(name)) {
                     let kind = subject.game.sprite_type(name).unwrap();
                     contacts += 1;
@@ -226,7 +231,8 @@ fn truths_hold_in_play() {
     assert!(contacts > 1000, "{contacts}");
 }
 
-/// A program gets the same information as a model: neutral names, no rules and no score. It is asked at the end.
+/// A program gets the same information as a model: neutral names, no rules and no score. At the end, the
+/// program is asked for predictions.
 #[cfg(unix)]
 #[test]
 fn a_program_plays_a_series() {
@@ -278,7 +284,7 @@ impl Progress for Silent {
     fn episode(&self, _: &Task<'_>, _: &PlayResult) {}
 }
 
-/// Returns three levels of the corridor.
+/// Returns the corridor game with three levels.
 fn three_levels() -> Subject {
     let corridor = corridor();
     let levels: Vec<_> = [0, 1, 1]
@@ -310,8 +316,8 @@ fn settings(name: &str, track: Track, subjects: &[Subject]) -> Settings {
     settings.on_track(track).unwrap()
 }
 
-/// A model that walks to the right, and makes predictions. After `left` answers, the network fails. The model checks
-/// that it is shown its past.
+/// A model that walks to the right, and makes predictions at the end. The network fails after `left` answers.
+/// The model checks that the prompts show its past turns.
 struct Walker {
     left: AtomicU64,
 }
@@ -326,7 +332,7 @@ impl Model for Walker {
         let last = &request.messages.last().unwrap().text;
         let asked = request.messages.len() / 2;
         let answer = match last.contains("## Question") || last.contains("four lines") {
-            // The first answer is unusable, so the question is repeated.
+            // The first answer is unusable, so that the question is repeated.
             true if last.contains("## Question") => "I do not know.".to_owned(),
             true => "KILLS: none\nSTOPS: none\nGOES: none\nSCORES: none".to_owned(),
             false if last.contains("## Level before") => format!("I remember {asked}.\nACTION: right"),
@@ -381,7 +387,7 @@ fn a_series_is_one_conversation() {
     let said = |log: &str| undisturbed[log].iter().any(|event| matches!(event, Event::Predictions { .. }));
     assert_eq!([0, 1, 2].map(|level| said(&format!("corridor-lvl{level}-run1.jsonl"))), [false, false, true]);
 
-    // Failures at any answer, followed by a resumption, leave no trace.
+    // A failure at any answer, followed by a resumption, does not change the results.
     for answers in [0, 3, 9, 11, 13, 14, 15, 20] {
         let folder = home.path().join(format!("after{answers}"));
         let evaluation = Evaluation::create(&folder, settings.clone(), subjects.clone()).unwrap();
@@ -401,12 +407,12 @@ fn a_series_is_one_conversation() {
     assert!(study.notes.iter().any(|note| note.contains("for practice")), "{:?}", study.notes);
 }
 
-/// Runs on a single thread, so that the order of requests is fixed.
+/// Runs a function on a single thread, so that the order of requests is fixed.
 fn rayon_one<T: Send>(run: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(run)
 }
 
-/// A player that remembers earlier levels is resumed at any byte of any log, with the same final logs.
+/// A player that remembers earlier levels can be resumed at any byte of any log. The final logs are the same.
 #[test]
 fn series_are_resumed_anywhere() {
     let (home, subjects) = (tempfile::tempdir().unwrap(), vec![three_levels()]);
@@ -432,7 +438,7 @@ fn series_are_resumed_anywhere() {
     }
 }
 
-/// A changed grade is detected when the log is read.
+/// A changed grade in a log is detected when the log is read.
 #[test]
 fn grades_follow_from_the_rules() {
     let (home, subjects) = (tempfile::tempdir().unwrap(), vec![three_levels()]);
@@ -475,7 +481,7 @@ fn tracks_are_never_mixed() {
     let random = (Player::reference("random"), vec![episode(None, 5)]);
     let study = Study::new(results.into_iter().chain([random]).collect(), Vec::new());
     let pairs: Vec<[usize; 2]> = study.pairs.overall.iter().map(|pair| pair.players).collect();
-    // Baselines that read no prompts are compared with all players.
+    // Baselines that read no prompts are compared with all other players.
     assert_eq!(pairs, [[0, 1], [0, 4], [1, 4], [2, 4], [3, 4]]);
     assert!(study.aids.is_empty(), "a track is no aid");
     assert_eq!(study.episodes[1].normalised_reward.map(|reward| reward > 0.99), Some(true));

@@ -1,4 +1,4 @@
-//! Games of the corpus, and episodes of random actions.
+//! Games of the corpus for tests, and episodes with random actions.
 
 use base::Seed;
 use engine::{Action, Game, Observation, State};
@@ -31,7 +31,8 @@ fn read(folder: &Path) -> Subject {
     subject(folder, &source).unwrap_or_else(|| panic!("{}: faults", folder.display()))
 }
 
-/// Builds the game of this text with the levels of a folder; `None` if it does not compile.
+/// Builds a game from the given text, with the levels in a folder. Returns `None` if the game does not
+/// compile.
 fn subject(folder: &Path, source: &str) -> Option<Subject> {
     let name = folder.file_name()?.to_string_lossy().into_owned();
     let file = |number: usize| {
@@ -42,8 +43,8 @@ fn subject(folder: &Path, source: &str) -> Option<Subject> {
     Subject::read(&name, source, &levels, SubjectFacts::default()).ok()
 }
 
-/// Returns the public games beside the checkout that compile with all their levels. If there are no such games,
-/// prints a message and returns an empty list.
+/// Returns the public games next to the checkout that compile with all their levels. If there are no such
+/// games, prints a message and returns an empty list.
 #[allow(dead_code, reason = "not all tests play them")]
 pub(crate) fn public_games() -> Vec<Subject> {
     let folder = root().join("../shared/gvgai/games");
@@ -57,7 +58,7 @@ pub(crate) fn public_games() -> Vec<Subject> {
     folders.iter().filter_map(read).collect()
 }
 
-/// An episode of random actions and its observations.
+/// An episode with random actions, and its observations.
 pub(crate) struct Walk<'a> {
     subject: &'a Subject,
     level: usize,

@@ -1,4 +1,5 @@
-//! The report on evaluations, as files: one self-contained page, Markdown, JSON, and every table as CSV and LaTeX.
+//! The report on evaluations, which consists of a self-contained page, Markdown, JSON, and every table as CSV
+//! and LaTeX.
 
 mod page;
 mod plots;
@@ -15,21 +16,21 @@ use serde::Serialize;
 pub struct Results<'a> {
     /// The study of the results.
     pub study: &'a Study,
-    /// The results folders, for replays and settings.
+    /// The results folders, which provide the replays and the settings.
     pub evaluations: &'a [Evaluation],
     /// The number of episodes per player that the page replays.
     pub replays: usize,
 }
 
-/// The document `report.json`. It contains no folder names, so that the same results give the same bytes wherever they are
-/// stored.
+/// The content of `report.json`. It contains no folder names, so that the same results give the same bytes
+/// wherever they are stored.
 #[derive(Serialize)]
 struct Document<'a> {
     evaluations: Vec<Asked<'a>>,
     study: &'a Study,
 }
 
-/// The settings of a player's evaluation, without the games, which the study lists.
+/// The settings of a player's evaluation. The games are omitted, because the study lists them.
 #[derive(Serialize)]
 struct Asked<'a> {
     entrant: &'a Entrant,
@@ -41,11 +42,12 @@ struct Asked<'a> {
     max_steps: u64,
 }
 
-/// Returns `report.html`, `report.md`, `report.json` and the files in `tables/`. The same results give the same bytes.
+/// Returns the files of the report: `report.html`, `report.md`, `report.json` and the files in `tables/`. The
+/// same results give the same bytes.
 ///
 /// # Errors
 ///
-/// Returns an error if a log cannot be read or the page cannot be made.
+/// Returns an error if a log cannot be read or the page cannot be rendered.
 pub fn evaluation_report(results: &Results<'_>) -> Result<Vec<File>, PageError> {
     let Results { study, evaluations, .. } = results;
     let tables = study.tables();

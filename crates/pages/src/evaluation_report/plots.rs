@@ -1,4 +1,4 @@
-//! The plots of the page, made from the numbers of the study.
+//! The plots of the page, drawn from the numbers of the study.
 
 use crate::page::plots::{
     CurvePoint, ForestRow, HeatMap, Label, Violin, curve, forest, group_width, heat_map, matrix, violins,
@@ -10,8 +10,9 @@ use evaluation::study::{
 use serde::Serialize;
 use std::fmt::Write;
 
-/// The number of columns of a heat map that stay together, and their width in pixels, which fits a phone.
+/// The approximate number of columns in one group of a heat map.
 const COLUMNS: usize = 6;
+/// The width of one group of a heat map in pixels, which fits a phone.
 const WIDTH: f64 = 240.0;
 
 #[derive(Serialize)]
@@ -28,7 +29,7 @@ pub(super) struct Group {
     plots: Vec<Plot>,
 }
 
-/// The heat maps, of which one is visible at a time.
+/// The heat maps of the page. Only one heat map is visible at a time.
 #[derive(Serialize)]
 pub(super) struct Heats {
     measures: Vec<String>,
@@ -36,13 +37,13 @@ pub(super) struct Heats {
     panels: Vec<Panel>,
 }
 
-/// The heat map of one measure in one scope, over all games.
+/// The heat maps of one measure in one scope, over all games.
 #[derive(Serialize)]
 struct Panel {
     measure: usize,
     scope: usize,
     svgs: Vec<String>,
-    /// The colour scale, with the labels of its ends.
+    /// The colour scale, with labels at its ends.
     key: String,
     low: String,
     high: String,
@@ -64,12 +65,12 @@ impl Heats {
         Heats { measures, scopes: scopes.collect(), panels: panels.collect() }
     }
 
-    /// Returns the size of the heat maps in the page, in bytes.
+    /// Returns the total size of the heat maps in the page, in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.panels.iter().flat_map(|panel| &panel.svgs).map(String::len).sum()
     }
 
-    /// Returns the style rules with which a choice shows its panel.
+    /// Returns the style rules that show the panel selected by the reader.
     pub(super) fn rules(&self) -> String {
         let mut text = String::new();
         for measure in 0..self.measures.len() {
@@ -150,7 +151,8 @@ impl Panel {
     }
 }
 
-/// Formats a value like `.45` or `1`, without the zero before the decimal point, so that the text fits into a cell.
+/// Formats a value such as `.45` or `1`. The zero before the decimal point is omitted, so that the text fits
+/// into a cell.
 fn two_digits(value: f64) -> String {
     let text = format!("{value:.2}");
     match text.as_str() {
@@ -160,7 +162,7 @@ fn two_digits(value: f64) -> String {
     }
 }
 
-/// Returns the colours of a heat map's scale, from left to right.
+/// Returns an image of a heat map's colour scale, from its low end to its high end.
 fn key() -> String {
     let step =
         |at: usize| format!("<g class=\"q{at}\"><rect x=\"{}\" width=\"12\" height=\"12\"/></g>", 12 * at);
@@ -168,8 +170,8 @@ fn key() -> String {
     format!("<svg width=\"132\" height=\"12\" viewBox=\"0 0 132 12\" aria-hidden=\"true\">{steps}</svg>")
 }
 
-/// Splits the columns into groups of about [`COLUMNS`]. Games stay whole unless they are longer than that, and share a map if
-/// their titles have room.
+/// Splits the columns of a matrix into groups of about [`COLUMNS`]. A game is split only if it has more
+/// columns. Several games share a group if their titles fit.
 fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     let mut stretches: Vec<(f64, Vec<usize>)> = Vec::new();
     for game in 0..study.games.len() {
@@ -190,7 +192,8 @@ fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     stretches.into_iter().map(|(_, columns)| columns).collect()
 }
 
-/// Returns a player's label in two lines: the name, and then the mode and aids, or a note that the player is a reference.
+/// Returns a player's label in two parts. The first part is the name. The second part contains the mode and
+/// aids, or states that the player is a reference player.
 fn label(name: &str, reference: bool) -> Label {
     match name.split_once(" (") {
         Some((name, note)) => Label { name: name.to_owned(), note: note.trim_end_matches(')').to_owned() },
@@ -273,7 +276,7 @@ fn forest_row(label: Label, scores: &Scores, reference: bool) -> ForestRow {
     ForestRow { label, share, of, reference }
 }
 
-/// Plots the movement failures in won episodes and in others.
+/// Plots the failure-mode metrics in won episodes and in other episodes.
 pub(super) fn failures(study: &Study) -> Vec<Plot> {
     let shown = [
         FailureMeasure::BumpRate,
@@ -310,7 +313,7 @@ pub(super) fn correlations(study: &Study) -> Vec<Plot> {
     vec![plot("Pearson", |pair| pair.pearson), plot("Spearman", |pair| pair.spearman)]
 }
 
-/// Formats a p-value like `p < 0.001`.
+/// Formats a p-value, as in `p < 0.001`.
 fn corrected(p: f64) -> String {
     if p < 0.001 { "p < 0.001".to_owned() } else { format!("p {p:.3}") }
 }

@@ -1,4 +1,4 @@
-//! The questions that the page answers, each with its plots and tables.
+//! The sections of the page. Each section answers a question with plots and tables.
 
 use super::plots::{self, Group, Heats, Plot};
 use crate::page::tables::{Column, Row, Shown};
@@ -23,13 +23,14 @@ impl Section {
         Section { id, title, note: note.into(), ..Section::default() }
     }
 
-    /// Returns the size of the section's heat maps, which are by far the largest part of the page.
+    /// Returns the size of the section's heat maps in bytes. Heat maps are by far the largest part of the
+    /// page.
     pub(super) fn bytes(&self) -> usize {
         self.heats.as_ref().map_or(0, Heats::bytes)
     }
 }
 
-/// Returns all questions, with the style rules of the heat maps.
+/// Returns all sections of the page, and the style rules of the heat maps.
 pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let of = |ids: &[&str]| -> Vec<Shown> {
         let found = ids.iter().flat_map(|id| tables.iter().filter(move |table| table.id == *id));
@@ -125,7 +126,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     (first.chain(others).collect(), rules)
 }
 
-/// Returns the proven shortest wins as a row of the leaderboard.
+/// Returns a row for the leaderboard with the mean length of the proved shortest wins.
 fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     let levels: Vec<Option<usize>> =
         study.games.iter().flat_map(|game| &game.levels).map(|level| level.optimal_ticks).collect();
@@ -144,7 +145,7 @@ fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     (!known.is_empty()).then(|| Row { cells: columns.iter().map(cell).collect(), mark: true })
 }
 
-/// Returns a table of the study, in which rows about players that are not models are marked.
+/// Returns a table of the study, in which rows about players that are not models are marked as such.
 fn shown(study: &Study, table: &Table) -> Shown {
     let labels = |marks: bool| -> Vec<String> {
         let players = study.players.iter().filter(|player| player.is_reference() == marks);
@@ -153,7 +154,7 @@ fn shown(study: &Study, table: &Table) -> Shown {
     let (models, marks) = (labels(false), labels(true));
     let about = |cells: &[String], players: &[String]| cells.iter().any(|cell| players.contains(cell));
     let found = Shown::of(table);
-    // In these tables, the important cells are to the right of long names.
+    // In these tables, the important cells are to the right of long texts.
     let is_long = ["causes", "taxonomy"].contains(&table.id.as_str())
         || ["pairs-", "modes-", "aids-"].iter().any(|start| table.id.starts_with(start));
     let found = if is_long { found.stacked() } else { found };

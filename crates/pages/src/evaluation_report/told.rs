@@ -1,4 +1,4 @@
-//! The introduction of the report: the episodes that count, and the reasons for leaving out others.
+//! The introduction of the report, which states which episodes count and why other episodes do not.
 
 use super::Results;
 use crate::page::words;
@@ -9,16 +9,16 @@ use itertools::Itertools;
 use report::{Table, in_markdown};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The text at the head of the page and of the Markdown file.
+/// The introductory text of the page and of the Markdown file.
 pub(super) struct Told {
     pub(super) title: String,
-    /// The source of the results.
+    /// A line about the source of the results.
     pub(super) subtitle: String,
-    /// The results in one paragraph, and how each player failed.
+    /// The summary of the results, followed by a paragraph on the failures of each player.
     pub(super) verdict: Vec<String>,
-    /// The number of episodes, players and levels that count.
+    /// Sentences about the numbers of episodes, players and levels that count.
     pub(super) counted: Vec<String>,
-    /// Caveats for any comparison.
+    /// Warnings about the limits of comparisons.
     pub(super) warnings: Vec<String>,
 }
 
@@ -78,7 +78,7 @@ fn levels(study: &Study) -> u64 {
     study.games.iter().map(|game| game.levels.len() as u64).sum()
 }
 
-/// Returns the sentence with which to cite the result, if all results are on releases.
+/// Returns a sentence for citing the result, if all results are on releases.
 fn citation(evaluations: &[Evaluation]) -> Option<String> {
     let one = |evaluation: &Evaluation| {
         let root = evaluation.settings.snapshot?;
@@ -92,7 +92,8 @@ fn citation(evaluations: &[Evaluation]) -> Option<String> {
     (!cited.is_empty()).then(|| format!("Cite this result as: {cited}."))
 }
 
-/// Returns a text like `snapshot 3f2a…, seed “evaluate”, at most 1 000 steps an episode, semantics 2, arcade 0.1.0`.
+/// Returns a line about the source, such as `snapshot 3f2a…, seed “evaluate”, at most 1 000 steps an episode,
+/// semantics 2, arcade 0.1.0`.
 fn subtitle(evaluations: &[Evaluation]) -> String {
     let all = |said: &dyn Fn(&Evaluation) -> String| {
         let different: BTreeSet<String> = evaluations.iter().map(said).collect();
@@ -115,7 +116,8 @@ fn subtitle(evaluations: &[Evaluation]) -> String {
     )
 }
 
-/// Returns a text with the number of episodes that count, and the reasons why others do not.
+/// Returns a sentence with the number of episodes that count, and the reasons why other episodes do not
+/// count.
 fn episodes(study: &Study) -> String {
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     let mut excluded: BTreeMap<String, u64> = BTreeMap::new();
@@ -142,7 +144,7 @@ fn episodes(study: &Study) -> String {
     format!("{all}, of which {ended} ended and count. Left out of every number: {}.", why.join(", "))
 }
 
-/// Returns a text about the levels on which the players can be compared.
+/// Returns a sentence about the levels on which the players can be compared.
 fn common(study: &Study, levels: u64) -> String {
     let played = |player: usize| -> BTreeSet<(usize, usize)> {
         let ended = study.on(player, None, None).iter().filter(|episode| episode.metrics.counts());
@@ -166,7 +168,7 @@ fn common(study: &Study, levels: u64) -> String {
     }
 }
 
-/// Returns a text with the statistics of the models' answers.
+/// Returns a sentence with statistics about the models' answers, if there are answers.
 fn answers(study: &Study) -> Option<String> {
     let models = study.leaderboard.iter().filter(|row| !study.players[row.player].is_reference());
     let mut all = Choices::default();

@@ -1,4 +1,4 @@
-//! The figures on a page: the answers to a question, each with its interval.
+//! The figures on a page. Each figure answers a question, and has an interval.
 
 use super::tables::Shown;
 use super::words;
@@ -17,15 +17,16 @@ pub(crate) struct Section {
 pub(crate) struct Fact {
     name: String,
     value: String,
-    /// The bar as SVG. Empty if there is nothing to draw.
+    /// The bar as SVG, or an empty text if there is nothing to draw.
     bar: String,
     band: String,
-    /// The size of the figure's sample.
+    /// A phrase for the size of the figure's sample.
     of: String,
 }
 
 impl Section {
-    /// Converts a section of a report. Quantiles of several samples get their own table.
+    /// Converts a section of a report to a section of a page. Quantiles of several samples get their own
+    /// table.
     pub(crate) fn of(section: &report::Section) -> Section {
         let columns = ["", "least", "¼", "median", "¾", "most", "of"];
         let mut quantiles = Table::new("quantiles", "", "", &columns);
@@ -49,7 +50,7 @@ impl Section {
 }
 
 impl Fact {
-    /// Converts a figure of a report. Quantiles are represented by their median.
+    /// Converts a figure of a report to a fact on a page. Quantiles are represented by their median.
     pub(crate) fn headline(figure: &Figure) -> Fact {
         let name = &*figure.name;
         match &figure.value {
@@ -75,8 +76,8 @@ impl Fact {
         }
     }
 
-    /// Returns a fraction like `95 %`, with its interval `76 to 99 %` and its sample `19 of 20`, or a dash if the sample is
-    /// empty.
+    /// Returns a fact about a fraction, such as `95 %`, with its interval `76 to 99 %` and its sample
+    /// `19 of 20`. If the sample is empty, the value is a dash.
     fn share(name: &str, share: &Share) -> Fact {
         let of = format!("{} of {}", share.count, share.of);
         if share.of == 0 {
@@ -103,7 +104,7 @@ impl Fact {
     }
 }
 
-/// Draws a fraction from 0 to 1 as a bar, with its interval as a line.
+/// Draws a fraction between 0 and 1 as a bar, and its interval as a line.
 fn bar(share: f64, [low, high]: [f64; 2]) -> String {
     const LENGTH: f64 = 90.0;
     let at = |share: f64| number(LENGTH * share.clamp(0.0, 1.0));
@@ -115,7 +116,7 @@ fn bar(share: f64, [low, high]: [f64; 2]) -> String {
     )
 }
 
-/// Formats a length in pixels with at most one decimal.
+/// Formats a length in pixels with at most one decimal place.
 pub(crate) fn number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     if tenths % 10 == 0 { format!("{}", tenths / 10) } else { format!("{:.1}", tenths as f64 / 10.0) }

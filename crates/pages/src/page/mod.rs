@@ -1,5 +1,5 @@
-//! The shared parts of the pages of all reports: the wording and layout of figures and tables, and the templates with which they
-//! are shown.
+//! The parts that the pages of all reports share. They include the wording and layout of figures and tables,
+//! and the templates that show them.
 
 pub(crate) mod facts;
 pub(crate) mod plots;
@@ -28,12 +28,12 @@ pub(crate) struct Figure {
     png: String,
     size: [u32; 2],
     head: String,
-    /// Always empty. It is kept because the page's nonce is computed over it.
+    /// A text that is always empty. The field is kept because the page's nonce is computed over it.
     line: &'static str,
 }
 
 impl Figure {
-    /// Converts a picture to PNG, with its caption.
+    /// Converts a picture to a PNG image with a caption.
     pub(crate) fn of(picture: &Picture, head: String) -> Result<Figure, RenderError> {
         let size = [picture.width(), picture.height()];
         Ok(Figure { png: STANDARD.encode(png(picture)?), size, head, line: "" })
@@ -45,8 +45,8 @@ impl Figure {
     }
 }
 
-/// Renders a page from a template as one self-contained HTML file. The template may include or import `parts` by name, in
-/// addition to the shared parts. The same arguments give the same bytes.
+/// Renders a page from a template as one self-contained HTML file. The template may include or import the
+/// given `parts` by name, in addition to the shared parts. The same arguments give the same bytes.
 pub(crate) fn render(
     parts: &[(&'static str, &'static str)],
     template: &'static str,
@@ -54,7 +54,8 @@ pub(crate) fn render(
 ) -> Result<String, PageError> {
     let render = || {
         let mut environment = Environment::new();
-        // Names in sentences come from files, so they are escaped. Safe strings are our own markup.
+        // Names in sentences come from files, so they are escaped. Safe strings contain markup from this
+        // crate.
         environment.set_formatter(|out, state, value| match value.as_str() {
             Some(text) if !value.is_safe() => {
                 escape_formatter(out, state, &Value::from(visible_lines(text).into_owned()))

@@ -1,13 +1,13 @@
-//! Tables on a page.
+//! Tables in the pages of reports.
 
 use super::words;
 use report::{Table, TableCell};
 use serde::Serialize;
 
-/// The maximum number of rows of a table in a page. The table's file has all rows.
+/// The maximum number of rows that a page shows of a table. The table's file contains all rows.
 const MOST: usize = 150;
 
-/// A table in the form that the template part `table` shows.
+/// A table in the form required by the template `table`.
 #[derive(Serialize)]
 pub(crate) struct Shown {
     pub(crate) id: String,
@@ -15,13 +15,14 @@ pub(crate) struct Shown {
     note: String,
     pub(crate) columns: Vec<Column>,
     pub(crate) rows: Vec<Row>,
-    /// The number of omitted rows as text. Empty if no row is omitted.
+    /// A phrase with the number of omitted rows. The text is empty if no row is omitted.
     more: String,
-    /// `true` if the rows are shown as lists of cells on a narrow page, for tables with long words.
+    /// `true` if each row is shown as a list of cells on a narrow page. This layout suits tables with long
+    /// texts.
     stack: bool,
 }
 
-/// A column with its name, and with `true` if it contains figures, which are aligned to the right.
+/// A column of a table. The flag is `true` if the column contains numbers, which are aligned to the right.
 #[derive(Serialize)]
 pub(crate) struct Column {
     pub(crate) name: String,
@@ -31,7 +32,7 @@ pub(crate) struct Column {
 #[derive(Serialize)]
 pub(crate) struct Row {
     pub(crate) cells: Vec<String>,
-    /// `true` if the row is less prominent than others.
+    /// `true` if the row is displayed less prominently than other rows.
     pub(crate) mark: bool,
 }
 
@@ -61,7 +62,8 @@ impl Shown {
         Shown { stack: true, ..self }
     }
 
-    /// Keeps only the first rows of a long table, and marks some of them.
+    /// Keeps only the first rows of a long table, and sets the `mark` of the rows for which `is_marked`
+    /// returns `true`.
     pub(crate) fn cut(mut self, is_marked: impl Fn(&[String]) -> bool) -> Shown {
         let more = self.rows.len().saturating_sub(MOST) as u64;
         self.more = if more == 0 { String::new() } else { words::many(more, "row") };

@@ -3,12 +3,12 @@
 use itertools::Itertools;
 use report::TableCell;
 
-/// Returns a count with its noun: `1 level`, `2 levels`.
+/// Returns a count with its noun, such as `1 level` or `2 levels`.
 pub(crate) fn many(count: u64, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{} {noun}s", grouped(count)) }
 }
 
-/// Formats a number with as many decimals as distinguish it from its neighbours, such as `12.2`.
+/// Formats a number with up to two decimal places, depending on its size, such as `12.2`.
 pub(crate) fn short(value: f64) -> String {
     TableCell::short(value).plain()
 }
@@ -25,7 +25,7 @@ pub(crate) fn grouped(count: u64) -> String {
 /// The text that stands for a missing value.
 pub(crate) const NONE: &str = "–";
 
-/// Formats a fraction as a percentage such as `95 %`, with a space at which no line is broken.
+/// Formats a fraction as a percentage such as `95 %`, with a non-breaking space.
 pub(crate) fn whole_percent(share: f64) -> String {
     format!("{:.0}\u{a0}%", 100.0 * share)
 }

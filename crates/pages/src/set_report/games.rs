@@ -15,12 +15,13 @@ use validators::Difficulty;
 /// The approximate length of a board's longer side, in pixels.
 const SIDE: u32 = 380;
 
-/// Returns the files of the report on a set of games. `games` must be in the order of the report's rows. The page shows the
-/// title, the method and the time taken in seconds. Cost: O(pixels), and half an episode per game.
+/// Returns the files of the report on a set of games. `games` must be in the order of the report's rows. The
+/// page shows the title, the method and the elapsed time in seconds. Cost: O(pixels), and half an episode per
+/// game.
 ///
 /// # Errors
 ///
-/// Returns an error if an image or the page cannot be made.
+/// Returns an error if an image or the page cannot be rendered.
 pub fn game_report(
     report: &GameSetReport,
     games: &[SurveyedGame],
@@ -62,8 +63,8 @@ pub fn game_report(
     files(&report.set, &showcase)
 }
 
-/// Draws the costs of the judges, largest first, split by whether the level was accepted, was rejected, or was lost with its
-/// rejected game.
+/// Draws the costs of the judges, largest first. Each cost is divided into three parts: levels that were
+/// accepted, levels that were rejected, and levels whose game was rejected.
 fn costs(cost: &Tally) -> Option<(String, String)> {
     let mut judges: Vec<(&String, &JudgeCost)> =
         cost.judges.iter().filter(|(_, cost)| cost.calls() > 0).collect();
@@ -85,8 +86,8 @@ fn drawn(game: &SurveyedGame) -> Result<Option<Picture>, PageError> {
     picture(&looks, &state, &Style::bare(cell(level, SIDE, 40))).map(Some).map_err(failed)
 }
 
-/// Returns the level with a known win that is closest to the middle, and its state halfway through that win. If there is none,
-/// returns the middle level in its initial state.
+/// Returns the level closest to the middle of the game for which a win is known, and its state halfway
+/// through that win. If no win is known, returns the middle level in its initial state.
 fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     let SurveyedGame { game, levels, report, .. } = surveyed;
     let half = levels.len() / 2;
@@ -103,9 +104,9 @@ fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     Some((&levels[at], state))
 }
 
-/// Returns the label of a level: its class and its text.
+/// Returns the class and the text of a level's label.
 fn chip(number: usize, label: Option<Difficulty>) -> (String, String) {
-    // The classes range from `d0`, very easy, to `d5`, unbeaten.
+    // The classes range from `d0` for very easy levels to `d5` for unbeaten levels.
     let class = label.map_or("dx".to_owned(), |label| format!("d{}", label as usize));
     let label = label.map_or("not measured".to_owned(), |label| label.to_string());
     (class, format!("level {number}: {label}"))

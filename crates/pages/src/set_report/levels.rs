@@ -11,12 +11,13 @@ use render::{Looks, Picture, Style, picture};
 /// The approximate length of a board's longer side, in pixels.
 const SIDE: u32 = 320;
 
-/// Returns the files of the report on a set of levels. The new levels must be in the order of the report's rows, and are shown
-/// beside the game's own. `title` is the title of the game. The time taken is shown on the page but is not in the JSON.
+/// Returns the files of the report on a set of levels. The new levels must be in the order of the report's
+/// rows, and are shown next to the game's own levels. `title` is the title of the game. The page shows the
+/// elapsed time, but the JSON does not contain it.
 ///
 /// # Errors
 ///
-/// Returns an error if an image or the page cannot be made.
+/// Returns an error if an image or the page cannot be rendered.
 pub fn level_report(
     report: &LevelSetReport,
     analysis: &Analysis,

@@ -1,4 +1,5 @@
-//! The report on a set of levels or games, as files: `report.json`, `report.html` (one self-contained page) and `sheet.png`.
+//! The report on a set of levels or games, as three files: `report.json`, `report.html` and `sheet.png`.
+//! `report.html` is a self-contained page.
 
 mod games;
 mod levels;
@@ -13,7 +14,7 @@ use render::{Picture, RenderError, png, sheet};
 use report::SetReport;
 use serde::Serialize;
 
-/// The parts of a page that a [`SetReport`] does not contain.
+/// The parts of a page that are not in the [`SetReport`].
 #[derive(Serialize)]
 struct Showcase<'a> {
     title: String,
@@ -21,24 +22,24 @@ struct Showcase<'a> {
     subtitle: String,
     /// The manual page that explains the figures.
     manual: &'static str,
-    /// The heading of the images, and a note about them.
+    /// The heading above the images, and a note about the images.
     items: [String; 2],
     pictures: Vec<Shot>,
-    /// The game's own levels.
+    /// The images of the game's own levels.
     examples: Vec<Shot>,
-    /// Expressive ranges as SVG, each with its caption.
+    /// The plots of expressive ranges as SVG, each with its caption.
     ranges: Vec<(String, String)>,
-    /// The cost of the judges as SVG, with the figure's caption.
+    /// The plot of the judges' costs as SVG, with its caption.
     costs: Option<(String, String)>,
-    /// The names of the tables beside the images.
+    /// The IDs of the tables that are shown next to the images.
     #[serde(skip)]
     grids: &'a [&'static str],
     #[serde(skip)]
     sheet: Sheet,
 }
 
-/// The contact sheet: the pictures with their captions, the number of pictures per row, and the size of a picture's square in
-/// pixels.
+/// The contact sheet. The fields are the images with their captions, the number of images per row, and the
+/// side of an image's square in pixels.
 struct Sheet(Vec<(Picture, String)>, usize, u32);
 
 /// An image of a level or a game.
@@ -49,14 +50,15 @@ struct Shot {
     /// A description of how to win the game.
     goal: String,
     line: String,
-    /// The difficulties of a game's levels, each with its class and text.
+    /// The difficulty labels of a game's levels, each with its class and text.
     chips: Vec<(String, String)>,
 }
 
-/// The maximum number of items that are drawn. The tables contain all items.
+/// The maximum number of levels or games that are drawn. The tables contain all of them.
 const MOST: usize = 120;
 
-/// Returns `report.json`, `report.html` and `sheet.png`. The JSON depends only on the report, and contains no times.
+/// Returns `report.json`, `report.html` and `sheet.png`. The JSON depends only on the report, and contains no
+/// elapsed times.
 fn files(report: &SetReport, showcase: &Showcase<'_>) -> Result<Vec<File>, PageError> {
     let json = report.to_json().map_err(PageError::failed("the report"))?;
     let html = page::render(report, showcase)?;
@@ -68,7 +70,7 @@ fn files(report: &SetReport, showcase: &Showcase<'_>) -> Result<Vec<File>, PageE
         .into())
 }
 
-/// Returns the cell size in pixels with which the longer side of a board has about `side` pixels.
+/// Returns the size of a cell in pixels, chosen so that the longer side of the board has about `side` pixels.
 fn cell(level: &engine::Level, side: u32, most: u32) -> u32 {
     let longest = u32::try_from(level.columns().max(level.rows())).unwrap_or(u32::MAX);
     (side / longest.max(1)).clamp(8, most)
@@ -78,7 +80,7 @@ fn failed(error: RenderError) -> PageError {
     PageError::failed("the pictures of the report")(error)
 }
 
-/// Returns a text like `, made in 3.5 s`, which is empty if the time is unknown.
+/// Returns a phrase such as ` · made in 3.5 s`, or an empty text if the time is unknown.
 fn made_in(seconds: Option<f64>) -> String {
     seconds.map_or(String::new(), |seconds| format!(" · made in {} s", crate::page::words::short(seconds)))
 }

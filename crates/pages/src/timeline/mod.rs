@@ -1,4 +1,4 @@
-//! The timeline, as files: one page for people, and all its numbers as JSON, CSV and LaTeX.
+//! The timeline report, which consists of one page, and of all numbers as JSON, CSV and LaTeX.
 
 mod page;
 mod told;
@@ -6,11 +6,12 @@ mod told;
 use crate::{File, PageError};
 use evaluation::scale::Timeline;
 
-/// Returns `timeline.html`, `timeline.json` and the files in `tables/`. The same timeline gives the same bytes.
+/// Returns the files of the timeline report: `timeline.html`, `timeline.json` and the files in `tables/`. The
+/// same timeline gives the same bytes.
 ///
 /// # Errors
 ///
-/// Returns an error if the page cannot be made.
+/// Returns an error if the page cannot be rendered.
 pub fn timeline_report(timeline: &Timeline) -> Result<Vec<File>, PageError> {
     let json = serde_json::to_string_pretty(timeline);
     let json = json.map_err(PageError::failed("the timeline"))? + "\n";

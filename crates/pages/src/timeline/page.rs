@@ -1,4 +1,4 @@
-//! The page: one self-contained HTML file without scripts.
+//! The page of the timeline, which is one self-contained HTML file without scripts.
 
 use super::told;
 use crate::PageError;
@@ -14,11 +14,13 @@ use statistics::Z95;
 
 const TEMPLATE: &str = include_str!("page.html");
 
-/// The number of line colours.
+/// The number of distinct colours for lines.
 const HUES: usize = 6;
-/// The sizes in pixels of the plotting areas: of all players together, of the lower plots, and of a single player.
+/// The width and height of the plotting area for all players together, in pixels.
 const WIDE: [f64; 2] = [860.0, 420.0];
+/// The width and height of the plotting areas of the lower plots, in pixels.
 const LOW: [f64; 2] = [860.0, 220.0];
+/// The width and height of the plotting area for a single player, in pixels.
 const SMALL: [f64; 2] = [300.0, 170.0];
 
 #[derive(Serialize)]
@@ -28,12 +30,12 @@ struct Page {
     headlines: Vec<Fact>,
     answers: Vec<String>,
     refusals: Vec<String>,
-    /// The plot with all players on one axis.
+    /// The plot of all players' abilities on one axis.
     abilities: String,
-    /// The plots of single players, with intervals.
+    /// The plots of individual players, with intervals.
     panels: Vec<Panel>,
     difficulties: String,
-    /// The plot of the drift. Empty if no anchor played.
+    /// The plot of the drift. The text is empty if no anchor played.
     drift: String,
     correlation: String,
     tables: Vec<Shown>,
@@ -52,7 +54,7 @@ pub(super) fn render(timeline: &Timeline, tables: &[Table]) -> Result<String, Pa
     let shown = |player: &&TimelinePlayer| player.ability.months.iter().any(|month| month.ability.is_some());
     let players = timeline.players.iter().filter(shown).collect_vec();
     let range = range(&players);
-    // The lines of placed players are drawn over those of the examinees on which the scale is based.
+    // The lines of placed players are drawn over the lines of the examinees that define the scale.
     let mut lines = players
         .iter()
         .filter(|one| one.is_examinee)
@@ -139,7 +141,7 @@ fn headlines(timeline: &Timeline) -> Vec<Fact> {
     facts
 }
 
-/// Returns the line of a player over the months.
+/// Returns the line of a player in a plot over the months.
 fn series(months: &[String], player: &TimelinePlayer, class: &str, whiskers: bool) -> MonthSeries {
     let point = |name: &String| {
         let month = player.ability.months.iter().find(|month| month.month == *name)?;
@@ -150,7 +152,8 @@ fn series(months: &[String], player: &TimelinePlayer, class: &str, whiskers: boo
     MonthSeries { name: player.ability.player.clone(), class: class.to_owned(), points, whiskers }
 }
 
-/// Returns the range of the ability axis. It includes all abilities whose intervals have two ends, and most of each interval.
+/// Returns the range of the ability axis. The range includes all abilities whose intervals have two ends, and
+/// each interval up to two logits from its ability.
 fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     let months = players.iter().flat_map(|player| &player.ability.months);
     let spans = months.filter(|month| month.is_bounded == [true, true]).filter_map(|month| month.ability);
@@ -159,7 +162,7 @@ fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     whole(&ends)
 }
 
-/// Returns the smallest range in whole logits that includes 0 and all given ranges.
+/// Returns the smallest range with whole numbers of logits at its ends that includes 0 and all given ranges.
 fn whole(ends: &[[f64; 2]]) -> [f64; 2] {
     let least = ends.iter().fold(0.0_f64, |least, [low, _]| least.min(*low));
     let most = ends.iter().fold(0.0_f64, |most, [_, high]| most.max(*high));

@@ -1,12 +1,11 @@
-//! The effect size of two proportions, independent of the number of trials (J. Cohen, *Statistical Power Analysis for
-//! the Behavioral Sciences*, 1988, chapter 6).
+//! Cohen's h, an effect size for two proportions that is independent of the number of trials (J. Cohen,
+//! *Statistical Power Analysis for the Behavioral Sciences*, 1988, chapter 6).
 
-/// Returns Cohen's h, `2 asin √p − 2 asin √q`, within [−π, π]. An h of 0.2 is called small, 0.5 medium, 0.8 large.
+/// Returns Cohen's h, `2 asin √p − 2 asin √q`, within [−π, π]. An h of 0.2 is called small, 0.5 medium, and
+/// 0.8 large.
 ///
-/// The arcsine makes the variance of a proportion of `n` trials about `1 / n` for any proportion, so equal h are
-/// equally hard to detect.
-///
-/// NaN if a value is not a proportion.
+/// The arcsine makes the variance of a proportion of `n` trials about `1 / n` for any proportion. Therefore,
+/// equal values of h are equally hard to detect. Returns NaN if a value is not a proportion.
 ///
 /// ```
 /// use infinite_arcade_statistics::cohens_h;
@@ -16,7 +15,7 @@ pub fn cohens_h(p: f64, q: f64) -> f64 {
     angle(p) - angle(q)
 }
 
-/// Returns `2 asin √p`; NaN if `p` is not a proportion.
+/// Returns `2 asin √p`, or NaN if `p` is not a proportion.
 pub(crate) fn angle(p: f64) -> f64 {
     2.0 * libm::asin(p.sqrt())
 }
@@ -25,7 +24,7 @@ pub(crate) fn angle(p: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The vectors of `spec/06` §3.1, also with more digits from decimal arithmetic.
+    /// The test vectors are those of `spec/06` §3.1. More digits were computed with decimal arithmetic.
     #[test]
     #[expect(clippy::approx_constant, reason = "printed like the others")]
     fn published_vectors() {

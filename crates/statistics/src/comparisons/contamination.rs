@@ -1,26 +1,31 @@
-//! Exact tests of memory. A coin has published one of two things that only a player who knows the published one can
-//! distinguish: two renamings of a game, or two winning episodes of a level. Given a player's results on both, either
-//! side was equally likely to be the published one, whatever the player is like. The sum of the differences therefore
-//! has a known distribution, without any assumption about players or games (R. A. Fisher, *The Design of
-//! Experiments*, 1935, §21; for differences of 1, Q. McNemar, "Note on the sampling error of the difference between
-//! correlated proportions", 1947).
+//! Exact tests of memory, which detect players that have memorised published content.
+//!
+//! A coin has decided which of two items is published. The items are two renamings of a game, or two winning
+//! episodes of a level. Only a player that knows the published item can distinguish the two items. For given
+//! results of a player on both sides, either side was equally likely to be the published side, whatever the
+//! player's skills.
+//!
+//! Therefore, the distribution of the sum of the differences is known without any assumption about players or
+//! games (R. A. Fisher, *The Design of Experiments*, 1935, §21). For differences of 1, the test is that of Q.
+//! McNemar ("Note on the sampling error of the difference between correlated proportions", 1947).
 
 use crate::planning::design::{Spread, logistic};
 
 /// The result of a coin test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoinTest {
-    /// The one-sided exact p-value, which is the probability of a sum at least this large if the player knew no coin.
+    /// The one-sided exact p-value, which is the probability that the sum is at least this large if the
+    /// player knows no coin.
     pub p: f64,
-    /// The sum of the differences, published minus sealed.
+    /// The sum of the differences, published side minus sealed side.
     pub sum: i64,
-    /// The number of coins whose sides differ. The other coins are no evidence.
+    /// The number of coins whose two sides have different results. The other coins are not evidence.
     pub informative: usize,
 }
 
-/// Tests whether results depend on coins. `differences` has, for each coin, the result on the published side minus
-/// the result on the sealed side. A result is a number of wins in the same number of episodes, or a number of
-/// episodes that begin like the witness.
+/// Tests whether results depend on coins. `differences` holds, for each coin, the result on the published
+/// side minus the result on the sealed side. A result is a number of wins, or a number of episodes that begin
+/// like the witness. Both sides must have the same number of episodes.
 ///
 /// Cost: O(coins · sum of the absolute differences).
 ///
@@ -34,7 +39,8 @@ pub fn coin_test(differences: &[i64]) -> CoinTest {
     let sum = differences.iter().sum();
     let sizes: Vec<usize> =
         differences.iter().filter(|&&one| one != 0).map(|one| one.unsigned_abs() as usize).collect();
-    // The probability of each sum of the sizes on the published side. The rest of the sizes is on the sealed side.
+    // `chances` holds the probability of each sum of the sizes on the published side. The remaining sizes are
+    // on the sealed side.
     let mut chances = vec![1.0];
     for &size in &sizes {
         let mut next = vec![0.0; chances.len() + size];
@@ -49,9 +55,9 @@ pub fn coin_test(differences: &[i64]) -> CoinTest {
     CoinTest { p: p.min(1.0), sum, informative: sizes.len() }
 }
 
-/// Returns the power of [`coin_test`] at level `alpha` for this number of coins, each with one episode per side. A
-/// coin favours the published side with probability `more`, and the sealed side with probability `less`. NaN unless
-/// both are probabilities with a sum of at most 1. Cost: O(coins²).
+/// Returns the power of [`coin_test`] at level `alpha` for the given number of coins, each with one episode
+/// per side. A coin favours the published side with probability `more`, and the sealed side with probability
+/// `less`. Returns NaN unless both values are probabilities with a sum of at most 1. Cost: O(coins²).
 pub fn coin_power(coins: u64, more: f64, less: f64, alpha: f64) -> f64 {
     if !(0.0..=1.0).contains(&more) || !(0.0..=1.0).contains(&less) || more + less > 1.0 + 1e-12 {
         return f64::NAN;
@@ -72,7 +78,7 @@ pub fn coin_power(coins: u64, more: f64, less: f64, alpha: f64) -> f64 {
     (0..=coins).map(|count| informative[count as usize] * detected(count)).sum::<f64>().min(1.0)
 }
 
-/// Returns the probability of each number of successes.
+/// Returns the binomial probability of each number of successes.
 fn binomial(trials: u64, p: f64) -> Vec<f64> {
     if p <= 0.0 || p >= 1.0 {
         let mut sure = vec![0.0; trials as usize + 1];
@@ -92,17 +98,17 @@ fn binomial(trials: u64, p: f64) -> Vec<f64> {
 /// A player that has memorised some levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Memoriser {
-    /// The fraction of levels that the player knows.
+    /// The fraction of the levels that the player knows.
     pub share: f64,
-    /// The player's win rate on known levels.
+    /// The player's win rate on levels that it knows.
     pub known: f64,
-    /// The player's win rate on unknown levels.
+    /// The player's win rate on levels that it does not know.
     pub clean: f64,
 }
 
 impl Memoriser {
-    /// Returns the probabilities that the player wins only on a level's published sibling, and only on the sealed
-    /// sibling.
+    /// Returns two probabilities: that the player wins only on a level's published sibling, and that it wins
+    /// only on the sealed sibling.
     pub fn sibling_chances(&self, spread: Spread) -> (f64, f64) {
         let ability = spread.ability(self.clean);
         let square =
@@ -120,8 +126,8 @@ impl Memoriser {
         (more / sum, less / sum)
     }
 
-    /// Returns the probabilities that an episode begins like the published witness, and like the sealed one. Without
-    /// memory, it begins like either of them with probability `by_chance`.
+    /// Returns two probabilities: that an episode begins like the published witness, and that it begins like
+    /// the sealed witness. Without memory, each of the two probabilities is `by_chance`.
     pub fn prefix_chances(&self, by_chance: f64) -> (f64, f64) {
         let less = (1.0 - self.share) * by_chance;
         (self.share + less, less)
@@ -157,7 +163,7 @@ mod tests {
         assert_eq!(coin_power(7, 1.0, 0.0, 0.01), 1.0);
     }
 
-    /// Without memory, the test's error rate is at most its level.
+    /// For a player without memory, the test's error rate is at most its level.
     #[test]
     fn the_level_is_kept() {
         for (coins, each) in [(30, 0.05), (200, 0.05), (100, 0.2)] {
@@ -166,7 +172,8 @@ mod tests {
         }
     }
 
-    /// The wins of a clean player do not depend on the coin, and memory helps only on the published side.
+    /// The wins of a player without memory do not depend on the coin, and memory helps only on the published
+    /// side.
     #[test]
     fn chances() {
         let clean = Memoriser { share: 0.0, known: 0.9, clean: 0.27 };
@@ -178,7 +185,8 @@ mod tests {
         assert!((more - 0.24).abs() < 1e-12 && (less - 0.04).abs() < 1e-12);
     }
 
-    /// A memoriser of a fifth of the levels is detected by prefixes, and a memoriser of half of them by siblings.
+    /// A player that has memorised a fifth of the levels is detected by prefixes. A player that has memorised
+    /// half of the levels is detected by siblings.
     #[test]
     fn power_of_planned_tests() {
         let fifth = Memoriser { share: 0.2, known: 0.9, clean: 0.27 };

@@ -1,21 +1,22 @@
 //! Fisher's exact test for equal success rates of two groups (R. A. Fisher, "On the interpretation of χ² from
 //! contingency tables, and the calculation of P", 1922).
 //!
-//! The probabilities are those of the hypergeometric distribution. They are computed from the ratios of neighbours,
-//! with `*`, `/` and sums in a fixed order only. Logarithms of factorials are avoided, because their last bits differ
-//! between platforms.
+//! The probabilities are those of the hypergeometric distribution. They are computed from the ratios of
+//! neighbouring probabilities, with only `*`, `/` and sums in a fixed order. Logarithms of factorials are
+//! avoided, because their last bits differ between platforms.
 
-/// The factor by which a table may appear more likely than the observed one and still count as equally likely. It
-/// exceeds rounding errors, but not any true difference between tables of counts that fit in memory.
+/// The factor by which a table may appear more likely than the observed table and still count as equally
+/// likely. The factor exceeds rounding errors, but not any true difference between tables of counts that fit
+/// in memory.
 pub(crate) const SAME: f64 = 1.0 + 1e-7;
 
-/// Returns the two-sided p-value of `successes` among `trials` in each of two groups, which is the probability, with
-/// the totals fixed, of a table that is at most as likely as the observed one.
+/// Returns the two-sided p-value for the numbers of `successes` among `trials` in two groups. The p-value is
+/// the probability of a table that is at most as likely as the observed table, among all tables with the same
+/// totals.
 ///
-/// Returns 1 if there is nothing to compare: no trials, only successes, or no successes. Cost: O(number of tables
-/// with these totals), which is at most the size of the smaller group.
-///
-/// NaN if a group has more successes than trials.
+/// Returns 1 if there is nothing to compare, because there are no trials, only successes, or no successes.
+/// Returns NaN if a group has more successes than trials. Cost: O(number of tables with these totals), which
+/// is at most the size of the smaller group.
 ///
 /// ```
 /// use infinite_arcade_statistics::fisher;
@@ -30,24 +31,24 @@ pub fn fisher(successes: [u64; 2], trials: [u64; 2]) -> f64 {
     (extreme / total).min(1.0)
 }
 
-/// All tables with the same totals. A table is identified by the successes of the first group.
+/// All tables with the same totals. A table is identified by the number of successes in the first group.
 pub(crate) struct Tables {
-    /// The minimum number of successes of the first group.
+    /// The minimum number of successes in the first group.
     pub(crate) first: u64,
-    /// The probability of each table from `first` on, relative to the most likely table. No weight overflows, and
-    /// weights that underflow are negligible.
+    /// The probability of each table from `first` on, relative to the most likely table. The weights do not
+    /// overflow, and weights that underflow are negligible.
     pub(crate) weights: Vec<f64>,
 }
 
 impl Tables {
-    /// Computes the tables; `None` if a group has more successes than trials.
+    /// Computes the tables. Returns `None` if a group has more successes than trials.
     pub(crate) fn of(successes: [u64; 2], trials: [u64; 2]) -> Option<Tables> {
         if successes[0] > trials[0] || successes[1] > trials[1] {
             return None;
         }
         let won = successes[0] + successes[1];
         let (first, last) = (won.saturating_sub(trials[1]), won.min(trials[0]));
-        // The ratio of the next table's probability to the current one's.
+        // The ratio is the next table's probability divided by the current table's probability.
         let ratio = |k: u64| {
             let up = (trials[0] - k) as f64 * (won - k) as f64;
             let down = (k + 1) as f64 * (trials[1] + k + 1 - won) as f64;
@@ -65,7 +66,7 @@ impl Tables {
     }
 }
 
-/// Sums the values in ascending order, to minimise rounding errors.
+/// Sums the values in ascending order, which minimises rounding errors.
 pub(crate) fn ascending(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_unstable_by(f64::total_cmp);
@@ -80,12 +81,12 @@ mod tests {
     fn check(n: u64, a: u64, b: u64, expect: f64) {
         for (a, b) in [(a, b), (b, a), (n - a, n - b)] {
             let p = fisher([a, b], [n, n]);
-            // Equal to the ten digits that are printed.
+            // The result must equal the ten digits that are printed in the specification.
             assert!((p - expect).abs() <= 5.1e-10 * expect, "{a} and {b} of {n}: {p}, not {expect}");
         }
     }
 
-    /// The vectors of `spec/06` §3.1.
+    /// The test vectors are those of `spec/06` §3.1.
     #[test]
     fn published_vectors() {
         for (a, b, expect) in [
@@ -124,9 +125,9 @@ mod tests {
         }
     }
 
-    /// Calculated by hand: the totals allow 0, 1 or 2 successes in the first group, with 10, 20 and 6 of 36 equally
-    /// likely cases. The tables at most as likely as 10 add up to 16 cases, and those at most as likely as 6 to 6
-    /// cases.
+    /// The expected values were calculated by hand. The totals allow 0, 1 or 2 successes in the first group,
+    /// with 10, 20 and 6 of 36 equally likely cases. Tables with at most 10 cases add up to 16 cases, and
+    /// tables with at most 6 cases add up to 6 cases.
     #[test]
     fn groups_of_different_size() {
         for (k, expect) in [(0, 16.0 / 36.0), (1, 1.0), (2, 6.0 / 36.0)] {

@@ -3,8 +3,8 @@
 
 use crate::student::student_p;
 
-/// Returns Pearson's correlation of pairs, from −1 to 1. `None` for fewer than two pairs, if all values of one side
-/// are equal, or if a value is not finite. Cost: O(n).
+/// Returns Pearson's correlation of pairs, from −1 to 1. Returns `None` if there are fewer than two pairs, if
+/// all values on one side are equal, or if a value is not finite. Cost: O(n).
 ///
 /// ```
 /// use infinite_arcade_statistics::pearson;
@@ -27,10 +27,12 @@ pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
     (spread > 0.0).then(|| (product(|x, y| x * y) / spread).clamp(-1.0, 1.0))
 }
 
-/// Returns the two-sided p-value of a correlation `r` of `pairs` pairs, which is the probability that unrelated pairs
-/// correlate at least as much. The p-value is exact for [`pearson`] if one side is normal. For
-/// [`spearman`](crate::spearman), it is an approximation that is good from about ten pairs on. `None` for fewer than
-/// three pairs, or if `r` is not within −1..=1.
+/// Returns the two-sided p-value of a correlation `r` of `pairs` pairs, which is the probability that
+/// unrelated pairs correlate at least as strongly. Returns `None` if there are fewer than three pairs, or if
+/// `r` is not within −1..=1.
+///
+/// For [`pearson`], the p-value is exact if one side is normally distributed. For
+/// [`spearman`](crate::spearman), the p-value is an approximation, which is good from about ten pairs on.
 ///
 /// ```
 /// use infinite_arcade_statistics::correlation_p;
@@ -56,8 +58,8 @@ mod tests {
         assert!((found - expect).abs() <= 1e-8 * expect.abs(), "{found}, not {expect}");
     }
 
-    /// The vectors of `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355), with more digits from decimal
-    /// arithmetic.
+    /// The test vectors are those of `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355). More
+    /// digits were computed with decimal arithmetic.
     #[test]
     fn published_vectors() {
         let pairs: Vec<(f64, f64)> = X.into_iter().zip(Y).collect();
@@ -68,7 +70,7 @@ mod tests {
         close(correlation_p(ordered, 8).unwrap(), 0.00748355217395917);
     }
 
-    /// The six correlations of `spec/06` §5.5 over 2250 episodes, down to 1e-238.
+    /// The correlations are the six of `spec/06` §5.5, over 2250 episodes. The p-values go down to 1e-238.
     #[test]
     fn published_corrections() {
         let r = [0.21, -0.28, -0.18, -0.10, 0.30, 0.62];
@@ -94,7 +96,7 @@ mod tests {
         assert_eq!(correlation_p(-1.0, 3), Some(0.0));
         assert_eq!(correlation_p(0.0, 3), Some(1.0));
         assert_eq!(correlation_p(1.0, 2), None);
-        // The mean of three times 0.1 is not 0.1, but the values do not differ.
+        // The computed mean of three times 0.1 is not 0.1, but the values are equal.
         assert_eq!(pearson(&[(0.1, 1.0), (0.1, 2.0), (0.1, 4.0)]), None);
         assert_eq!(pearson(&[(0.0, 1.0)]), None);
         assert_eq!(pearson(&[(0.0, 1.0), (f64::NAN, 2.0)]), None);

@@ -1,9 +1,9 @@
 //! The rank correlation of two measures (C. Spearman, "The proof and measurement of association between two things",
 //! 1904).
 
-/// Returns Spearman's rank correlation of pairs, from −1 to 1, which is the correlation of their ranks. Equal values
-/// share their mean rank. `None` for fewer than two pairs, if all values of one side are equal, or if a value is NaN.
-/// Cost: O(n log n).
+/// Returns Spearman's rank correlation of pairs, from −1 to 1, which is the correlation of their ranks. Equal
+/// values share their mean rank. Returns `None` if there are fewer than two pairs, if all values on one side
+/// are equal, or if a value is NaN. Cost: O(n log n).
 ///
 /// ```
 /// use infinite_arcade_statistics::spearman;
@@ -15,14 +15,14 @@ pub fn spearman(pairs: &[(f64, f64)]) -> Option<f64> {
     }
     let x = ranks(&pairs.iter().map(|pair| pair.0).collect::<Vec<f64>>());
     let y = ranks(&pairs.iter().map(|pair| pair.1).collect::<Vec<f64>>());
-    // Ranks are multiples of one half, and their mean is known, so these sums are exact.
+    // Ranks are multiples of one half, and their mean is known, so the following sums are exact.
     let mean = (pairs.len() - 1) as f64 / 2.0;
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - mean) * (b - mean)).sum::<f64>();
     let spread = product(&x, &x) * product(&y, &y);
     (spread > 0.0).then(|| (product(&x, &y) / spread.sqrt()).clamp(-1.0, 1.0))
 }
 
-/// Returns the rank of each value, from 0. Equal values share their mean rank.
+/// Returns the rank of each value, starting at 0. Equal values share their mean rank.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
@@ -40,7 +40,7 @@ fn ranks(values: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// The vector of `spec/06` §3.1.
+    /// The test vector is that of `spec/06` §3.1.
     #[test]
     fn published_vector() {
         let x = [1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0];

@@ -1,39 +1,44 @@
-//! A stratified test of two players, level by level. Pooling levels of different difficulty can hide or invent a
-//! difference. This test compares only episodes of the same level, and sums the evidence (N. Mantel and W. Haenszel,
-//! "Statistical aspects of the analysis of data from retrospective studies of disease", 1959).
+//! A stratified test of two players, level by level. Pooling levels of different difficulty can hide or
+//! invent a difference. The stratified test compares only episodes of the same level, and sums the evidence
+//! (N. Mantel and W. Haenszel, "Statistical aspects of the analysis of data from retrospective studies of
+//! disease", 1959).
 //!
-//! The test is exact. Given the totals of every level, all ways to assign its wins to its episodes are equally
-//! likely. The wins of one side are therefore a sum of independent hypergeometric numbers, whose distribution is
-//! computed exactly. A permutation test within strata estimates the same distribution by sampling.
+//! The test is exact. For given totals on every level, all assignments of wins to episodes are equally
+//! likely. Therefore, the wins of one side are a sum of independent hypergeometric numbers, whose
+//! distribution is computed exactly. A permutation test within strata would estimate the same distribution by
+//! sampling.
 
 use super::fisher::{SAME, Tables, ascending};
 
-/// The successes and trials of two groups on one level.
+/// The numbers of successes and trials of two groups on one level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stratum {
-    /// The successes of the first and of the second group.
+    /// The numbers of successes in the first and in the second group.
     pub successes: [u64; 2],
-    /// The trials of the first and of the second group.
+    /// The numbers of trials in the first and in the second group.
     pub trials: [u64; 2],
 }
 
 /// The comparison of two groups over all levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stratified {
-    /// The two-sided exact p-value. With a single stratum, it is that of [`fisher`](super::fisher).
+    /// The two-sided exact p-value. With a single stratum, the p-value equals that of
+    /// [`fisher`](super::fisher).
     pub p: f64,
-    /// The first group's rate minus the second group's: the mean over the levels, weighted by their information
-    /// (Mantel and Haenszel's weights, the harmonic mean of the trials). `None` if no level has trials of both
-    /// groups.
+    /// The first group's rate minus the second group's rate, as a weighted mean over the levels. The weights
+    /// are those of Mantel and Haenszel, the harmonic mean of the numbers of trials. `None` if no level has
+    /// trials in both groups.
     pub difference: Option<f64>,
-    /// Mantel and Haenszel's estimate of the common odds ratio: the first group's odds divided by the second group's.
-    /// It is infinite if all evidence favours the first group, and `None` if there is no evidence for either group.
+    /// Mantel and Haenszel's estimate of the common odds ratio, which is the first group's odds divided by
+    /// the second group's odds. The ratio is infinite if all evidence favours the first group, and `None` if
+    /// there is no evidence for either group.
     pub odds_ratio: Option<f64>,
 }
 
-/// Compares two groups within strata. Cost: O(successes · tables), at most the square of the number of all trials.
+/// Compares two groups within strata. If a group has more successes than trials, `p` is NaN and the other
+/// fields are `None`.
 ///
-/// If a group has more successes than trials, `p` is NaN and the other fields are `None`.
+/// Cost: O(successes · tables), which is at most the square of the total number of trials.
 ///
 /// ```
 /// use infinite_arcade_statistics::{Stratum, stratified};
@@ -72,7 +77,7 @@ pub fn stratified(strata: &[Stratum]) -> Stratified {
     }
 }
 
-/// Returns the weights of the sums of two independent numbers, relative to the most likely sum.
+/// Returns the weight of each sum of two independent numbers, relative to the most likely sum.
 fn convolved(a: &[f64], b: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; a.len() + b.len() - 1];
     for (i, a) in a.iter().enumerate() {
@@ -103,8 +108,8 @@ mod tests {
         }
     }
 
-    /// Two levels, each with one trial per side and one win: the first side has 0, 1 or 2 wins with probabilities of
-    /// 1, 2 and 1 in 4.
+    /// There are two levels, each with one trial per side and one win. The first side has 0, 1 or 2 wins with
+    /// probabilities of 1/4, 2/4 and 1/4.
     #[test]
     fn worked_by_hand() {
         let found = stratified(&[stratum(1, 1, 0, 1), stratum(1, 1, 0, 1)]);
@@ -112,7 +117,7 @@ mod tests {
         assert_eq!(stratified(&[stratum(1, 1, 0, 1), stratum(0, 1, 1, 1)]).p, 1.0);
     }
 
-    /// The p-value matches an enumeration of all ways to assign the wins of each level.
+    /// The p-value matches an enumeration of all assignments of wins to episodes on each level.
     #[test]
     fn every_deal_counted() {
         let strata = [stratum(3, 4, 1, 3), stratum(2, 2, 2, 4), stratum(1, 3, 0, 2)];
@@ -132,9 +137,9 @@ mod tests {
         assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
     }
 
-    /// Admissions to Berkeley's six departments (P. J. Bickel and others, "Sex bias in graduate admissions", 1975).
-    /// Women were admitted less often overall, and slightly more often within departments. The common odds ratio is
-    /// known.
+    /// The data are the admissions to Berkeley's six departments (P. J. Bickel and others, "Sex bias in
+    /// graduate admissions", 1975). Women were admitted less often overall, but slightly more often within
+    /// departments. The common odds ratio is known.
     #[test]
     fn pooling_misleads() {
         let departments = [

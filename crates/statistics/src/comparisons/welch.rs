@@ -6,16 +6,16 @@ use crate::student::student_p;
 /// The result of Welch's t test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Welch {
-    /// The difference of the means, ours minus theirs, in standard errors.
+    /// The t statistic, which is the mean of `ours` minus the mean of `theirs`, in standard errors.
     pub t: f64,
-    /// The degrees of freedom according to Welch and Satterthwaite.
+    /// The degrees of freedom, computed by the Welch–Satterthwaite equation.
     pub df: f64,
-    /// The two-sided p-value.
+    /// The two-sided p-value of the test.
     pub p: f64,
 }
 
-/// Performs Welch's t test of the means of `ours` and `theirs`. `None` with fewer than two values on a side, if a
-/// value is not finite, or if neither side varies, because there is no standard error then. Cost: O(n).
+/// Performs Welch's t test of the means of `ours` and `theirs`. Returns `None` if a side has fewer than two
+/// values, if a value is not finite, or if neither side varies. Cost: O(n).
 ///
 /// ```
 /// use infinite_arcade_statistics::welch;
@@ -29,13 +29,13 @@ pub fn welch(ours: &[f64], theirs: &[f64]) -> Option<Welch> {
         return None;
     }
     let t = (a.mean - b.mean) / square.sqrt();
-    // Fractions are used so that small squares do not underflow when squared again.
+    // Fractions are used, because small squares would underflow when they are squared again.
     let (share, rest) = (a.square / square, b.square / square);
     let df = 1.0 / (share * share / a.df + rest * rest / b.df);
     Some(Welch { t, df, p: student_p(t, df) })
 }
 
-/// A sample's mean, and the square of its standard error with its degrees of freedom.
+/// The mean of a sample, the square of its standard error, and its degrees of freedom.
 struct Side {
     mean: f64,
     square: f64,
@@ -48,7 +48,8 @@ impl Side {
             return None;
         }
         let count = values.len() as f64;
-        // The computed mean of equal values may differ from them in the last bit, but their variance is 0.
+        // The computed mean of equal values may differ from them in the last bit, although their variance is
+        // 0.
         if values.iter().all(|value| *value == values[0]) {
             return Some(Side { mean: values[0], square: 0.0, df: count - 1.0 });
         }
@@ -72,8 +73,8 @@ mod tests {
         assert!((swapped.t + found.t).abs() < 1e-12 && (swapped.p - found.p).abs() < 1e-12);
     }
 
-    /// The vectors of `spec/06` §3.1 (t 1.396501, df 8.353065, p .198555; t −5.418683, df 5.102377, p .00272304),
-    /// with more digits from decimal arithmetic.
+    /// The test vectors are those of `spec/06` §3.1 (t 1.396501, df 8.353065, p .198555; t −5.418683, df
+    /// 5.102377, p .00272304). More digits were computed with decimal arithmetic.
     #[test]
     fn published_vectors() {
         check(

@@ -1,20 +1,20 @@
-//! Bootstrap intervals for statistics without a formula (B. Efron, "Bootstrap methods: another look at the
-//! jackknife", 1979; the percentile interval).
+//! Percentile bootstrap intervals for statistics without a formula (B. Efron, "Bootstrap methods: another
+//! look at the jackknife", 1979).
 //!
-//! The draws come from ChaCha8 with bounds by Lemire's method. Both are pinned, so the same seed gives the same
-//! interval everywhere.
+//! The random draws come from ChaCha8, with bounds by Lemire's method. Both algorithms are fixed, so the same
+//! seed gives the same interval everywhere.
 
 use super::wilson::Interval;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Returns the percentile interval of a statistic of `values`, such as their mean, or a difference of means between
-/// groups if the values carry their group.
+/// Returns the percentile interval of a statistic of `values`. The statistic can be a mean, for example, or a
+/// difference of means between groups if each value carries its group.
 ///
-/// Draws `resamples` samples of the same size with replacement, and returns the range of the central `level` (0.95
-/// for 95%) of their statistics. With `m` resamples, the ends are the values of rank ⌊(1 − level) / 2 · (m − 1)⌋ from
-/// below and from above. `None` without values or resamples, if a statistic is NaN, or if `level` is not within 0..1.
-/// Cost: O(resamples · values).
+/// Draws `resamples` samples of the same size with replacement, and returns the range of the central `level`
+/// (0.95 for 95%) of their statistics. With `m` resamples, the ends are the values of rank ⌊(1 − level) / 2 ·
+/// (m − 1)⌋ from below and from above. Returns `None` if there are no values or resamples, if a statistic is
+/// NaN, or if `level` is not within 0..1. Cost: O(resamples · values).
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap;
@@ -42,8 +42,8 @@ pub fn bootstrap<T: Copy>(
     percentiles(found.collect(), level)
 }
 
-/// Returns the percentile interval of the mean of `ours` minus the mean of `theirs`. Works like [`bootstrap`], with a
-/// sample drawn from each side, `ours` first.
+/// Returns the percentile interval of the mean of `ours` minus the mean of `theirs`. The method is that of
+/// [`bootstrap`], with a separate sample for each side. The sample of `ours` is drawn first.
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap_difference;
@@ -70,7 +70,7 @@ pub fn bootstrap_difference(
     percentiles(found.collect(), level)
 }
 
-/// Draws a sample of the same size with replacement.
+/// Draws a sample of the same size as `values`, with replacement.
 fn redraw<T: Copy>(draws: &mut ChaCha8Rng, values: &[T], sample: &mut Vec<T>) {
     sample.clear();
     sample.extend((0..values.len()).map(|_| values[below(draws, values.len())]));
@@ -104,7 +104,7 @@ mod tests {
         sample.iter().sum::<f64>() / sample.len() as f64
     }
 
-    /// Reports contain these bits, so a change must be deliberate.
+    /// The expected bits occur in reports, so a change must be deliberate.
     #[test]
     fn golden() {
         let values: Vec<f64> = (0..25).map(f64::from).collect();
@@ -114,7 +114,7 @@ mod tests {
 
     const GOLDEN: (f64, f64) = (9.16, 14.96);
 
-    /// With equal numbers of 0 and 1, the mean of n values has a standard error of 1 / (2 √n).
+    /// With equal numbers of zeros and ones, the mean of n values has a standard error of 1 / (2 √n).
     #[test]
     fn it_is_as_wide_as_theory_says() {
         let values: Vec<f64> = (0..400).map(|i| f64::from(i % 2)).collect();

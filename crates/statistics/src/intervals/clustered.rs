@@ -1,15 +1,19 @@
-//! The bootstrap of means over episodes of several games. Episodes of one game are alike, so twenty-five of them are
-//! not twenty-five independent observations of a player. Whole games are therefore resampled with all their episodes
-//! (A. C. Davison and D. V. Hinkley, *Bootstrap Methods and their Application*, 1997, §3.8). The result holds for
-//! similar games, not only for the games played. The interval is too narrow for fewer than about thirty games, and
-//! has no width if all games agree. For win rates, [`rate_over_games`](crate::rate_over_games) is better.
+//! The cluster bootstrap of means over episodes of several games.
+//!
+//! Episodes of the same game are similar, so twenty-five of them are not twenty-five independent observations
+//! of a player. Therefore, whole games are resampled with all their episodes (A. C. Davison and D. V.
+//! Hinkley, *Bootstrap Methods and their Application*, 1997, §3.8). The result applies to similar games, not
+//! only to the games played.
+//!
+//! With fewer than about thirty games, the interval is too narrow. If all games agree, the interval has no
+//! width. For win rates, [`rate_over_games`](crate::rate_over_games) is better.
 
 use super::bootstrap::bootstrap;
 use super::wilson::Interval;
 
-/// Returns the percentile interval of the mean of all values, with games drawn with replacement. `None` without
-/// values, if a value is NaN, or if `level` is not within 0..1. Clusters without values are ignored. Cost: O(values +
-/// resamples · clusters).
+/// Returns the percentile interval of the mean of all values, with clusters drawn with replacement. Clusters
+/// without values are ignored. Returns `None` if there are no values, if a value is NaN, or if `level` is not
+/// within 0..1. Cost: O(values + resamples · clusters).
 ///
 /// ```
 /// use infinite_arcade_statistics::clustered_mean;
@@ -34,7 +38,7 @@ pub fn clustered_mean<C: AsRef<[f64]>>(
     bootstrap(&sums, mean, resamples, level, seed)
 }
 
-/// Returns the sum of the values and their number.
+/// Returns the sum and the number of the values.
 fn sum(values: &[f64]) -> (f64, f64) {
     (values.iter().sum(), values.len() as f64)
 }
@@ -43,7 +47,7 @@ fn sum(values: &[f64]) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// With identical episodes in each game, only the number of games matters.
+    /// If all episodes of a game are identical, only the number of games matters.
     #[test]
     fn copies_add_nothing() {
         let games: Vec<f64> = (0..40).map(|game| f64::from(u8::from(game % 4 == 0))).collect();
@@ -51,7 +55,7 @@ mod tests {
         let found = clustered_mean(&repeated, 2000, 0.95, [1; 32]).unwrap();
         let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
         assert_eq!(Some(found), bootstrap(&games, mean, 2000, 0.95, [1; 32]));
-        // The standard error of a mean of 40 values at 0.25 gives ±13 points.
+        // The standard error of a mean of 40 values at 0.25 gives an interval of ±13 percentage points.
         assert!((found.low - 0.116).abs() < 0.03 && (found.high - 0.384).abs() < 0.03, "{found:?}");
     }
 

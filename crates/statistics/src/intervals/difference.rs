@@ -4,8 +4,9 @@
 
 use super::wilson::{Interval, wilson};
 
-/// Returns the interval of the first proportion minus the second, at `z` standard deviations ([`Z95`](crate::Z95) for
-/// 95%), within [−1, 1]. A side without trials may have any rate.
+/// Returns the interval of the first proportion minus the second proportion, within [−1, 1]. The confidence
+/// is given by `z` standard deviations ([`Z95`](crate::Z95) for 95%). A side without trials may have any
+/// rate.
 ///
 /// Both ends are NaN if [`wilson`] returns NaN for a side.
 ///
@@ -36,14 +37,14 @@ mod tests {
     #[track_caller]
     fn check(successes: [u64; 2], trials: [u64; 2], low: f64, high: f64) {
         let found = difference(successes, trials, Z95);
-        // Equal to the four digits that are printed.
+        // The result must equal the four digits that are printed.
         assert!(
             (found.low - low).abs() < 5.1e-5 && (found.high - high).abs() < 5.1e-5,
             "{successes:?} of {trials:?}: {found:?}, not [{low}, {high}]"
         );
     }
 
-    /// The examples of Newcombe's table II, method 10.
+    /// The examples are those of Newcombe's table II, method 10.
     #[test]
     fn published_vectors() {
         check([56, 48], [70, 80], 0.0524, 0.3339);

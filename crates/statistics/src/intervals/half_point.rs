@@ -1,5 +1,5 @@
-//! The dose at which half of the trials succeed, estimated from trials at several doses on several items of unequal
-//! difficulty.
+//! Estimates the dose at which half of the trials succeed. The trials are at several doses, on several items
+//! of unequal difficulty.
 
 use super::bootstrap::below;
 use super::wilson::Interval;
@@ -13,41 +13,45 @@ pub struct DoseTrials {
     pub dose: f64,
     /// The number of successful trials.
     pub won: f64,
-    /// The number of all trials.
+    /// The total number of trials.
     pub of: f64,
 }
 
 /// A dose at which half of the trials on an average item succeed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfPoint {
-    /// The dose.
+    /// The estimated dose, which is the half point.
     pub dose: f64,
-    /// The decrease of the logit of success when the natural logarithm of the dose increases by one.
+    /// The decrease in the logit of success when the natural logarithm of the dose increases by one.
     pub slope: f64,
     /// The confidence interval of the dose.
     pub interval: Interval,
 }
 
-/// The precision of the items' effects, in logits: the reciprocal of the combined variance of games (1.3²) and of
-/// their levels (1.0²).
+/// The precision of the items' effects, in logits. The value is the reciprocal of the combined variance of
+/// games (1.3²) and of their levels (1.0²).
 const ITEM_PRECISION: f64 = 1.0 / (1.3 * 1.3 + 1.0);
-/// The mean and the precision of the prior of the slope. The prior is weak, but keeps the fit defined if all trials
-/// succeed or all fail.
+/// The mean and the precision of the prior of the slope. The prior is weak, but it keeps the estimate defined
+/// if all trials succeed or all trials fail.
 const SLOPE: (f64, f64) = (1.0, 1.0);
 /// The precision of the prior of the intercept, whose mean is 0.
 const INTERCEPT_PRECISION: f64 = 1.0 / (20.0 * 20.0);
-/// The maximum number of Newton steps; six are typical.
+/// The maximum number of Newton steps. Six steps are typical.
 const STEPS: usize = 60;
-/// The factor by which a reported dose may lie outside the range of the tried doses, because the data say nothing
-/// beyond it.
+/// The factor by which a reported dose may lie outside the range of the tried doses. The data contain no
+/// information about doses further outside.
 const BEYOND: f64 = 4.0;
 
-/// Estimates the dose of half success in the model logit P = a + item − b ln dose, b ≥ 0.05, with normal effects of
-/// items, by maximum a posteriori. The interval comes from a hierarchical bootstrap: groups are drawn with
-/// replacement, and items within them. `groups` has the items of each group, such as the levels of each game, with
-/// their trials. Doses more than four times below or above the tried ones are reported as these bounds.
+/// Estimates the dose at which half of the trials succeed. `groups` holds the items of each group with their
+/// trials, such as the levels of each game.
 ///
-/// `None` without trials, if a dose is not positive, or if `level` is not within 0..1. Cost: O(resamples · trials).
+/// The model is logit P = a + item − b ln dose with b ≥ 0.05 and normal effects of items. The parameters are
+/// maximum a posteriori estimates. The interval comes from a hierarchical bootstrap, which draws groups with
+/// replacement, and items within each group. If the estimate is more than four times below or above the tried
+/// doses, the bound is reported instead.
+///
+/// Returns `None` if there are no trials, if a dose is not positive, or if `level` is not within 0..1. Cost:
+/// O(resamples · trials).
 ///
 /// ```
 /// use infinite_arcade_statistics::{DoseTrials, half_point};
@@ -91,13 +95,14 @@ pub fn half_point(
     Some(HalfPoint { dose: dose(fitted), slope: fitted.1, interval: Interval { low, high } })
 }
 
-/// Returns the intercept and the slope, by Newton's method. The effects of items are eliminated one by one, so a step
-/// costs O(trials).
+/// Returns the intercept and the slope, computed by Newton's method. The effects of the items are eliminated
+/// one by one, so that a step costs O(trials).
 fn fit(items: &[&[DoseTrials]]) -> (f64, f64) {
     let (mut a, mut b) = (0.0, SLOPE.0);
     let mut effects = vec![0.0; items.len()];
     for _ in 0..STEPS {
-        // The gradient and the information of the two common parameters, after the elimination of the items.
+        // The gradient and the information matrix of the two common parameters, after the elimination of the
+        // item effects.
         let mut gradient = [-a * INTERCEPT_PRECISION, (SLOPE.0 - b) * SLOPE.1];
         let mut information = [INTERCEPT_PRECISION, 0.0, SLOPE.1];
         let mut parts = Vec::with_capacity(items.len());
@@ -162,8 +167,8 @@ mod tests {
 
     #[test]
     fn the_half_point_is_found_among_items_of_unequal_difficulty() {
-        // Items at −2, 0 and 2 logits around a half point of 10 with a slope of 1, with the expected number of wins
-        // in 100 trials.
+        // The items are at −2, 0 and 2 logits around a half point of 10 with a slope of 1. Each has the
+        // expected number of wins in 100 trials.
         let expected = |effect: f64| {
             let at = |dose: f64| {
                 let logit = libm::log(10.0) - libm::log(dose) + effect;

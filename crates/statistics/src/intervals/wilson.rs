@@ -1,22 +1,25 @@
-//! The Wilson score interval for a proportion. Unlike the textbook interval, it keeps its coverage for few trials and
-//! near 0 and 1 (E. B. Wilson, "Probable inference, the law of succession, and statistical inference", 1927).
+//! The Wilson score interval for a proportion (E. B. Wilson, "Probable inference, the law of succession, and
+//! statistical inference", 1927). Unlike the textbook interval, the Wilson interval keeps its coverage for
+//! few trials and for proportions near 0 and 1.
 
 /// The quantile of the normal distribution for a two-sided 95% interval.
 pub const Z95: f64 = 1.959963984540054;
 
-/// A closed interval with `low ≤ high`, within [0, 1] for proportions and within [−1, 1] for their differences.
+/// A closed interval with `low ≤ high`. Intervals of proportions are within [0, 1], and intervals of their
+/// differences within [−1, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// The smallest plausible value.
+    /// The lower bound of the interval.
     pub low: f64,
-    /// The largest plausible value.
+    /// The upper bound of the interval.
     pub high: f64,
 }
 
-/// Returns the Wilson score interval of `successes` among `trials` at `z` standard deviations ([`Z95`] for 95%).
+/// Returns the Wilson score interval for `successes` among `trials`. The confidence is given by `z` standard
+/// deviations ([`Z95`] for 95%).
 ///
-/// Without trials, nothing is known and the interval is [0, 1]. Without successes, `low` is exactly 0. If all trials
-/// succeed, `high` is exactly 1. Counts above 2^53 are rounded to the nearest `f64`.
+/// Without trials, the interval is [0, 1]. Without successes, `low` is exactly 0. If all trials succeed,
+/// `high` is exactly 1. Counts above 2^53 are rounded to the nearest `f64`.
 ///
 /// Both ends are NaN if `successes` exceeds `trials`, or if `z` is negative or not finite.
 pub fn wilson(successes: u64, trials: u64, z: f64) -> Interval {
@@ -30,8 +33,8 @@ pub fn wilson(successes: u64, trials: u64, z: f64) -> Interval {
     score_interval(successes as f64 / n, n, z)
 }
 
-/// Returns Wilson's interval for a proportion `p` of `n` trials. `n` need not be whole, because it may be an
-/// effective sample size. `p` must be a proportion, and `n` positive.
+/// Returns Wilson's interval for a proportion `p` of `n` trials. `p` must be a proportion, and `n` must be
+/// positive. `n` may be fractional, because it can be an effective sample size.
 pub(crate) fn score_interval(p: f64, n: f64, z: f64) -> Interval {
     let z2 = z * z;
     let scale = 1.0 + z2 / n;
@@ -58,7 +61,8 @@ mod tests {
         );
     }
 
-    /// The vectors of the evaluation paper's tables, to six digits, at its z of 1.96.
+    /// The test vectors are those of the evaluation paper's tables, to six digits, with the paper's z of
+    /// 1.96.
     #[test]
     fn published_vectors() {
         for (successes, low, high) in [
@@ -99,7 +103,7 @@ mod tests {
         check(347, 2246, 1.96, 0.140140, 0.170033, 5.1e-7);
     }
 
-    /// The results are within the last bit or two of decimal arithmetic with 60 digits.
+    /// The results agree with decimal arithmetic with 60 digits to within the last bit or two.
     #[test]
     fn exact_vectors() {
         check(1, 5, Z95, 0.03622410863243017, 0.6244653702374747, 2.3e-16);
@@ -110,7 +114,7 @@ mod tests {
         check(1, 1000000, Z95, 1.765245767453715e-07, 5.664911804311442e-06, 2.3e-16);
     }
 
-    /// Reports contain these bits, so a change must be deliberate.
+    /// The expected bits occur in reports, so a change must be deliberate.
     #[test]
     fn golden_bits() {
         let Interval { low, high } = wilson(19, 25, Z95);
@@ -129,7 +133,7 @@ mod tests {
                 assert_eq!(now.low == 0.0, successes == 0);
                 assert_eq!(now.high == 1.0, successes == trials);
                 assert!(now.low >= before.low && now.high > before.high);
-                // Failures mirror successes.
+                // The interval for failures is the mirror image of the interval for successes.
                 let mirror = wilson(trials - successes, trials, Z95);
                 assert!((now.low + mirror.high - 1.0).abs() < 1e-15);
                 before = now;

@@ -1,8 +1,9 @@
-//! The power of a planned comparison of two players over games, levels and runs, under given variances.
+//! The power of a planned comparison of two players over games, levels and runs, for given variances.
 //!
-//! In the model, the logit of a player's probability to win is its ability, plus the ease of the game, plus the ease
-//! of the level, plus the match of player and game. The last three vary normally and independently of each other. The
-//! test is [`paired_over_games`](crate::paired_over_games).
+//! In the model, the logit of a player's probability of winning is the sum of four terms: the player's
+//! ability, the ease of the game, the ease of the level, and the match between player and game. The last
+//! three terms are normally distributed and independent of each other. The test is
+//! [`paired_over_games`](crate::paired_over_games).
 
 use crate::intervals::over_games::least_p;
 use crate::student::student_quantile;
@@ -16,21 +17,22 @@ pub struct Spread {
     pub games: f64,
     /// The standard deviation of the ease of the levels within a game.
     pub levels: f64,
-    /// The standard deviation of the match of a player and a game, which is how much better the player does on this
-    /// game than on equally hard games.
+    /// The standard deviation of the match between a player and a game. The match is how much better the
+    /// player does on a game than on equally hard games.
     pub matches: f64,
 }
 
 impl Default for Spread {
-    /// Returns 1.3 for games and 1.0 for levels, as measured on built-in players, and 0.9 for the match, as in the
-    /// published results of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`; 0.88 by maximum
-    /// likelihood).
+    /// Returns standard deviations of 1.3 for games, 1.0 for levels and 0.9 for matches. The values for games
+    /// and levels were measured on built-in players. The value for matches is based on the published results
+    /// of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`), which give 0.88 by
+    /// maximum likelihood.
     fn default() -> Spread {
         Spread { games: 1.3, levels: 1.0, matches: 0.9 }
     }
 }
 
-/// The number of games, of levels per game, and of runs on each level.
+/// The design of a comparison, which consists of the numbers of games, levels per game, and runs per level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Design {
     /// The number of games.
@@ -41,9 +43,11 @@ pub struct Design {
     pub runs: u64,
 }
 
-/// The distance between the nodes of an integral over a normal variable, in standard deviations, and their number on
-/// either side of 0. The trapezoidal rule is accurate to about 1e-7 for functions as smooth as the logistic one.
+/// The distance between the nodes of an integral over a normal variable, in standard deviations. With
+/// [`SIDE`] nodes on either side of 0, the trapezoidal rule is accurate to about 1e-7 for functions as smooth
+/// as the logistic function.
 const STEP: f64 = 0.75;
+/// The number of nodes on either side of 0 in an integral over a normal variable.
 const SIDE: i32 = 6;
 
 impl Design {
@@ -52,13 +56,14 @@ impl Design {
         self.games * self.levels * self.runs
     }
 
-    /// Returns the standard error of the difference between two players with these win rates.
+    /// Returns the standard error of the difference between two players with the given win rates.
     pub fn standard_error(&self, rates: [f64; 2], spread: Spread) -> f64 {
         (self.moments(rates, spread).0 / self.games as f64).sqrt()
     }
 
-    /// Returns the probability that the test over games at level `alpha` distinguishes players with these win rates,
-    /// in the right direction. 0 with fewer games than the test needs. Cost: O(1), about a millisecond.
+    /// Returns the probability that the test over games at level `alpha` distinguishes two players with the
+    /// given win rates, in the right direction. Returns 0 if there are fewer games than the test needs. Cost:
+    /// O(1), about a millisecond.
     ///
     /// ```
     /// use infinite_arcade_statistics::{Design, Spread};
@@ -82,8 +87,8 @@ impl Design {
         shifted_tail(student_quantile(alpha, df), df, shift.abs(), skewness)
     }
 
-    /// Returns the smallest win rate above `base` that is distinguished from `base` with this power at level `alpha`;
-    /// `None` if there is no such rate.
+    /// Returns the smallest win rate above `base` that the test at level `alpha` distinguishes from `base`
+    /// with the given power. Returns `None` if there is no such rate.
     pub fn detectable(&self, base: f64, spread: Spread, alpha: f64, power: f64) -> Option<f64> {
         let (mut low, mut high) = (base, 0.999);
         if low >= high || self.power([high, base], spread, alpha) < power {
@@ -100,15 +105,15 @@ impl Design {
         Some(high)
     }
 
-    /// Returns the variance and the skewness of the difference between the two players' rates on a game.
+    /// Returns the variance and the skewness of the difference between the two players' rates on one game.
     fn moments(&self, rates: [f64; 2], spread: Spread) -> (f64, f64) {
         let ability = rates.map(|rate| spread.ability(rate));
         let (levels, runs) = (self.levels as f64, self.runs as f64);
-        // The sums of the powers of the mean difference on a game, and of the variance about it, alone and times the
-        // difference.
+        // `powers` holds the sums of the powers of a game's mean difference, and `inner` the sum of the
+        // variance about that mean. `cross` holds the sum of the variance times the mean difference.
         let (mut powers, mut inner, mut cross) = ([0.0; 3], 0.0, 0.0);
         for (game, weight) in nodes() {
-            // The rates on this game by match, and the rates of its levels.
+            // For each match: its weight, the mean rate on this game, and the rates on the game's levels.
             let of_side = |side: usize| -> Vec<(f64, f64, Vec<f64>)> {
                 let with = |(fit, weight): (f64, f64)| {
                     let centre = ability[side] + spread.games * game + spread.matches * fit;
@@ -146,13 +151,13 @@ impl Design {
 }
 
 impl Spread {
-    /// Returns the ability that gives this mean win rate over games and levels.
+    /// Returns the ability with the given mean win rate over games and levels.
     pub fn ability(&self, rate: f64) -> f64 {
         let all = (self.games * self.games + self.levels * self.levels + self.matches * self.matches).sqrt();
         let (mut low, mut high) = (-30.0, 30.0);
         for _ in 0..60 {
             let middle = (low + high) / 2.0;
-            // Wide spreads need more nodes.
+            // A wide distribution needs more nodes.
             let mean: f64 = (-80..=80)
                 .map(|node| {
                     let z = f64::from(node) * 0.1;
@@ -185,19 +190,22 @@ pub(crate) fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + exp(-x))
 }
 
-/// Returns the probability that a normal variable with mean `shift`, divided by √(χ²/`df`) for an independent χ² with
-/// `df` degrees of freedom, exceeds `quantile`: the upper tail of the noncentral t distribution. Means of skewed
-/// values are correlated with their standard errors, so the root is multiplied by √(1 + `skewness` · z), where z is
-/// the deviation of the normal variable.
+/// Returns an upper tail of the noncentral t distribution. It is the probability that a normal variable with
+/// mean `shift`, divided by √(χ²/`df`) for an independent χ² with `df` degrees of freedom, exceeds
+/// `quantile`.
+///
+/// Means of skewed values are correlated with their standard errors. Therefore, the root is multiplied by
+/// √(1 + `skewness` · z), where z is the deviation of the normal variable.
 fn shifted_tail(quantile: f64, df: f64, shift: f64, skewness: f64) -> f64 {
-    // Integrate over s = √(χ²/df), whose density is 2 (df/2)^(df/2) / Γ(df/2) · s^(df−1) · exp(−df s²/2).
+    // The integral is over s = √(χ²/df), whose density is 2 (df/2)^(df/2) / Γ(df/2) · s^(df−1) · exp(−df
+    // s²/2).
     let scale = (df / 2.0) * log(df / 2.0) - lgamma(df / 2.0) + std::f64::consts::LN_2;
     let (most, parts) = (1.0 + 8.0 / (2.0 * df).sqrt(), 1000);
     let step = most / f64::from(parts);
     let at = |part: i32| {
         let s = (f64::from(part) + 0.5) * step;
         let weight = exp(scale + (df - 1.0) * log(s) - df * s * s / 2.0);
-        // The deviation from which on the test detects the difference, by a few steps of a contraction.
+        // A few steps of a contraction find the smallest deviation at which the test detects the difference.
         let mut least = quantile * s - shift;
         for _ in 0..8 {
             least = quantile * s * (1.0 + skewness * least.clamp(-3.0, 3.0)).max(0.0).sqrt() - shift;
@@ -232,11 +240,12 @@ mod tests {
         let none = Spread { games: 0.0, levels: 0.0, matches: 0.0 };
         assert!((none.ability(0.25) - log(1.0 / 3.0)).abs() < 1e-9);
         assert!(Spread::default().ability(0.5).abs() < 1e-9);
-        // A spread moves rates towards the middle, so the ability for a rate of 0.1 is further out.
+        // Random effects move mean rates towards 0.5, so the ability for a rate of 0.1 is further from 0.
         assert!(Spread::default().ability(0.1) < none.ability(0.1) - 0.5);
     }
 
-    /// Without any spread, the variance of a game's difference is that of two binomials.
+    /// Without random effects, the variance of a game's difference is that of the difference of two
+    /// binomials.
     #[test]
     fn variances_without_spread() {
         let none = Spread { games: 0.0, levels: 0.0, matches: 0.0 };

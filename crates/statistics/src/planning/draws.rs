@@ -1,4 +1,4 @@
-//! Random numbers for simulations from ChaCha8, which are the same on every machine.
+//! Random numbers for simulations. They come from ChaCha8, and are the same on every machine.
 
 use libm::{log, sqrt};
 use rand_chacha::ChaCha8Rng;
@@ -17,8 +17,8 @@ impl Draws {
         (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Draws a standard normal number (G. Marsaglia and T. A. Bray, "A convenient method for generating normal variables",
-    /// 1964).
+    /// Draws a standard normal number (G. Marsaglia and T. A. Bray, "A convenient method for generating
+    /// normal variables", 1964).
     pub(crate) fn normal(&mut self) -> f64 {
         loop {
             let [x, y] = [0, 1].map(|_| 2.0 * self.uniform() - 1.0);
@@ -29,7 +29,8 @@ impl Draws {
         }
     }
 
-    /// Draws the number of successes in `trials` trials that each succeed with probability `chance`.
+    /// Draws the number of successes in `trials` independent trials, each of which succeeds with probability
+    /// `chance`.
     pub(crate) fn successes(&mut self, chance: f64, trials: u64) -> u64 {
         (0..trials).filter(|_| self.uniform() < chance).count() as u64
     }

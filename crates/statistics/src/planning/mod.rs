@@ -1,4 +1,4 @@
-//! Planning of evaluations: the number of episodes needed to detect a difference.
+//! Plans evaluations by computing the number of episodes needed to detect a difference.
 
 pub(crate) mod design;
 pub(crate) mod draws;

@@ -1,21 +1,21 @@
-//! Power analysis for win rates: the number of episodes needed to detect a difference. It is meant for planning a
-//! run. With five episodes per side, only five wins against at most one, and four wins against none, can be
-//! distinguished.
+//! Power analysis for win rates, which computes the number of episodes needed to detect a difference. The
+//! analysis is intended for planning a run. With five episodes per side, only two kinds of results are
+//! significant: five wins against at most one win, and four wins against none.
 //!
-//! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral Sciences*,
-//! 1988, §6.4). [`fisher_power`] sums over all tables, for the test that follows the run. Fisher's test is more
-//! conservative, especially for few trials.
+//! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral
+//! Sciences*, 1988, §6.4). [`fisher_power`] sums over all tables, and computes the power of the test that
+//! follows the run. Fisher's test is more conservative, especially for few trials.
 
 use crate::comparisons::cohen::{angle, cohens_h};
 use crate::comparisons::fisher::fisher;
 use statrs::function::erf::erfc_inv;
 
-/// The error rates of a comparison of two win rates with equal numbers of trials on each side.
+/// The error rates of a comparison between two win rates. Both sides have the same number of trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power {
-    /// The probability that a two-sided test reports a difference that does not exist: usually 0.05.
+    /// The probability that a two-sided test reports a difference that does not exist, usually 0.05.
     pub alpha: f64,
-    /// The probability of detecting a difference that exists: usually 0.8.
+    /// The probability of detecting a difference that exists, usually 0.8.
     pub power: f64,
 }
 
@@ -26,8 +26,8 @@ impl Default for Power {
 }
 
 impl Power {
-    /// Returns the smallest Cohen's h that `trials` trials per side can detect. A result above π means that no
-    /// difference can be detected. Infinite without trials.
+    /// Returns the smallest Cohen's h that `trials` trials per side can detect. A result above π means that
+    /// no difference can be detected. Without trials, the result is infinite.
     ///
     /// ```
     /// use infinite_arcade_statistics::Power;
@@ -39,8 +39,8 @@ impl Power {
         self.deviations() * (2.0 / trials as f64).sqrt()
     }
 
-    /// Returns the nearest rates below and above `base` that `trials` trials per side can distinguish from it; `None`
-    /// if there is no such rate, or if `base` is not a proportion.
+    /// Returns the nearest rates below and above `base` that `trials` trials per side can distinguish from
+    /// `base`. A rate is `None` if there is no such rate, or if `base` is not a proportion.
     ///
     /// ```
     /// use infinite_arcade_statistics::Power;
@@ -56,8 +56,8 @@ impl Power {
         })
     }
 
-    /// Returns the number of trials per side needed to distinguish `p` from `q`; `None` if they are equal, or if a
-    /// value is not a proportion.
+    /// Returns the number of trials per side needed to distinguish `p` from `q`. Returns `None` if the rates
+    /// are equal, or if a value is not a proportion.
     ///
     /// ```
     /// use infinite_arcade_statistics::Power;
@@ -69,17 +69,15 @@ impl Power {
         (h.abs() > 0.0).then(|| (2.0 * ratio * ratio).ceil() as u64)
     }
 
-    /// Returns the number of standard deviations between no difference and a difference that is detected with the
-    /// required power.
+    /// Returns the size of a difference that is detected with the required power, in standard deviations.
     fn deviations(&self) -> f64 {
         quantile(1.0 - self.alpha / 2.0) + quantile(self.power)
     }
 }
 
-/// Returns the probability that [`fisher`] returns at most `alpha`, if two players with win rates `rates` play
-/// `trials` episodes each. Cost: cubic in the number of trials; a few hundred are fine.
-///
-/// NaN if a rate is not a proportion.
+/// Returns the probability that [`fisher`] returns at most `alpha`, if two players with the win rates `rates`
+/// play the numbers of episodes in `trials`. Returns NaN if a rate is not a proportion. Cost: cubic in the
+/// number of trials, which is acceptable for a few hundred trials.
 ///
 /// ```
 /// use infinite_arcade_statistics::fisher_power;
@@ -103,7 +101,7 @@ pub fn fisher_power(rates: [f64; 2], trials: [u64; 2], alpha: f64) -> f64 {
     seen.min(1.0)
 }
 
-/// Returns the probabilities of 0 to `trials` successes.
+/// Returns the binomial probabilities of 0 to `trials` successes.
 fn binomial(rate: f64, trials: u64) -> Vec<f64> {
     let mut chances = vec![1.0];
     for _ in 0..trials {
@@ -133,7 +131,8 @@ mod tests {
         assert!(quantile(0.5).abs() < 1e-15);
     }
 
-    /// Cohen's table 6.4.1: at 5%, two-sided, with a power of 0.8.
+    /// The expected values are those of Cohen's table 6.4.1 for a two-sided test at the 5% level with a power
+    /// of 0.8.
     #[test]
     fn published_sizes() {
         let ask = Power::default();
@@ -157,22 +156,23 @@ mod tests {
         assert_eq!(ask.detectable_h(0), f64::INFINITY);
     }
 
-    /// Five trials per side can distinguish only five against none, four against none and five against one.
+    /// With five trials per side, only three results are significant: five wins against none, four against
+    /// none, and five against one.
     #[test]
     fn five_a_side() {
         assert_eq!(fisher_power([1.0, 0.0], [5, 5], 0.05), 1.0);
         let (p, q): (f64, f64) = (0.9, 0.1);
         let (five, four) = (p * p * p * p * p, 5.0 * p * p * p * p * q);
         let expect = five * (five + four) + four * five;
-        // The mirror image, in which the worse player is lucky.
+        // In the mirror image, the worse player is lucky.
         let (none, one) = (q * q * q * q * q, 5.0 * q * q * q * q * p);
         let expect = expect + none * (none + one) + one * none;
         let found = fisher_power([p, q], [5, 5], 0.05);
         assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
     }
 
-    /// The arcsine approximation agrees with the number of trials that Fisher's test needs, except that the test is
-    /// conservative.
+    /// The arcsine approximation agrees with the number of trials that Fisher's test needs, apart from the
+    /// conservatism of Fisher's test.
     #[test]
     fn the_approximation_is_near() {
         for (p, q) in [(0.1, 0.4), (0.5, 0.7), (0.05, 0.2)] {

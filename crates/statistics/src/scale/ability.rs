@@ -1,7 +1,8 @@
-//! The ability of a player, estimated from its episodes on levels of known difficulty. The likelihood is integrated
-//! by quadrature over the match of the player and each game, over the errors of the difficulties, and over the
-//! standard deviation of the matches. Nothing is approximated by a normal distribution, so a player without wins has
-//! an interval too.
+//! Estimates the ability of a player from its episodes on levels of known difficulty.
+//!
+//! The likelihood is integrated by quadrature over three kinds of unknowns: the match of the player and each
+//! game, the errors of the difficulties, and the standard deviation of the matches. Nothing is approximated
+//! by a normal distribution. Therefore, even a player without wins has an interval.
 
 use super::logistic::{logistic, softplus};
 use crate::intervals::wilson::{Interval, Z95};
@@ -11,11 +12,11 @@ use crate::intervals::wilson::{Interval, Z95};
 pub struct PlayedLevel {
     /// The difficulty of the level.
     pub difficulty: f64,
-    /// The standard error of the difficulty, without the part that the levels of the game share.
+    /// The standard error of the difficulty, without the component that the levels of the game share.
     pub own: f64,
     /// The number of episodes won.
     pub won: f64,
-    /// The number of episodes, where identical ones count once.
+    /// The number of episodes, with identical episodes counted once.
     pub of: f64,
 }
 
@@ -33,7 +34,7 @@ pub struct PlayedGame {
 pub struct MismatchPrior {
     /// The median of the prior, in logits.
     pub median: f64,
-    /// The standard deviation of the natural logarithm.
+    /// The standard deviation of the standard deviation's natural logarithm.
     pub log_sd: f64,
 }
 
@@ -43,48 +44,48 @@ impl Default for MismatchPrior {
     }
 }
 
-/// An ability, with the components of its error: total² = sampling² + mismatch² + link².
+/// An estimated ability and the components of its error, with total² = sampling² + mismatch² + link².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ability {
     /// The mean of the posterior, in logits above the mean difficulty of the first release's levels.
     pub value: f64,
-    /// The total standard error.
+    /// The total standard error of the ability.
     pub error: f64,
-    /// The error caused by the limited number of episodes alone, as if the difficulty of each level for this player
-    /// were known.
+    /// The component of the error that is caused by the limited number of episodes. It is the error that
+    /// would remain if the difficulty of each level for this player were known.
     pub sampling: f64,
-    /// The error caused by games that suit the player more or less than others, and by the errors of their
-    /// difficulties.
+    /// The component of the error that is caused by games that suit the player better or worse than others,
+    /// and by the errors of their difficulties.
     pub mismatch: f64,
-    /// The error of the link between the month and the first release.
+    /// The component of the error that is caused by the link between the month and the first release.
     pub link: f64,
-    /// The 95% interval.
+    /// The 95% interval of the ability.
     pub interval: Interval,
-    /// `true` for each end of the interval that the data determine. Without wins there is no lower bound, and without
-    /// losses no upper bound.
+    /// For the lower and the upper end of the interval, `true` if the data determine that end. Without wins,
+    /// there is no lower bound, and without losses, there is no upper bound.
     pub is_bounded: [bool; 2],
     /// The posterior mean of the standard deviation of the player's matches with games.
     pub mismatch_sd: f64,
 }
 
-/// The distance between the nodes of abilities and of logits.
+/// The distance between the nodes of the grids of abilities and of logits.
 pub(super) const STEP: f64 = 0.15;
-/// The number of nodes on either side of 0. Abilities are within ±10.05 logits.
+/// The number of nodes on either side of 0, so that abilities are within ±10.05 logits.
 pub(super) const SIDE: i32 = 67;
 /// The standard deviation of the prior of an ability.
 pub(super) const ABILITY_SD: f64 = 5.0;
-/// The nodes of the standard deviation of matches: the smallest one, the constant ratio between neighbours, and their
-/// number.
+/// The grid of the standard deviation of matches, given by its smallest node, the constant ratio between
+/// neighbouring nodes, and the number of nodes.
 const MISMATCHES: (f64, f64, usize) = (0.2, 1.4, 10);
-/// The number of standard deviations within which a normal variable is considered.
+/// The number of standard deviations beyond which a normal distribution is cut off.
 pub(super) const TAIL: f64 = 5.0;
-/// The number of parts into which a step of abilities is divided for the interval.
+/// The number of parts into which each step of abilities is divided when the interval is computed.
 const PARTS: usize = 10;
 
-/// Estimates the ability of a player. `link` is the standard error that all difficulties share.
+/// Estimates the ability of a player. `link` is the standard error that the difficulties of all levels share.
 ///
-/// `None` without episodes, if a number is not finite, or if an entry has more wins than episodes. Cost: O(levels +
-/// games) times several thousand.
+/// Returns `None` if there are no episodes, if a number is not finite, or if an entry has more wins than
+/// episodes. Cost: O(levels + games) times several thousand.
 ///
 /// ```
 /// use infinite_arcade_statistics::scale::{MismatchPrior, PlayedGame, PlayedLevel, ability};
@@ -131,7 +132,7 @@ pub fn ability(games: &[PlayedGame], prior: MismatchPrior, link: f64) -> Option<
 /// The posterior on a grid of abilities.
 struct Density<'a> {
     games: &'a [PlayedGame],
-    /// The weights by mismatch, then by ability. Their sum is 1.
+    /// The posterior weights, indexed by mismatch and ability. Their sum is 1.
     weights: Vec<Vec<f64>>,
     mismatches: Vec<f64>,
 }
@@ -174,12 +175,12 @@ impl<'a> Density<'a> {
         Density { games, weights, mismatches }
     }
 
-    /// Returns the posterior density of abilities.
+    /// Returns the posterior density on the grid of abilities.
     fn abilities(&self) -> Vec<f64> {
         (0..self.weights[0].len()).map(|at| self.weights.iter().map(|of| of[at]).sum()).collect()
     }
 
-    /// Returns the posterior mean and variance of the ability, and the mean mismatch.
+    /// Returns the posterior mean and variance of the ability, and the posterior mean of the mismatch.
     fn moments(&self) -> (f64, f64, f64) {
         let all = self.abilities();
         let nodes = || (-SIDE..=SIDE).map(|node| f64::from(node) * STEP).zip(&all);
@@ -189,7 +190,8 @@ impl<'a> Density<'a> {
         (mean, variance, mismatch.map(|(sd, weights)| sd * weights.iter().sum::<f64>()).sum())
     }
 
-    /// Returns the 2.5% and 97.5% points, where the logarithm of the density is interpolated by cubics.
+    /// Returns the 2.5% and 97.5% quantiles of the ability. The logarithm of the density is interpolated by
+    /// cubics.
     fn ends(&self) -> [f64; 2] {
         let logs: Vec<f64> =
             self.abilities().into_iter().map(|weight| libm::log(weight.max(1e-300))).collect();
@@ -214,13 +216,14 @@ impl<'a> Density<'a> {
                 sum >= share * total
             });
             let place = place.unwrap_or(last * PARTS);
-            // Each node stands for half a part on either side.
+            // Each node represents half a part on either side.
             let over = (sum - share * total) / fine[place];
             (place as f64 + 0.5 - over) / PARTS as f64 * STEP - f64::from(SIDE) * STEP
         })
     }
 
-    /// Returns the variance that the ability would have if the difficulty of each level for this player were known.
+    /// Returns the variance that the ability would have if the difficulty of each level for this player were
+    /// known.
     fn sampling(&self, ability: f64, mismatch: f64) -> f64 {
         let information: f64 = (self.games.iter())
             .flat_map(|game| game.levels.iter().map(move |level| (game, level)))
@@ -238,8 +241,8 @@ impl<'a> Density<'a> {
 }
 
 impl PlayedGame {
-    /// Returns the likelihood of the game's episodes for the logits from `-reach` to `reach` steps. The own errors of
-    /// the game's levels are integrated out.
+    /// Returns the likelihood of the game's episodes for each logit from `-reach` to `reach` steps. The
+    /// errors of the individual levels are integrated out.
     pub(super) fn likelihoods(&self, reach: i32) -> Vec<f64> {
         let mut all = vec![1.0; 2 * reach as usize + 1];
         for level in self.levels.iter().filter(|level| level.of > 0.0) {
@@ -260,12 +263,12 @@ impl PlayedGame {
 
 /// Returns the nodes of an integral over a standard normal variable, with their weights, by the trapezoidal rule.
 pub(super) fn nodes() -> impl Iterator<Item = (f64, f64)> {
-    // exp(−z²/2) at 0 to 3, divided by the sum over all nodes.
+    // The weights are exp(−z²/2) for z from 0 to 3, divided by the sum over all nodes.
     const WEIGHTS: [f64; 4] = [0.399050279652450, 0.242036229376345, 0.054005582622414, 0.004433048175244];
     (-3i32..=3).map(|z| (f64::from(z), WEIGHTS[z.unsigned_abs() as usize]))
 }
 
-/// Returns the weights of a centred normal variable at the steps around 0.
+/// Returns the weights of a normal distribution with mean 0 at the steps around 0.
 pub(super) fn kernel(sd: f64) -> Vec<f64> {
     let half = (TAIL * sd / STEP) as i32;
     let mut weights: Vec<f64> = (-half..=half)
@@ -301,12 +304,13 @@ mod tests {
         assert!(found.value.abs() < 1e-9 && found.is_bounded == [true, true], "{found:?}");
         let parts = found.sampling * found.sampling + found.mismatch * found.mismatch;
         assert!((parts.sqrt() - found.error).abs() < 1e-12, "{found:?}");
-        // The interval is symmetric, and as wide as the error says.
+        // The interval is symmetric, and its width corresponds to the error.
         assert!((found.interval.high + found.interval.low).abs() < 1e-6, "{found:?}");
         assert!((found.interval.high / found.error - Z95).abs() < 0.1, "{found:?}");
     }
 
-    /// Episodes on a level whose difficulty is known give the same result as one entry or as several.
+    /// If the difficulty of a level is known, splitting its episodes into several entries does not change the
+    /// result.
     #[test]
     fn plays_may_be_counted_together() {
         let level = |won: f64, of: f64| PlayedLevel { difficulty: 0.5, own: 0.0, won, of };

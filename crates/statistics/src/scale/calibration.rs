@@ -1,4 +1,4 @@
-//! The calibration of a first release, and of the months added to it.
+//! Calibrates a first release, and adds later months to the scale.
 
 use super::maximise::maximise;
 use super::plays::{Dimension, Examinee, GamePlays};
@@ -6,100 +6,105 @@ use super::posterior::{Functional, Model, Modes, Posterior};
 use super::spreads::Spreads;
 use nalgebra::DMatrix;
 
-/// Both dimensions, in the order of pairs.
+/// Both dimensions, in the order in which pairs of values store them.
 const BOTH: [Dimension; 2] = [Dimension::Planner, Dimension::Reader];
 
-/// An estimate and its standard error.
+/// An estimated value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimated {
-    /// The estimate.
+    /// The estimated value.
     pub value: f64,
-    /// The standard error.
+    /// The standard error of the value.
     pub error: f64,
 }
 
 impl Estimated {
-    /// Returns the 95% interval.
+    /// Returns the 95% confidence interval.
     pub fn interval(&self) -> crate::Interval {
         let half = crate::Z95 * self.error;
         crate::Interval { low: self.value - half, high: self.value + half }
     }
 }
 
-/// The difficulties of a game's levels in one dimension, in logits above the mean of the first release's levels.
+/// The difficulties of a game's levels in one dimension, in logits above the mean difficulty of the first
+/// release's levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difficulties {
-    /// The difficulty of each level.
+    /// The difficulty of each level, with its standard error.
     pub levels: Vec<Estimated>,
-    /// The error that the levels of the game share, without the error of the link.
+    /// The standard error that the levels of the game share, without the error of the link.
     pub common: f64,
 }
 
 impl Difficulties {
-    /// Returns the error of a level that the other levels of the game do not share.
+    /// Returns the component of a level's error that the other levels of the game do not share.
     pub fn own(&self, level: usize) -> f64 {
         let rest = self.levels[level].error * self.levels[level].error - self.common * self.common;
         rest.max(0.0).sqrt()
     }
 }
 
-/// The difficulties of a game, and the fit of its episodes.
+/// The difficulties of a game's levels, and the fit of its episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameDifficulties {
     /// The difficulties for planners and for readers. The standard errors exclude the error of the link.
     pub difficulties: [Difficulties; 2],
-    /// The mean squared standardised residual of the game's episodes: about 1, and greater if they fit badly.
+    /// The mean squared standardised residual of the game's episodes. The value is about 1, and greater if
+    /// the episodes fit the model badly.
     pub misfit: f64,
 }
 
-/// The levels of a release on the scale.
+/// The levels of one month's release, placed on the scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Month {
-    /// The games, in the order of the given results.
+    /// The games of the release, in the order of the given results.
     pub games: Vec<GameDifficulties>,
-    /// The mean difficulty of the month's levels minus that of the first release's levels, for planners and for
-    /// readers in general. The errors include the link to any player of the dimension.
+    /// The mean difficulty of the month's levels minus that of the first release's levels, for planners and
+    /// for readers. The errors include the error of the link for arbitrary players of the dimension.
     pub shifts: [Estimated; 2],
-    /// The same shift for exactly the planners of the calibration, with the error of the link to them.
+    /// The shift of the mean difficulty for exactly the planners of the calibration, with the error of the
+    /// link for these planners.
     pub planners_shift: Estimated,
-    /// The standard error that all difficulties share, for planners and for readers. 0 for the first release.
+    /// The standard error that the difficulties of all levels share, for planners and for readers. For the
+    /// first release, the error is 0.
     pub link: [f64; 2],
-    /// The additional difficulty of the month for readers, beyond the one that its difficulty for planners implies.
-    /// `None` if no anchor played.
+    /// The additional difficulty of the month for readers, beyond the value implied by its difficulty for
+    /// planners. `None` if no anchor played.
     pub drift: Option<Estimated>,
 }
 
-/// Examinees and a first release on a common scale.
+/// The result of a calibration, which puts examinees and a first release on a common scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
-    /// The examinees.
+    /// The examinees of the calibration.
     pub examinees: Vec<Examinee>,
-    /// The spreads.
+    /// The estimated standard deviations and slopes of the model.
     pub spreads: Spreads,
-    /// The abilities of the examinees, which are their logits on an average game of the distribution that the first
-    /// release is drawn from.
+    /// The abilities of the examinees. An ability is the logit of the examinee on an average game of the
+    /// distribution from which the first release was drawn.
     pub abilities: Vec<f64>,
     /// The covariance matrix of the abilities, the two origins and the ease, in this order, stored by rows.
     pub covariance: Vec<f64>,
-    /// The mean difficulties of the first release's levels for planners and for readers, which are the zero of the
-    /// scale.
+    /// The mean difficulties of the first release's levels for planners and for readers, which define the
+    /// zero of the scale.
     pub origins: [f64; 2],
     /// The mean logit of the planners on the first release.
     pub ease: f64,
 }
 
 impl Calibration {
-    /// Calibrates a first release: estimates spreads, abilities and difficulties. Every examinee must have played.
+    /// Calibrates a first release by estimating spreads, abilities and difficulties. Every examinee must have
+    /// played.
     ///
-    /// `None` without episodes, if an entry is invalid, or if an examinee has no episodes. Cost: O(games · effects³)
-    /// for each of a few hundred evaluations.
+    /// Returns `None` if there are no episodes, if an entry is invalid, or if an examinee has no episodes.
+    /// Cost: O(games · effects³) for each of a few hundred evaluations.
     pub fn new(examinees: &[Examinee], games: &[GamePlays]) -> Option<(Calibration, Month)> {
         let model = checked(examinees, games, None)?;
         let spreads = spreads_of(&model, Spreads::default())?;
         Calibration::with_spreads(examinees, games, spreads)
     }
 
-    /// Calibrates with the given spreads.
+    /// Calibrates a first release with given spreads. Only abilities and difficulties are estimated.
     pub fn with_spreads(
         examinees: &[Examinee],
         games: &[GamePlays],
@@ -146,10 +151,10 @@ impl Calibration {
         Estimated { value: self.abilities[examinee] - self.origins[side], error: variance.max(0.0).sqrt() }
     }
 
-    /// Adds a release by fixed-parameter calibration: abilities and spreads stay fixed, and the difficulties of the
-    /// new levels are estimated.
+    /// Adds a release by fixed-parameter calibration. The difficulties of the new levels are estimated, while
+    /// abilities and spreads stay fixed.
     ///
-    /// `None` as for [`Calibration::new`], except that not every examinee must play.
+    /// Returns `None` in the same cases as [`Calibration::new`], except that not every examinee must play.
     pub fn add(&self, games: &[GamePlays]) -> Option<Month> {
         let model = checked(&self.examinees, games, Some(&self.abilities))?;
         let posterior = model.expected_posterior(&self.spreads)?;
@@ -195,7 +200,7 @@ impl Calibration {
         self.covariance[i * (self.examinees.len() + 3) + j]
     }
 
-    /// Returns the variance of a linear function of abilities, origins and ease.
+    /// Returns the variance of a linear function of the abilities, the origins and the ease.
     fn variance_of(&self, factors: &[f64]) -> f64 {
         let size = factors.len();
         let row = |i: usize| (0..size).map(|j| self.covariance(i, j) * factors[j]).sum::<f64>();
@@ -219,12 +224,12 @@ impl Calibration {
     }
 }
 
-/// Returns the mean covariance of two levels, clamped between 0 and the minimum variance.
+/// Returns the mean covariance of two levels, clamped between 0 and the minimum variance of a level.
 fn common(within: &DMatrix<f64>) -> f64 {
     let count = within.nrows();
     let least = (0..count).map(|at| within[(at, at)]).fold(f64::INFINITY, f64::min);
     if count < 2 {
-        // All of the error of a game with a single level is common.
+        // If a game has a single level, all of its error is common.
         return if count == 1 { least.max(0.0) } else { 0.0 };
     }
     let pairs = (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
@@ -232,7 +237,7 @@ fn common(within: &DMatrix<f64>) -> f64 {
     (sum / (count * (count - 1) / 2) as f64).clamp(0.0, least.max(0.0))
 }
 
-/// Returns the index of a dimension in a pair.
+/// Returns the index of a dimension in pairs of values.
 pub(super) fn side(dimension: Dimension) -> usize {
     match dimension {
         Dimension::Planner => 0,
@@ -255,7 +260,7 @@ fn checked<'a>(
     (is_valid && is_enough).then(|| Model::new(examinees, games, abilities))
 }
 
-/// Returns the spreads with the maximum posterior density, with all effects integrated out.
+/// Returns the spreads with the maximum posterior density, after all effects are integrated out.
 pub(super) fn spreads_of(model: &Model<'_>, start: Spreads) -> Option<Spreads> {
     let mut near: Option<Modes> = None;
     let mut density = |parameters: &[f64]| {

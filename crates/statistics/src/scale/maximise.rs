@@ -1,18 +1,18 @@
-//! Maximisation of a smooth function of a few parameters, by the quasi-Newton method of Broyden, Fletcher, Goldfarb
+//! Maximises a smooth function of a few parameters, by the quasi-Newton method of Broyden, Fletcher, Goldfarb
 //! and Shanno (J. Nocedal and S. J. Wright, *Numerical Optimization*, 2006, chapter 6).
 
 use nalgebra::{DMatrix, DVector};
 
-/// The maximum number of steps; 10 to 20 are typical.
+/// The maximum number of steps. 10 to 20 steps are typical.
 const STEPS: usize = 60;
 /// The maximum change of a parameter in one step.
 const LONGEST: f64 = 1.0;
-/// The gain below which a step ends the search.
+/// The search ends when a step gains less than this value.
 const GAIN: f64 = 1e-7;
 
-/// Returns the position of a maximum near `start`. `function` returns its value with the derivatives, or `None` where
-/// it is undefined. Returns `None` if `function` is undefined at the start. Cost: one call for most steps, a few for
-/// some.
+/// Returns the position of a local maximum near `start`. `function` returns its value and its derivatives, or
+/// `None` at positions at which it is undefined. Returns `None` if `function` is undefined at `start`. Cost:
+/// one call of `function` for most steps, and a few calls for some.
 pub(super) fn maximise(
     start: &[f64],
     function: &mut impl FnMut(&[f64]) -> Option<(f64, Vec<f64>)>,
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn a_narrow_ridge_is_climbed() {
-        // Rosenbrock's valley, upside down.
+        // The function is Rosenbrock's valley, turned upside down.
         let mut ridge = |x: &[f64]| {
             let (a, b) = (1.0 - x[0], x[1] - x[0] * x[0]);
             Some((-(a * a + 20.0 * b * b), vec![2.0 * a + 80.0 * b * x[0], -40.0 * b]))

@@ -1,13 +1,16 @@
-//! One scale of ability over the months: difficulties of levels and abilities of players, estimated from episodes of
-//! examinees that never change.
+//! A scale of ability over the months. The difficulties of levels and the abilities of players are estimated
+//! from episodes of examinees that never change.
 //!
-//! The logit of the probability to win is the ability of the player, minus the difficulty of the month, game and
-//! level, plus the match of the player's family and the game, plus the match of the player and the game. Difficulty
-//! has two dimensions: one for planners, and one for readers. A difficulty for readers is a slope times the
-//! difficulty for planners, plus an independent rest. [`Calibration`] estimates spreads by Laplace's method, whose
-//! shrinkage a parametric bootstrap corrects, and adds months with fixed abilities and spreads. [`ability()`]
-//! estimates the ability of a player by quadrature. [`expected_error`] supports planning, and [`Selection`] chooses
-//! levels adaptively.
+//! The logit of the probability of winning is a sum of terms. The ability of the player is added, and the
+//! difficulties of the month, the game and the level are subtracted. Two matches are added: between the
+//! player's family and the game, and between the player and the game.
+//!
+//! Difficulty has two dimensions, one for planners and one for readers. The difficulty for readers is a slope
+//! times the difficulty for planners, plus an independent rest.
+//!
+//! [`Calibration`] estimates spreads by Laplace's method, corrects their shrinkage by a parametric bootstrap,
+//! and adds months with fixed abilities and spreads. [`ability()`] estimates the ability of a player by
+//! quadrature. [`expected_error`] supports planning, and [`Selection`] chooses levels adaptively.
 
 mod ability;
 mod calibration;

@@ -1,13 +1,15 @@
-//! The choice of levels: the expected error of a planned set of episodes, and the next level by information at the
-//! current ability.
+//! Chooses levels. The module computes the expected error of planned episodes, and chooses the next level by
+//! its information at the current ability.
 
 use super::ability::{ABILITY_SD, PlayedGame, SIDE, STEP, TAIL, kernel, nodes};
 use super::logistic::logistic;
 
-/// Returns the expected standard error of an ability after planned episodes. `of` is the planned number on each
-/// level, and `won` is not used. `mismatch` is the standard deviation of the player's matches with games, and `link`
-/// the standard error that all difficulties share. The information of a game's episodes is the sum over its levels,
-/// reduced because the levels share the match. Cost: O(levels).
+/// Returns the expected standard error of an ability after planned episodes. In `games`, `of` is the planned
+/// number of episodes on each level, and `won` is not used. `mismatch` is the standard deviation of the
+/// player's matches with games, and `link` is the standard error that the difficulties of all levels share.
+///
+/// The information from a game's episodes is the sum over its levels. The sum is reduced, because all levels
+/// of a game share the match. Cost: O(levels).
 ///
 /// ```
 /// use infinite_arcade_statistics::scale::{PlayedGame, PlayedLevel, expected_error};
@@ -28,8 +30,8 @@ pub fn expected_error(games: &[PlayedGame], ability: f64, mismatch: f64, link: f
     (1.0 / information + link * link).sqrt()
 }
 
-/// Returns the information from a level's episodes about the ability in its game, whose logit varies with this
-/// variance. `own` is the standard error of the difficulty.
+/// Returns the information from a level's episodes about the player's ability in the game. `variance` is the
+/// variance of the logit, and `own` is the standard error of the difficulty.
 fn information(logit: f64, variance: f64, own: f64, of: f64) -> f64 {
     let sd = (variance + own * own).sqrt();
     let mean: f64 = nodes()
@@ -41,42 +43,44 @@ fn information(logit: f64, variance: f64, own: f64, of: f64) -> f64 {
     1.0 / (1.0 / (of * mean).max(1e-300) + own * own)
 }
 
-/// Returns the information about the ability, given the information about the ability in one game.
+/// Converts the information about the ability in one game to information about the general ability.
 fn shared(within: f64, variance: f64) -> f64 {
     within / (1.0 + variance * within)
 }
 
-/// An adaptive choice of levels. Each chosen level is the most informative one at the ability that the recorded
-/// episodes show. The choice depends on nothing else, so the recorded episodes reproduce it.
+/// An adaptive choice of levels. Each chosen level is the most informative one at the ability estimated from
+/// the recorded episodes. The choice depends on nothing else, so it can be reproduced from the recorded
+/// episodes.
 #[derive(Clone, Debug)]
 pub struct Selection {
-    /// The levels, where `of` is the number of recorded episodes.
+    /// The levels by game, with `of` as the number of recorded episodes.
     games: Vec<PlayedGame>,
     /// The number of chosen episodes, by game and level.
     chosen: Vec<Vec<f64>>,
     mismatch: f64,
     runs: f64,
-    /// The logarithm of the density of abilities at the nodes.
+    /// The logarithm of the posterior density at each node of the ability grid.
     logs: Vec<f64>,
-    /// The contribution of each game to that logarithm.
+    /// The contribution of each game to the logarithm of the density.
     parts: Vec<Vec<f64>>,
 }
 
-/// A chosen level, with the state before it is played.
+/// A chosen level, and the estimate of the ability before the level is played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chosen {
     /// The index of the game.
     pub game: usize,
     /// The index of the level in the game.
     pub level: usize,
-    /// The ability according to the previous episodes.
+    /// The ability estimated from the previous episodes.
     pub ability: f64,
-    /// The ability's standard error, without the error of the link.
+    /// The standard error of the ability, without the error of the link.
     pub error: f64,
 }
 
 impl Selection {
-    /// Starts without episodes. `games` has the difficulties, and each level can be chosen `runs` times.
+    /// Creates a selection without episodes. `games` holds the difficulties of the levels, and each level can
+    /// be chosen `runs` times.
     pub fn new(games: &[PlayedGame], mismatch: f64, runs: u64) -> Selection {
         let mut games = games.to_vec();
         for level in games.iter_mut().flat_map(|game| &mut game.levels) {
@@ -92,7 +96,8 @@ impl Selection {
         Selection { games, chosen, mismatch, runs: runs as f64, logs, parts }
     }
 
-    /// Returns the ability according to the recorded episodes, and its standard error without the error of the link.
+    /// Returns the ability estimated from the recorded episodes. The standard error excludes the error of the
+    /// link.
     pub fn ability(&self) -> (f64, f64) {
         let most = self.logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let weights: Vec<f64> = self.logs.iter().map(|log| libm::exp(log - most)).collect();
@@ -105,15 +110,15 @@ impl Selection {
         (mean, variance.sqrt())
     }
 
-    /// Chooses the next level: the one whose episode adds the most to the information about the ability, after the
-    /// episodes chosen so far. Ties are resolved in the order of games and levels. `None` once all levels are
-    /// exhausted. Cost: O(levels).
+    /// Chooses the next level. An episode on the chosen level adds the most information about the ability,
+    /// given the episodes chosen so far. Ties are resolved in the order of games and levels. Returns `None`
+    /// once all levels are exhausted. Cost: O(levels).
     pub fn choose(&mut self) -> Option<Chosen> {
         let (ability, error) = self.ability();
         let mut best: Option<(f64, usize, usize)> = None;
         for (at, game) in self.games.iter().enumerate() {
             let variance = self.mismatch * self.mismatch + game.common * game.common;
-            // The ability itself is uncertain.
+            // The variance includes the uncertainty of the ability itself.
             let wide = variance + error * error;
             let of = |level: usize, plays: f64| {
                 let one = &game.levels[level];
@@ -134,7 +139,7 @@ impl Selection {
         Some(Chosen { game, level, ability, error })
     }
 
-    /// Records the result of an episode.
+    /// Records the result of an episode on a level.
     pub fn record(&mut self, game: usize, level: usize, won: bool) {
         let played = &mut self.games[game].levels[level];
         played.of += 1.0;
@@ -161,13 +166,13 @@ mod tests {
     use super::*;
     use crate::scale::{MismatchPrior, PlayedLevel, ability};
 
-    /// Returns games whose levels are easy, medium and hard.
+    /// Returns games that each have an easy, a medium and a hard level.
     fn games(count: usize) -> Vec<PlayedGame> {
         let level = |difficulty: f64| PlayedLevel { difficulty, own: 0.3, won: 0.0, of: 0.0 };
         vec![PlayedGame { common: 0.2, levels: [-3.0, 0.0, 3.0].map(level).to_vec() }; count]
     }
 
-    /// A player far below the scale gets easy levels, one of each game first.
+    /// A player far below the scale gets easy levels. The first choices are one level of each game.
     #[test]
     fn choices_go_where_the_player_is() {
         let mut selection = Selection::new(&games(20), 1.0, 1);
@@ -183,19 +188,20 @@ mod tests {
         played.dedup();
         assert_eq!(played.len(), 20, "{chosen:?}");
         assert!(chosen[19].error < 0.5 * chosen[0].error && chosen[19].ability < -2.0);
-        // Exactly the remaining levels are chosen.
+        // The remaining choices are exactly the remaining levels.
         assert_eq!(std::iter::from_fn(|| selection.choose()).count(), 40);
     }
 
-    /// The ability of a selection with a given mismatch agrees with that of the scale, which estimates the mismatch.
-    /// The expected error agrees too.
+    /// The ability estimated by a selection, whose mismatch is given, agrees with the ability on the scale,
+    /// where the mismatch is estimated. The expected error agrees too.
     #[test]
     fn errors_are_those_of_the_scale() {
         let mut played = games(60);
         let mut selection = Selection::new(&played, 1.0, 1);
         for (at, game) in played.iter_mut().enumerate() {
             for (place, level) in game.levels.iter_mut().enumerate() {
-                // One logit above the mean, with games that suit the player and games that do not.
+                // The player is one logit above the mean. Some of the games suit the player, and others do
+                // not.
                 let won = [at % 10 != 0, at % 3 != 0, at % 9 == 0][place];
                 (level.won, level.of) = (f64::from(u8::from(won)), 1.0);
                 selection.record(at, place, won);

@@ -1,6 +1,6 @@
-//! Simulated months under the model of the scale, with all true values known, to measure the size of the errors and
-//! the coverage of the intervals. `cargo xtask simulate` prints tables; the tests of this crate run small
-//! simulations.
+//! Simulated months under the model of the scale. All true values are known, so the simulations measure the
+//! size of errors and the coverage of intervals. `cargo xtask simulate` prints tables, and the tests of this
+//! crate run small simulations.
 
 use super::ability::{MismatchPrior, PlayedGame, PlayedLevel};
 use super::calibration::{Calibration, Difficulties, Month, side};
@@ -9,7 +9,7 @@ use super::plays::{Dimension, Examinee, GamePlays, Plays};
 use super::spreads::Spreads;
 use crate::planning::draws::Draws;
 
-/// The size of a month, and its players.
+/// The size of a simulated month, and its players.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The number of games.
@@ -20,29 +20,29 @@ pub struct Plan {
     pub families: Vec<usize>,
     /// The number of episodes per planner and level.
     pub runs: u32,
-    /// The number of readers that take part.
+    /// The number of readers that play the month.
     pub anchors: usize,
     /// The number of episodes per reader and level.
     pub anchor_runs: u32,
-    /// The number of bootstrap replicates for correcting the bias of the spreads.
+    /// The number of bootstrap replicates used to correct the bias of the spreads.
     pub replicates: u64,
-    /// The true spreads.
+    /// The true standard deviations and slopes of the model.
     pub spreads: Spreads,
 }
 
-/// A simulated month with its true values.
+/// A simulated month and its true values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedMonth {
-    /// The results of the examinees.
+    /// The results of the examinees, by game.
     pub plays: Vec<GamePlays>,
-    /// The true difficulties for planners and readers, by game and level.
+    /// The true difficulties for planners and for readers, indexed by game and level.
     pub difficulties: [Vec<Vec<f64>>; 2],
     /// The true mean logit of the planners on all levels.
     pub ease: f64,
 }
 
 impl SimulatedMonth {
-    /// Returns the true mean difficulty of the levels.
+    /// Returns the true mean difficulty of the month's levels.
     pub fn mean(&self, dimension: Dimension) -> f64 {
         let games = &self.difficulties[side(dimension)];
         let count = games.iter().map(Vec::len).sum::<usize>() as f64;
@@ -50,18 +50,18 @@ impl SimulatedMonth {
     }
 }
 
-/// A stream of months that is determined by its seed.
+/// A random stream of months that is determined by its seed.
 pub struct Simulator {
     draws: Draws,
     plan: Plan,
-    /// The examinees.
+    /// The examinees that play the months.
     pub examinees: Vec<Examinee>,
     /// The true abilities of the examinees.
     pub abilities: Vec<f64>,
 }
 
 impl Simulator {
-    /// Creates a simulator with planners from weak to strong, and with weaker readers.
+    /// Creates a simulator. Its planners range from weak to strong, and its readers are weaker.
     pub fn new(plan: Plan, seed: u64) -> Simulator {
         let mut examinees = Vec::new();
         let mut abilities = Vec::new();
@@ -80,8 +80,8 @@ impl Simulator {
         Simulator { draws: Draws::new(seed), plan, examinees, abilities }
     }
 
-    /// Draws a month that is `shift` logits harder for planners than the mean of all games, and for readers `drift`
-    /// logits harder than this implies.
+    /// Draws a month. For planners, the month is `shift` logits harder than the mean of all games. For
+    /// readers, the month is `drift` logits harder than the shift implies.
     pub fn month(&mut self, shift: f64, drift: f64) -> SimulatedMonth {
         let Plan { games, levels, spreads, .. } = self.plan.clone();
         let planners = self.plan.families.iter().sum::<usize>();
@@ -129,8 +129,8 @@ impl Simulator {
         SimulatedMonth { plays, difficulties, ease }
     }
 
-    /// Draws a player's results on levels of a month, with one episode per level, spread over the games first.
-    /// `month` is the month's calibration.
+    /// Draws a player's results on levels of a month. Each level has one episode, and the episodes are spread
+    /// over the games first. `month` is the calibrated month.
     pub fn person(
         &mut self,
         truth: &SimulatedMonth,
@@ -160,56 +160,56 @@ impl Simulator {
     }
 }
 
-/// A simulated player and its number of episodes.
+/// A simulated player and the number of its episodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbilityCase {
     /// The player's true ability.
     pub ability: f64,
     /// The standard deviation of the player's matches with games.
     pub mismatch: f64,
-    /// The number of episodes.
+    /// The number of the player's episodes.
     pub episodes: usize,
 }
 
-/// The errors of a month's link: pairs of the difference between estimate and truth, and the stated error.
+/// The errors of the link of a month. Each pair holds the estimate minus the truth, and the stated error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkTrial {
-    /// The link to exactly the planners of the calibration.
+    /// The error of the link for exactly the planners of the calibration.
     pub to_these: (f64, f64),
-    /// The link to any planner.
+    /// The error of the link for arbitrary planners.
     pub to_any: (f64, f64),
-    /// The link of the month's difficulties for readers.
+    /// The error of the link of the month's difficulties for readers.
     pub to_readers: (f64, f64),
-    /// The drift that the anchors show, and its error; 0 and infinity without anchors.
+    /// The error of the drift estimated from the anchors. Without anchors, the pair is 0 and infinity.
     pub drift: (f64, f64),
     /// The estimated spreads.
     pub spreads: Spreads,
 }
 
-/// The error of an estimated ability.
+/// The result of a simulation, which compares an estimated ability with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbilityTrial {
-    /// The estimate minus the truth.
+    /// The estimated ability minus the true ability.
     pub off: f64,
-    /// The stated error.
+    /// The stated standard error.
     pub error: f64,
-    /// `true` if the 95% interval covers the truth.
+    /// `true` if the 95% interval contains the true ability.
     pub is_covered: bool,
 }
 
-/// Two months, of which the first is calibrated and the second is added.
+/// Two months. The first month is calibrated, and the second month is added.
 struct Linked {
     simulator: Simulator,
     first: SimulatedMonth,
     second: SimulatedMonth,
     calibration: Calibration,
-    /// The calibrated second month.
+    /// The second month after calibration.
     month: Month,
 }
 
 impl Linked {
-    /// Draws and calibrates the months. The second month is harder by `shift` and has drifted. `None` if a month
-    /// cannot be calibrated.
+    /// Draws and calibrates two months. The second month is harder by `shift` and has a drift of `drift`.
+    /// Returns `None` if a month cannot be calibrated.
     fn new(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Linked> {
         let mut simulator = Simulator::new(plan.clone(), seed);
         let (first, second) = (simulator.month(0.0, 0.0), simulator.month(shift, drift));
@@ -229,7 +229,7 @@ impl Linked {
         self.simulator.person(&self.second, &self.month, dimension, case)
     }
 
-    /// Estimates an ability from results on the second month, and compares it with the truth.
+    /// Estimates an ability from results on the second month, and compares the estimate with the truth.
     fn trial(&self, games: &[PlayedGame], dimension: Dimension, ability: f64) -> Option<AbilityTrial> {
         let truth = ability - self.first.mean(dimension);
         let found = super::ability(games, MismatchPrior::default(), self.month.link[side(dimension)])?;
@@ -241,8 +241,8 @@ impl Linked {
     }
 }
 
-/// Calibrates a first month, and adds a second one that is harder by `shift` and has drifted. `None` if a month
-/// cannot be calibrated.
+/// Calibrates a first month, and adds a second month that is harder by `shift` and has a drift of `drift`.
+/// Returns `None` if a month cannot be calibrated.
 pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<LinkTrial> {
     let Linked { first, second, calibration, month, .. } = Linked::new(plan, shift, drift, seed)?;
     let apart = |dimension: Dimension| second.mean(dimension) - first.mean(dimension);
@@ -256,8 +256,8 @@ pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Link
     })
 }
 
-/// Calibrates two months, and simulates `persons` players of each case on the second month. Returns their trials, by
-/// case.
+/// Calibrates two months, and simulates `persons` players of each case on the second month. Returns the
+/// results by case.
 pub fn ability_trials(
     plan: &Plan,
     dimension: Dimension,
@@ -273,18 +273,20 @@ pub fn ability_trials(
     cases.iter().map(|case| (0..persons).map(|_| trial(*case)).collect()).collect()
 }
 
-/// The ability of a player according to two designs, estimated from the same outcomes.
+/// The ability of a player estimated with two designs from the same outcomes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdaptiveTrial {
-    /// The result with one episode per level, spread over games first.
+    /// The result with one episode per level, where the episodes are spread over the games first.
     pub spread: AbilityTrial,
-    /// The result after each of the numbers of adaptively chosen episodes.
+    /// The result after each of the given numbers of adaptively chosen episodes.
     pub adaptive: Vec<AbilityTrial>,
 }
 
-/// Calibrates two months, and simulates players of each ability and mismatch on the second month. One design spreads
-/// `episodes` over games, the other chooses `counts` episodes, in ascending order, adaptively. Returns their trials,
-/// by case.
+/// Calibrates two months, and simulates players of each ability and mismatch on the second month. Returns the
+/// results by case.
+///
+/// The first design spreads `episodes` episodes over the games. The second design chooses episodes
+/// adaptively, and has a result for each of the numbers in `counts`, which must be in ascending order.
 pub fn adaptive_trials(
     plan: &Plan,
     cases: &[(f64, f64)],
@@ -295,7 +297,7 @@ pub fn adaptive_trials(
     let mut months = Linked::new(plan, 0.0, 0.0, seed)?;
     let all = plan.games * plan.levels;
     let mut one = |(ability, mismatch): (f64, f64)| {
-        // All levels are played, and each design uses the results of the levels that it chooses.
+        // All levels are played, and each design uses the results on the levels that it chooses.
         let played = months.person(Dimension::Planner, AbilityCase { ability, mismatch, episodes: all });
         let trial = |games: &[PlayedGame]| months.trial(games, Dimension::Planner, ability);
         let mut spread = played.clone();
@@ -331,7 +333,8 @@ mod tests {
         Plan { games: 24, levels: 3, families, runs: 4, anchors, anchor_runs: 2, replicates: 0, spreads }
     }
 
-    /// The links of small months have the stated errors, and the link to the planners themselves has the smallest.
+    /// The links of small months have the stated errors. The link for exactly the planners of the calibration
+    /// has the smallest error.
     #[test]
     fn links_are_as_exact_as_stated() {
         let trials: Vec<LinkTrial> =
@@ -362,7 +365,7 @@ mod tests {
         assert!(trials.iter().all(|trial| (0.2..0.8).contains(&trial.error)), "{trials:?}");
     }
 
-    /// Far from the mean difficulty, 65% of the episodes suffice if they are chosen adaptively.
+    /// Far from the mean difficulty, 65% of the episodes suffice if levels are chosen adaptively.
     #[test]
     fn adaptive_choices_save_episodes() {
         let trials = adaptive_trials(&plan(5, 0), &[(-3.0, 1.0)], (40, &[26]), 24, 3).unwrap().remove(0);
@@ -381,7 +384,7 @@ mod tests {
         assert!(found.0.abs() < 2.0 * found.1, "{found:?}");
     }
 
-    /// The shift of a much harder month is not biased towards the middle.
+    /// The estimated shift of a much harder month is not biased towards the middle.
     #[test]
     fn large_shifts_have_no_bias() {
         let plan = Plan { games: 60, ..plan(6, 0) };
@@ -390,7 +393,8 @@ mod tests {
         assert!(mean.abs() < 0.1, "{mean}");
     }
 
-    /// If nothing is won, or everything, the result reflects the priors, and the calibration does not fail.
+    /// If all episodes are lost, or all are won, the result reflects the priors, and the calibration does not
+    /// fail.
     #[test]
     fn one_sided_months_are_calibrated() {
         for all in [false, true] {
@@ -405,7 +409,7 @@ mod tests {
         }
     }
 
-    /// The bits are the same on every machine.
+    /// The results are bit-identical on every machine.
     #[test]
     fn golden_bits() {
         let found = link_trial(&Plan { games: 6, ..plan(3, 1) }, 0.0, 0.0, 1).unwrap();

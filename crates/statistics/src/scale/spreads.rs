@@ -2,27 +2,29 @@
 
 /// The standard deviations of the model in logits, and two slopes.
 ///
-/// The difficulty of a game for planners is `game` · z with z standard normal. For readers, it is the slope times the
-/// difficulty for planners, plus an independent rest. The same applies to levels.
+/// The difficulty of a game for planners is normally distributed with mean 0 and standard deviation `game`.
+/// The difficulty for readers is the slope times the difficulty for planners, plus an independent rest. The
+/// same model applies to levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spreads {
     /// The standard deviation of the difficulty of games for planners.
     pub game: f64,
     /// The standard deviation of the difficulty of levels within a game for planners.
     pub level: f64,
-    /// The standard deviation of the match of a family of planners and a game.
+    /// The standard deviation of the match between a family of planners and a game.
     pub family: f64,
-    /// The standard deviation of the match of a planner and a game, beyond the match of its family.
+    /// The standard deviation of the match between a planner and a game, beyond the match of its family.
     pub planner: f64,
-    /// The difficulty of a game for readers per logit of difficulty for planners.
+    /// The increase in a game's difficulty for readers per logit of its difficulty for planners.
     pub game_slope: f64,
-    /// The difficulty of a level within its game for readers per logit of difficulty for planners.
+    /// The increase in a level's difficulty for readers, within its game, per logit of its difficulty for
+    /// planners.
     pub level_slope: f64,
-    /// The standard deviation of the rest of the difficulty of games for readers.
+    /// The standard deviation of the independent part of games' difficulty for readers.
     pub game_rest: f64,
-    /// The standard deviation of the rest of the difficulty of levels for readers.
+    /// The standard deviation of the independent part of levels' difficulty for readers.
     pub level_rest: f64,
-    /// The standard deviation of the match of a reader and a game.
+    /// The standard deviation of the match between a reader and a game.
     pub reader: f64,
 }
 
@@ -46,14 +48,15 @@ impl Default for Spreads {
 pub(super) const PLANNERS_ONLY: usize = 4;
 /// The number of parameters of a model with readers.
 pub(super) const WITH_READERS: usize = 9;
-/// The mean and the standard deviation of the prior of a standard deviation's logarithm. Two standard deviations span
-/// 0.14 to 7 logits.
+/// The mean and the standard deviation of the prior for the logarithm of a standard deviation. Two standard
+/// deviations of the prior span 0.14 to 7 logits.
 const LOG_PRIOR: (f64, f64) = (0.0, 1.0);
-/// The mean and the standard deviation of the prior of a slope.
+/// The mean and the standard deviation of the prior for a slope.
 const SLOPE_PRIOR: (f64, f64) = (0.0, 1.0);
 
 impl Spreads {
-    /// Returns the parameters for a maximisation: logarithms of standard deviations, and slopes.
+    /// Returns the parameters in the form used for maximisation, which consists of logarithms of standard
+    /// deviations, and of slopes.
     pub(super) fn parameters(&self, has_readers: bool) -> Vec<f64> {
         let mut all: Vec<f64> = [self.game, self.level, self.family, self.planner].map(libm::log).to_vec();
         if has_readers {
@@ -63,8 +66,8 @@ impl Spreads {
         all
     }
 
-    /// Returns the spreads for the given parameters. The spreads of readers are the defaults if their parameters are
-    /// missing.
+    /// Returns the spreads for the given parameters. If the parameters of readers are missing, their spreads
+    /// are the defaults.
     pub(super) fn from_parameters(parameters: &[f64]) -> Spreads {
         let sd = |at: usize| libm::exp(parameters[at]);
         let planners =
@@ -110,7 +113,7 @@ impl Spreads {
         both / (planners * readers).sqrt()
     }
 
-    /// Returns the standard deviation of a level's difficulty.
+    /// Returns the standard deviation of a level's difficulty in a dimension.
     pub fn total(&self, dimension: super::Dimension) -> f64 {
         let (planners, readers, _) = self.moments();
         match dimension {
@@ -135,7 +138,7 @@ mod tests {
         assert!((planners.game - 2.0).abs() < 1e-12 && planners.reader == Spreads::default().reader);
     }
 
-    /// With slopes of 1 and no rest, readers find hard exactly what planners find hard.
+    /// With slopes of 1 and no independent part, levels are equally hard for readers and for planners.
     #[test]
     fn correlations() {
         let same = Spreads {

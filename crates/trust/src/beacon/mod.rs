@@ -1,4 +1,5 @@
-//! Public randomness: a value that a source publishes in a round, as a file and as a log entry.
+//! Public randomness. A source publishes a random value in each round, which is stored as a file or as a log
+//! entry.
 
 mod drand;
 
@@ -13,31 +14,31 @@ use sha2::{Digest as _, Sha256};
 /// The maximum size of a beacon file, in bytes.
 pub const MAX_BEACON: u64 = 1 << 14;
 
-/// The expected content of the file, for messages.
+/// The description of a beacon file's expected content in messages.
 const SHAPE: &str = "write the answer of the source with its name: \
     { \"source\": \"drand quicknet\", \"round\": 7, \"randomness\": \"…\", \"signature\": \"…\" }";
 
-/// A value from a source of randomness, with its evidence.
+/// A value from a source of randomness, and the evidence for the value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawn {
     /// The source and the number of the round.
     pub round: Round,
-    /// The value, which has 32 bytes.
+    /// The random value, which has 32 bytes.
     pub value: Digest,
-    /// The signature whose hash is the value. Rounds of drand have one.
+    /// The signature whose hash is the value. Only rounds of drand have such a signature.
     pub proof: Option<Proof>,
 }
 
-/// The signature of a round, as its source publishes it.
+/// The signature of a round, in the form that the source publishes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Proof {
-    /// The signature, in hexadecimal digits.
+    /// The signature as hexadecimal digits.
     pub signature: String,
-    /// The signature of the previous round, which chained networks sign.
+    /// The signature of the previous round. In chained networks, the signed message includes it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub previous_signature: Option<String>,
-    /// The network, if it has no name here.
+    /// The facts about the network, if the network has no name in this crate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain: Option<Chain>,
 }
@@ -48,7 +49,7 @@ pub struct Proof {
 struct DrawnFile {
     source: String,
     round: u64,
-    /// The value, which drand calls `randomness`.
+    /// The random value, which drand calls `randomness`.
     #[serde(alias = "randomness")]
     value: Digest,
     signature: Option<String>,
@@ -57,7 +58,7 @@ struct DrawnFile {
 }
 
 impl Drawn {
-    /// Parses a file and checks its value with [`Drawn::check`].
+    /// Parses a beacon file and checks its value with [`Drawn::check`].
     ///
     /// # Errors
     /// Returns an error if the file is not a beacon file, or if its value does not belong to the round.
@@ -75,11 +76,12 @@ impl Drawn {
         Ok(drawn)
     }
 
-    /// Checks the value. A round of drand must have its network's signature, and the value must be the SHA-256 of the
-    /// signature. For other sources, a signature is not verified, but the value must be its SHA-256.
+    /// Checks the value. A round of drand must have its network's signature, and the value must be the
+    /// SHA-256 hash of the signature. For other sources, a signature is not verified, but the value must be
+    /// its SHA-256 hash.
     ///
     /// # Errors
-    /// Returns the fault and the recommended next step.
+    /// Returns a message with the fault and the recommended next step.
     pub fn check(&self) -> Result<(), String> {
         let round = &self.round;
         let network = drand::named(&round.source)?;
@@ -109,7 +111,7 @@ impl Drawn {
         }
     }
 
-    /// Converts the value into a log entry.
+    /// Converts the value to a log entry.
     pub fn entry(self) -> Entry {
         let Drawn { round, value, proof } = self;
         Entry::Beacon { round, value, proof }

@@ -1,4 +1,5 @@
-//! The entries of a log: a publisher's statements, in the order in which they were made.
+//! The entries of a log. They are the statements of a publisher, in the order in which the publisher made
+//! them.
 
 use crate::beacon::{Proof, check_source};
 use crate::error::TrustError;
@@ -11,16 +12,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Entry {
-    /// A set of keys.
+    /// A new set of keys.
     Keys {
         /// The number of the set.
         version: u32,
-        /// The digest of the set's file.
+        /// The digest of the file of the set.
         digest: Digest,
         /// The digest of the previous set.
         previous: Option<Digest>,
     },
-    /// A commitment to a secret, which precedes the minting of the release.
+    /// A commitment to the secret of a release, which must be logged before the release is minted.
     Commitment {
         /// The name of the release.
         release: String,
@@ -30,20 +31,21 @@ pub enum Entry {
         recipe: Digest,
         /// The root of the previous release.
         parent: Option<Digest>,
-        /// The public randomness that the recipe states, whose value nobody knows yet.
+        /// The round of public randomness that the recipe uses. Its value must be unknown when the commitment
+        /// is logged.
         beacon: Option<Round>,
     },
-    /// Public randomness whose value has been published.
+    /// A published value of public randomness.
     Beacon {
-        /// The source and the round.
+        /// The source and the round of the value.
         round: Round,
-        /// The value, which has 32 bytes.
+        /// The random value, which has 32 bytes.
         value: Digest,
-        /// The signature of the round, which a drand value requires.
+        /// The signature of the round, which is required for a value of drand.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         proof: Option<Proof>,
     },
-    /// A release.
+    /// A release that was minted.
     Root {
         /// The name of the release.
         release: String,
@@ -51,16 +53,16 @@ pub enum Entry {
         root: Digest,
         /// The root of the previous release.
         parent: Option<Digest>,
-        /// The commitment of a sealed release.
+        /// The commitment of the release, if the release is sealed.
         commitment: Option<Digest>,
-        /// The value of the beacon that is mixed into the release's seed.
+        /// The value of public randomness that is mixed into the release's seed.
         beacon: Option<Digest>,
-        /// The digest of the signed statement about the release.
+        /// The digest of the signed statement about the release, if there is a statement.
         statement: Option<Digest>,
     },
-    /// The secret of a sealed release.
+    /// The revealed secret of a sealed release.
     Reveal(Revealed),
-    /// The difficulties of a release on the scale.
+    /// The calibration of a release, which places it on the scale.
     Calibration {
         /// The name of the release.
         release: String,
@@ -91,15 +93,15 @@ pub struct Revealed {
     pub release: String,
     /// The root of the release.
     pub root: Digest,
-    /// The text from which the seed is derived.
+    /// The text from which the seed of the release is derived.
     pub seed: String,
-    /// The nonce.
+    /// The nonce of the commitment.
     pub nonce: Digest,
-    /// The digest of the recipe that the secret was drawn for.
+    /// The digest of the recipe for which the secret was drawn.
     pub recipe: Digest,
 }
 
-/// A row of the leaderboard, which anybody can recompute from the logs of its episodes.
+/// A row of the leaderboard, which anyone can recompute from the logs of its episodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResultRow {
@@ -107,34 +109,34 @@ pub struct ResultRow {
     pub release: String,
     /// The root of the release.
     pub root: Digest,
-    /// The digest over the files of the results folder.
+    /// The digest of the files in the results folder.
     pub results: Digest,
-    /// The player.
+    /// The label of the player.
     pub player: String,
-    /// The track with its version; `None` for players that read no prompts, and for custom prompts.
+    /// The track with its version, or `None` for players that read no prompts and for custom prompts.
     pub track: Option<String>,
     /// The number of actions that an answer commits to, or `all`.
     pub horizon: String,
     /// The number of finished episodes.
     pub episodes: u64,
-    /// The number of episodes that were aborted, unfinished or not played.
+    /// The number of episodes that were aborted, are unfinished, or were not played.
     pub open: u64,
-    /// The number of episodes won.
+    /// The number of won episodes.
     pub wins: u64,
-    /// The fraction of episodes won.
+    /// The fraction of episodes that were won.
     pub rate: f64,
-    /// The 95% interval of the fraction.
+    /// The 95% interval of the win rate.
     pub interval: (f64, f64),
     /// The mean score.
     pub score: Option<f64>,
 }
 
-/// The maximum relative difference between the results of two machines. The platform computes the logarithm in
-/// intervals.
+/// The maximum relative difference between the results of two machines. Results can differ because the
+/// platform computes the logarithm in intervals.
 const ROUNDING: f64 = 1e-9;
 
 impl ResultRow {
-    /// Returns the fields in which a recomputed row for the same results differs, each with both values.
+    /// Returns the fields in which a row recomputed from the same results differs, each with both values.
     pub fn differences(&self, again: &ResultRow) -> Vec<String> {
         let texts = |row: &ResultRow| {
             let track = row.track.clone().unwrap_or_default();
@@ -182,7 +184,8 @@ impl Entry {
     /// Parses an entry.
     ///
     /// # Errors
-    /// Returns an error if the bytes are not an entry that this arcade knows, or not in canonical form.
+    /// Returns an error if the bytes are not an entry that this version of arcade knows, or are not in
+    /// canonical form.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Entry, TrustError> {
         canonical(bytes, place)
     }
@@ -199,7 +202,7 @@ impl Entry {
         }
     }
 
-    /// Formats the entry as one line for human readers.
+    /// Formats the entry as one line for people.
     pub fn line(&self) -> String {
         match self {
             Entry::Keys { version, .. } => format!("keys         {version}"),
@@ -229,7 +232,7 @@ impl Entry {
         }
     }
 
-    /// Returns the name of the release that the entry is about.
+    /// Returns the name of the release to which the entry refers, if it refers to one.
     pub fn release(&self) -> Option<&str> {
         match self {
             Entry::Keys { .. } | Entry::Beacon { .. } => None,

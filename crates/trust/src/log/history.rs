@@ -1,14 +1,15 @@
-//! The rules that all entries of a log must obey together, such as commitments before releases.
+//! The rules that the entries of a log must obey together. For example, commitments must come before
+//! releases.
 
 use super::entry::{Entry, Revealed, Round};
 use crate::beacon::{Drawn, check_source};
 use base::Digest;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A function that computes the commitment to a revealed secret.
+/// A function that computes the commitment for a revealed secret.
 pub type CommitmentOf<'a> = &'a dyn Fn(&Revealed) -> Digest;
 
-/// The facts that the previous entries have fixed.
+/// The facts that are established by the previous entries.
 #[derive(Default)]
 struct History {
     keys: Option<(u32, Digest)>,
@@ -31,7 +32,7 @@ struct Root {
     commitment: Option<Digest>,
 }
 
-/// Returns the violations of the rules, each with the number of the entry and the reason.
+/// Returns the violations of the rules, each with the number of the violating entry and the reason.
 pub fn problems(entries: &[Entry], commitment_of: CommitmentOf<'_>) -> Vec<String> {
     let mut history = History::default();
     let mut problems = Vec::new();
@@ -43,7 +44,7 @@ pub fn problems(entries: &[Entry], commitment_of: CommitmentOf<'_>) -> Vec<Strin
 }
 
 impl History {
-    /// Adds an entry, and returns its faults.
+    /// Adds an entry to the history, and returns its faults.
     fn take(&mut self, entry: &Entry, commitment_of: CommitmentOf<'_>) -> Vec<String> {
         match entry {
             Entry::Keys { version, digest, previous } => self.keys(*version, *digest, *previous),
@@ -197,7 +198,7 @@ impl History {
         problems
     }
 
-    /// Returns the fault of an entry about a release that is not in the log.
+    /// Returns the fault of an entry that refers to a release that is not in the log.
     fn known(&self, release: &str, root: &Digest) -> Option<String> {
         match self.roots.get(release) {
             Some(found) if found.root == *root => None,
@@ -227,7 +228,7 @@ impl History {
     }
 }
 
-/// Returns the releases that have a commitment but no root in the log, because they have not been minted yet or were
+/// Returns the releases that have a commitment but no root in the log. They were not minted yet, or were
 /// dropped.
 pub fn unkept(entries: &[Entry]) -> Vec<String> {
     let is_minted =
@@ -239,7 +240,7 @@ pub fn unkept(entries: &[Entry]) -> Vec<String> {
     committed.filter(|name| !is_minted(name)).cloned().collect()
 }
 
-/// Returns `true` if a release is named after a month, such as `2027-03`.
+/// Returns `true` if the name of a release is a month, such as `2027-03`.
 pub fn is_month(name: &str) -> bool {
     let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
     name.split_once('-').is_some_and(|(year, month)| {
@@ -251,8 +252,9 @@ pub fn is_month(name: &str) -> bool {
     })
 }
 
-/// Returns the fault of a log that should have reached a month, such as `2027-03`. The newest month in a frozen copy
-/// of a log gives it away. Releases with other names say nothing about the time.
+/// Checks that a log has reached a month, such as `2027-03`, and returns the fault otherwise. The newest
+/// month in the log reveals a copy that is no longer updated. Releases with other names contain no
+/// information about the time.
 pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
     let roots = entries.iter().filter_map(|entry| match entry {
         Entry::Root { release, .. } => Some(release.as_str()).filter(|name| is_month(name)),

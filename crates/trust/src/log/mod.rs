@@ -1,4 +1,4 @@
-//! An append-only log: entries under a Merkle tree, whose signed states cannot be revoked.
+//! An append-only log. The entries are the leaves of a Merkle tree, whose signed states cannot be revoked.
 
 mod entry;
 mod history;
@@ -22,23 +22,23 @@ use disk::{Disk, Lock};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The name of the newest checkpoint's file, in the folder of a log.
+/// The name of the file with the newest checkpoint, in the folder of a log.
 pub const CHECKPOINT_FILE: &str = "checkpoint";
-/// The maximum number of entries that are read.
+/// The maximum number of entries that are read from a log.
 const MAX_ENTRIES: u64 = 1 << 20;
 
-/// A complete log.
+/// A complete log that was read from its folder.
 #[derive(Clone, Debug)]
 pub struct Log {
     folder: PathBuf,
-    /// The newest checkpoint.
+    /// The newest checkpoint of the log.
     pub checkpoint: Checkpoint,
     entries: Vec<Vec<u8>>,
     leaves: Vec<Hash>,
 }
 
 impl Log {
-    /// Opens a log, checking only its form; `None` if there is no log in the folder.
+    /// Opens a log and checks only its form. Returns `None` if the folder contains no log.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read, or does not have the expected form.
@@ -74,7 +74,7 @@ impl Log {
         Ok(Some(Log { folder: folder.to_path_buf(), checkpoint, entries, leaves }))
     }
 
-    /// Returns the faults of the log itself: its signature, its root, its files.
+    /// Returns the faults of the log itself, which concern its signature, its root and its files.
     pub fn faults(&self, key: &PublicKey) -> Vec<String> {
         let mut faults: Vec<String> = self.checkpoint.check(key).err().into_iter().collect();
         if tree::root(&self.leaves) != self.checkpoint.root {
@@ -96,8 +96,9 @@ impl Log {
         faults
     }
 
-    /// Returns the faults of partial tiles of earlier states, which readers of those states may still use. Tiles
-    /// larger than the checkpoint's are left by an interrupted append.
+    /// Returns the faults of partial tiles of earlier states, which readers of those states may still use.
+    /// Tiles larger than the checkpoint's tiles are ignored, because an interrupted append may leave such
+    /// tiles.
     fn earlier_faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         for (place, parts) in tiles::parts(&self.entries, &self.leaves) {
@@ -116,7 +117,7 @@ impl Log {
         faults
     }
 
-    /// Returns the fault of this log for a reader who has seen an earlier checkpoint of it.
+    /// Returns the fault of this log for a reader who has seen an earlier checkpoint of the log.
     pub fn fork(&self, seen: &Checkpoint) -> Option<String> {
         let Checkpoint { origin, size, root, .. } = &self.checkpoint;
         if seen.origin != *origin {
@@ -141,10 +142,11 @@ impl Log {
         })
     }
 
-    /// Parses the entries.
+    /// Parses all entries of the log.
     ///
     /// # Errors
-    /// Returns an error if the kind of an entry is unknown to this arcade, or if an entry is not in canonical form.
+    /// Returns an error if this version of arcade does not know the kind of an entry, or if an entry is not
+    /// in canonical form.
     pub fn entries(&self) -> Result<Vec<Entry>, TrustError> {
         self.entries
             .iter()
@@ -153,24 +155,25 @@ impl Log {
             .collect()
     }
 
-    /// Returns the bytes of an entry.
+    /// Returns the bytes of the entry with the given number.
     pub fn entry(&self, number: u64) -> Option<&[u8]> {
         self.entries.get(usize::try_from(number).ok()?).map(Vec::as_slice)
     }
 
-    /// Returns the proof that an entry is in the log; `None` if there is no such entry.
+    /// Returns the proof that an entry is in the log, or `None` if there is no such entry.
     pub fn prove(&self, number: u64) -> Option<Inclusion> {
         let hashes = tree::inclusion(&self.leaves, usize::try_from(number).ok()?)?;
         Some(Inclusion { index: number, hashes, checkpoint: self.checkpoint.clone() })
     }
 
-    /// Returns the proof that this log extends the log of an earlier size; `None` if it never had that size.
+    /// Returns the proof that this log extends its earlier state of size `old`, or `None` if the log never
+    /// had that size.
     pub fn prove_growth(&self, old: u64) -> Option<Consistency> {
         let hashes = tree::consistency(&self.leaves, usize::try_from(old).ok()?)?;
         Some(Consistency { old, hashes, checkpoint: self.checkpoint.clone() })
     }
 
-    /// Replaces the checkpoint by one with additional signatures.
+    /// Replaces the checkpoint with a version that has additional signatures.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -180,13 +183,15 @@ impl Log {
     }
 }
 
-/// Appends entries to a log, or starts a log with the name `origin`. The new files are written first and the
-/// checkpoint last, so the log is unchanged until then. `rules` returns the faults of all entries together; for logs
-/// of releases, it calls [`problems`].
+/// Appends entries to a log, or starts a log with the name `origin`.
+///
+/// The new files are written first and the checkpoint last, so the log is unchanged until the checkpoint is
+/// written. `rules` returns the faults of all entries together. For logs of releases, `rules` calls
+/// [`problems`].
 ///
 /// # Errors
-/// Returns an error if the log is unsound under this key, an entry breaks a rule, a different process is appending,
-/// or a file system operation fails.
+/// Returns an error if the log is invalid under this key, an entry breaks a rule, a different process is
+/// appending, or a file system operation fails.
 pub fn append(
     folder: &Path,
     origin: Option<&str>,
@@ -205,7 +210,7 @@ pub fn append(
     match origin {
         Some(origin) => check_name(origin)?,
         None if folder.join(CHECKPOINT_FILE).exists() => {}
-        // A typing error leaves no folder behind.
+        // No folder is created if the name is missing, for example because of a typing error.
         None => return unnamed(),
     }
     disk.create_folder(folder).map_err(TrustError::io("create", folder))?;
@@ -250,7 +255,7 @@ pub fn append(
     Ok(log)
 }
 
-/// Takes the lock that keeps other processes from appending until it is dropped.
+/// Locks the log against appends by other processes, until the lock is dropped.
 fn lock(folder: &Path) -> Result<Lock, TrustError> {
     let path = folder.join(".lock");
     let lock = Lock::take(&path).map_err(TrustError::io("write", &path))?;

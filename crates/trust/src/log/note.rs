@@ -14,31 +14,31 @@ const COSIGNATURE: u8 = 4;
 /// The maximum size of a checkpoint, in bytes.
 pub const MAX_CHECKPOINT: u64 = 1 << 16;
 
-/// A log's statement about its size and its root, with signatures.
+/// A signed statement of a log about its size and its root.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoint {
     /// The name of the log.
     pub origin: String,
-    /// The number of entries.
+    /// The number of entries in the log.
     pub size: u64,
-    /// The root over the entries.
+    /// The root of the Merkle tree over the entries.
     pub root: Hash,
-    /// The signatures, in the order of the file.
+    /// The signatures, in the order in which the file lists them.
     signatures: Vec<Signature>,
 }
 
-/// A signature line.
+/// A signature line of a signed note.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Signature {
     name: String,
-    /// The hash of the key, followed by the signature.
+    /// The first bytes of the key's hash, followed by the signature.
     bytes: Vec<u8>,
 }
 
 /// Checks the name of a log or a witness, which must not contain whitespace or `+`.
 ///
 /// # Errors
-/// Returns an error with the requirement.
+/// Returns an error that states the requirement for names.
 pub fn check_name(name: &str) -> Result<(), TrustError> {
     let is_bad = |c: char| c.is_whitespace() || c == '+' || c.is_control();
     match name.is_empty() || name.len() > 200 || name.chars().any(is_bad) {
@@ -51,14 +51,14 @@ pub fn check_name(name: &str) -> Result<(), TrustError> {
     }
 }
 
-/// Returns the first bytes of a signature, which identify the signer.
+/// Returns the bytes with which a signature starts, which identify the signer.
 fn key_hash(name: &str, kind: u8, key: &PublicKey) -> [u8; 4] {
     let hash =
         Sha256::new().chain_update(name).chain_update([b'\n', kind]).chain_update(key.point()).finalize();
     [hash[0], hash[1], hash[2], hash[3]]
 }
 
-/// Returns the key of a log or a witness in the form that other tools take: `NAME+HASH+KEY`.
+/// Returns the key of a log or a witness in the form that other tools accept, which is `NAME+HASH+KEY`.
 pub fn verifier_key(name: &str, key: &PublicKey, is_witness: bool) -> String {
     let kind = if is_witness { COSIGNATURE } else { ED25519 };
     let hash: String = key_hash(name, kind, key).iter().map(|byte| format!("{byte:02x}")).collect();
@@ -66,7 +66,7 @@ pub fn verifier_key(name: &str, key: &PublicKey, is_witness: bool) -> String {
 }
 
 impl Checkpoint {
-    /// Makes a checkpoint with the log's signature.
+    /// Creates a checkpoint that is signed by the log.
     pub fn sign(origin: &str, size: u64, root: Hash, secret: &SecretKey) -> Checkpoint {
         let mut checkpoint = Checkpoint { origin: origin.to_owned(), size, root, signatures: Vec::new() };
         let signature = secret.sign_bare(checkpoint.body().as_bytes());
@@ -76,7 +76,7 @@ impl Checkpoint {
         checkpoint
     }
 
-    /// Adds the signature of a witness with a time, in seconds since 1970.
+    /// Adds the signature of a witness. The signature covers a time, in seconds since 1970.
     pub fn cosign(&mut self, witness: &str, seconds: u64, secret: &SecretKey) {
         let signature = secret.sign_bare(self.cosigned(seconds).as_bytes());
         let hash = key_hash(witness, COSIGNATURE, &secret.public());
@@ -85,7 +85,7 @@ impl Checkpoint {
         self.signatures.push(Signature { name: witness.to_owned(), bytes });
     }
 
-    /// Returns the text that the log signs.
+    /// Returns the text that the log's signature covers.
     fn body(&self) -> String {
         format!("{}\n{}\n{}\n", self.origin, self.size, STANDARD.encode(self.root))
     }
@@ -94,13 +94,13 @@ impl Checkpoint {
         format!("cosignature/v1\ntime {seconds}\n{}", self.body())
     }
 
-    /// Returns the text of the file.
+    /// Returns the content of the checkpoint's file.
     pub fn to_text(&self) -> String {
         let line = |s: &Signature| format!("\u{2014} {} {}\n", s.name, STANDARD.encode(&s.bytes));
         format!("{}\n{}", self.body(), self.signatures.iter().map(line).collect::<String>())
     }
 
-    /// Parses a checkpoint without checking any signature.
+    /// Parses a checkpoint without checking its signatures.
     ///
     /// # Errors
     /// Returns an error if the text is not a checkpoint.
@@ -131,10 +131,10 @@ impl Checkpoint {
         (lines.next().is_none() && check_name(origin).is_ok()).then_some(found)
     }
 
-    /// Checks that the log has signed the checkpoint.
+    /// Checks that the checkpoint is signed by the log.
     ///
     /// # Errors
-    /// Returns the fault as a sentence.
+    /// Returns a sentence about the fault.
     pub fn check(&self, key: &PublicKey) -> Result<(), String> {
         let hash = key_hash(&self.origin, ED25519, key);
         let body = self.body();
@@ -151,7 +151,8 @@ impl Checkpoint {
         }
     }
 
-    /// Returns the time at which a witness signed the checkpoint, in seconds since 1970; `None` if it has not signed.
+    /// Returns the time at which a witness signed the checkpoint, in seconds since 1970. Returns `None` if
+    /// the witness has not signed.
     pub fn witnessed(&self, witness: &str, key: &PublicKey) -> Option<u64> {
         let hash = key_hash(witness, COSIGNATURE, key);
         let time = |s: &Signature| {

@@ -1,4 +1,5 @@
-//! Proof files about a log, which show that an entry is in the log, or that the log has only grown.
+//! Proofs about a log, stored in files. A proof shows that an entry is in the log, or that a log extends its
+//! earlier state.
 
 use super::note::Checkpoint;
 use super::tree::{self, Hash};
@@ -7,41 +8,42 @@ use crate::key::PublicKey;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-/// The first lines of the two kinds of files. The inclusion line is that of C2SP `tlog-proof`.
+/// The first line of an inclusion proof, which is that of C2SP `tlog-proof`.
 const INCLUSION: &str = "c2sp.org/tlog-proof@v1";
+/// The first line of a consistency proof.
 const CONSISTENCY: &str = "infinite-arcade/log-growth@v1";
 /// The maximum number of hashes in a proof.
 const MAX_HASHES: usize = 64;
 
-/// The proof that an entry is in a log.
+/// A proof that an entry is in a log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Inclusion {
     /// The number of the entry.
     pub index: u64,
-    /// The hashes, from the entry's sibling upwards.
+    /// The hashes of the proof, from the sibling of the entry upwards.
     pub hashes: Vec<Hash>,
-    /// The checkpoint whose root the hashes lead to.
+    /// The checkpoint with the root to which the hashes lead.
     pub checkpoint: Checkpoint,
 }
 
-/// The proof that a log has grown from an earlier size without changing earlier entries.
+/// A proof that a log has grown from an earlier size without changes to earlier entries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Consistency {
-    /// The earlier size.
+    /// The earlier size of the log.
     pub old: u64,
-    /// The hashes of the proof.
+    /// The hashes that make up the proof.
     pub hashes: Vec<Hash>,
-    /// The later checkpoint.
+    /// The later checkpoint of the log.
     pub checkpoint: Checkpoint,
 }
 
 impl Inclusion {
-    /// Returns the text of the file.
+    /// Returns the content of the proof's file.
     pub fn to_text(&self) -> String {
         write(INCLUSION, "index", self.index, &self.hashes, &self.checkpoint)
     }
 
-    /// Parses a proof.
+    /// Parses an inclusion proof.
     ///
     /// # Errors
     /// Returns an error if the text is not an inclusion proof.
@@ -51,10 +53,10 @@ impl Inclusion {
         same(proof.to_text() == text, proof, place)
     }
 
-    /// Checks that the proof shows an entry to be in the log at a checkpoint that the log has signed.
+    /// Checks that the proof is valid for an entry, and that the log has signed the checkpoint.
     ///
     /// # Errors
-    /// Returns the reasons why it does not.
+    /// Returns the reasons why the proof is invalid.
     pub fn check(&self, entry: &[u8], key: &PublicKey) -> Result<(), Vec<String>> {
         let mut problems: Vec<String> = self.checkpoint.check(key).err().into_iter().collect();
         let leaf = tree::leaf(entry);
@@ -66,12 +68,12 @@ impl Inclusion {
 }
 
 impl Consistency {
-    /// Returns the text of the file.
+    /// Returns the content of the proof's file.
     pub fn to_text(&self) -> String {
         write(CONSISTENCY, "old", self.old, &self.hashes, &self.checkpoint)
     }
 
-    /// Parses a proof.
+    /// Parses a consistency proof.
     ///
     /// # Errors
     /// Returns an error if the text is not a consistency proof.
@@ -81,10 +83,11 @@ impl Consistency {
         same(proof.to_text() == text, proof, place)
     }
 
-    /// Checks that the proof leads from an earlier checkpoint to a later one, both signed by the log.
+    /// Checks that the proof is valid for an earlier checkpoint, and that the log has signed both
+    /// checkpoints.
     ///
     /// # Errors
-    /// Returns the reasons why it does not.
+    /// Returns the reasons why the proof is invalid.
     pub fn check(&self, seen: &Checkpoint, key: &PublicKey) -> Result<(), Vec<String>> {
         let mut problems: Vec<String> =
             [seen, &self.checkpoint].iter().filter_map(|c| c.check(key).err()).collect();

@@ -1,7 +1,8 @@
-//! The files of a log in the layout of C2SP `tlog-tiles`, so that any web server can serve them.
+//! The files of a log in the layout of C2SP `tlog-tiles`, which any web server can serve.
 //!
-//! `checkpoint` is the newest signed state. `tile/entries/N` holds 256 entries, each after its length in two bytes.
-//! `tile/L/N` holds 256 hashes of level L. The last tile of each kind may be partial: `N.p/W` holds W items.
+//! `checkpoint` contains the newest signed state. `tile/entries/N` holds 256 entries, each preceded by its
+//! length in two bytes. `tile/L/N` holds 256 hashes of level L. The last tile of each kind may be partial, in
+//! which case `N.p/W` holds W items.
 
 use super::tree::{self, Hash};
 
@@ -13,9 +14,9 @@ pub const MAX_ENTRY: usize = 65535;
 /// A file of a log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Tile {
-    /// The path relative to the log's folder.
+    /// The path of the file, relative to the log's folder.
     pub(super) path: String,
-    /// The content.
+    /// The content of the file.
     pub(super) bytes: Vec<u8>,
 }
 
@@ -33,17 +34,17 @@ fn path(level: &str, number: u64, width: u64) -> String {
     }
 }
 
-/// Returns the numbers and widths of the tiles of `count` items, from tile `first` on.
+/// Returns the numbers and widths of the tiles for `count` items, starting with tile `first`.
 fn widths(count: u64, first: u64) -> impl Iterator<Item = (u64, u64)> {
     (first..count.div_ceil(WIDTH)).map(move |number| (number, (count - number * WIDTH).min(WIDTH)))
 }
 
-/// Returns the paths of the entry files of a log of this size, each with the number of entries in it.
+/// Returns the paths of the entry files in a log of the given size, each with the number of its entries.
 pub(super) fn entry_files(size: u64) -> Vec<(String, u64)> {
     widths(size, 0).map(|(number, width)| (path("entries", number, width), width)).collect()
 }
 
-/// Returns the files to write after a log has grown from `old` entries to all of `entries`.
+/// Returns the files that must be written after a log has grown from `old` entries to all of `entries`.
 pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile> {
     let mut files = Vec::new();
     let of = |number: u64, width: u64| (number * WIDTH) as usize..(number * WIDTH + width) as usize;
@@ -69,8 +70,8 @@ pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile>
     files
 }
 
-/// Returns the folders of partial tiles that a log of these entries may have had, each with the parts of the tile in
-/// order.
+/// Returns the folders of all partial tiles that a log with these entries may have contained. Each folder is
+/// returned with the parts of its tile, in order.
 pub(super) fn parts(entries: &[Vec<u8>], leaves: &[Hash]) -> Vec<(String, Vec<Vec<u8>>)> {
     let mut found = Vec::new();
     let mut add = |level: &str, parts: Vec<Vec<u8>>| {
@@ -94,7 +95,8 @@ pub(super) fn parts(entries: &[Vec<u8>], leaves: &[Hash]) -> Vec<(String, Vec<Ve
     found
 }
 
-/// Splits a file of entries; `None` if it does not hold exactly `width` entries.
+/// Splits an entry file into its entries. Returns `None` if the file does not contain exactly `width`
+/// entries.
 pub(super) fn split(bytes: &[u8], width: u64) -> Option<Vec<Vec<u8>>> {
     let mut entries = Vec::new();
     let mut rest = bytes;
@@ -118,7 +120,7 @@ mod tests {
         assert_eq!(path("1", 1000, 256), "tile/1/x001/000");
     }
 
-    /// A log that grows in steps has exactly the files of a log that is written at once.
+    /// A log that grows in steps has exactly the same files as a log that is written at once.
     #[test]
     fn growth_writes_what_is_missing() {
         let entries: Vec<Vec<u8>> = (0..600_u32).map(|n| n.to_be_bytes().to_vec()).collect();

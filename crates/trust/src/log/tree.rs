@@ -1,14 +1,14 @@
-//! The Merkle tree of a log: RFC 6962, with SHA-256.
+//! The Merkle tree of a log, as specified in RFC 6962, with SHA-256.
 //!
-//! The tree of a release has the same shape, but uses BLAKE3 and has paths in its leaves. It belongs to the crate
-//! that makes releases. Neither crate depends on the other, so they share no code.
+//! The tree of a release has the same shape, but uses BLAKE3 and has paths in its leaves. The tree of a
+//! release belongs to the crate `snapshots`. Neither crate depends on the other, so they share no code.
 
 use sha2::{Digest as _, Sha256};
 
-/// A hash of the tree.
+/// A hash of a node in the tree.
 pub type Hash = [u8; 32];
 
-/// Returns the hash of an entry.
+/// Returns the leaf hash of an entry.
 pub(super) fn leaf(entry: &[u8]) -> Hash {
     Sha256::new().chain_update([0]).chain_update(entry).finalize().into()
 }
@@ -17,7 +17,7 @@ fn node(left: &Hash, right: &Hash) -> Hash {
     Sha256::new().chain_update([1]).chain_update(left).chain_update(right).finalize().into()
 }
 
-/// Computes the root over the hashes of the entries.
+/// Computes the root of the tree from the hashes of the entries.
 pub(super) fn root(leaves: &[Hash]) -> Hash {
     match leaves {
         [] => Sha256::digest([]).into(),
@@ -29,13 +29,13 @@ pub(super) fn root(leaves: &[Hash]) -> Hash {
     }
 }
 
-/// Returns the largest power of two smaller than `count`, which is at least 2.
+/// Returns the largest power of two below `count`. `count` must be at least 2.
 fn split(count: usize) -> usize {
     count.next_power_of_two() / 2
 }
 
-/// Returns the proof that the entry at `index` is in the tree (RFC 6962 §2.1.1), from the leaf's sibling upwards;
-/// `None` if there is no such entry.
+/// Returns the proof that the entry at `index` is in the tree (RFC 6962 §2.1.1). The hashes are ordered from
+/// the sibling of the leaf upwards. Returns `None` if there is no such entry.
 pub(super) fn inclusion(leaves: &[Hash], index: usize) -> Option<Vec<Hash>> {
     if index >= leaves.len() {
         return None;
@@ -81,8 +81,8 @@ pub(super) fn includes(leaf: &Hash, index: u64, size: u64, proof: &[Hash], expec
     last == 0 && hash == *expect
 }
 
-/// Returns the proof that this tree extends the tree of the first `old` entries (RFC 6962 §2.1.2); `None` if `old` is
-/// 0, or larger than the tree.
+/// Returns the proof that this tree extends the tree over the first `old` entries (RFC 6962 §2.1.2). Returns
+/// `None` if `old` is 0, or larger than the tree.
 pub(super) fn consistency(leaves: &[Hash], old: usize) -> Option<Vec<Hash>> {
     if old == 0 || old > leaves.len() {
         return None;
@@ -174,7 +174,7 @@ mod tests {
         (269, "328d61b4784044b1d4d2daae5598d88a202ceea67599e1f7b051c7cb28f90df2"),
     ];
 
-    /// Every proof is valid for its own claim, and for no other.
+    /// Every proof is valid only for its own claim.
     #[test]
     fn proofs_hold_for_their_own_question() {
         for size in 1..=17_usize {

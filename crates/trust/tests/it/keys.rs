@@ -1,4 +1,5 @@
-//! Tests of signed roots: thresholds, rotation and revocation, altered files, and power failures.
+//! Tests of signed roots. The tests cover thresholds, rotation and revocation, altered files, and power
+//! failures.
 
 use base::Digest;
 use disk::Disk;
@@ -84,7 +85,8 @@ fn one_key_signs_one_root() {
     assert!(other.problems[0].contains("no signed statement says that `2027-01` has the root"), "{other:?}");
     let renamed = found.judge("2027-02", &root(), &Anchor::Key(ada.new.public.clone()));
     assert!(renamed.problems[1].contains("it is about `2027-01`"), "{renamed:?}");
-    // Those who trust a set need a set in the statement, because a lone signature may be older than a revocation.
+    // A reader who trusts a set requires a set in the statement, because a lone signature may be older than a
+    // revocation.
     let set = KeySet::next(None, Some(1), vec![ada.named()], &[]).unwrap();
     refused(home.path(), &set_anchor(&set), "does not specify a set of keys");
 }
@@ -98,10 +100,10 @@ fn two_of_three_keys_sign() {
     publish(home.path(), &set, &[]);
     sign(home.path(), Some(&set), &[&ada]);
     refused(home.path(), &anchor, "signed by ada, but 2 of ada, bo, cy must sign");
-    // Signing twice counts once, and a stranger's signature does not count.
+    // Two signatures with the same key count once, and the signature of an unknown key does not count.
     sign(home.path(), Some(&set), &[&ada, &eve]);
     refused(home.path(), &anchor, "signed by ada, but 2 of");
-    // The second holder signs on a different machine, and adds a file.
+    // The second holder signs on a different machine, which adds a signature file.
     sign(home.path(), Some(&set), &[&cy]);
     let signed = judge(home.path(), &anchor);
     assert_eq!(signed.problems, [""; 0]);
@@ -111,7 +113,7 @@ fn two_of_three_keys_sign() {
     );
 }
 
-/// A key is lost. The other two replace it, and its signatures no longer count.
+/// A key is lost. The two other holders replace it, and its signatures no longer count.
 #[test]
 fn a_lost_key_is_revoked_and_replaced() {
     let home = tempfile::tempdir().unwrap();
@@ -123,7 +125,8 @@ fn a_lost_key_is_revoked_and_replaced() {
 
     let lost = [("bo".to_owned(), "lost".to_owned())];
     let second = KeySet::next(Some(&first), None, vec![di.named()], &lost).unwrap();
-    // One signature does not suffice for the new set, so no later set can be followed.
+    // One signature does not suffice for the new set, so the new set is not trusted, and neither is any later
+    // set.
     publish(home.path(), &second, &[&ada, &di]);
     refused(
         home.path(),
@@ -138,20 +141,20 @@ fn a_lost_key_is_revoked_and_replaced() {
     );
     refused(home.path(), &set_anchor(&second), "the key of `bo` is revoked: lost");
     refused(home.path(), &Anchor::Key(bo.new.public.clone()), "the key of `bo` is revoked: lost");
-    // After signing again under the new set, whoever trusts either set is satisfied.
+    // After the release is signed again under the new set, readers who trust either set accept it.
     sign(home.path(), Some(&second), &[&cy, &di]);
     for anchor in [&first, &second] {
         let signed = judge(home.path(), &set_anchor(anchor));
         assert_eq!((signed.problems.as_slice(), signed.keys), (&[] as &[String], Some(2)));
     }
-    // A revoked key stays revoked.
+    // A revoked key remains revoked in later sets.
     let third =
         KeySet { revoked: Vec::new(), version: 3, previous: Some(second.digest().unwrap()), ..second };
     publish(home.path(), &third, &[&ada, &cy, &di]);
     refused(home.path(), &set_anchor(&first), "the revoked key of `bo` is no longer revoked");
 }
 
-/// The holder of one key cannot go back to a set for which one key sufficed.
+/// The holder of one key cannot return to an earlier set for which one key sufficed.
 #[test]
 fn earlier_thresholds_count_no_longer() {
     let home = tempfile::tempdir().unwrap();
@@ -169,7 +172,7 @@ fn earlier_thresholds_count_no_longer() {
             "signed by ada of the newest set of keys, 2, but 2 must sign",
         );
     }
-    // An earlier statement is valid if enough of today's keys have signed it.
+    // An earlier statement is valid if sufficiently many of the current keys have signed it.
     sign(home.path(), Some(&first), &[&bo]);
     assert_eq!(judge(home.path(), &set_anchor(&first)).problems, [""; 0]);
 }
@@ -184,7 +187,7 @@ fn another_history_of_keys_is_refused() {
     sign(home.path(), Some(&forged), &[&eve]);
     assert_eq!(judge(home.path(), &set_anchor(&forged)).problems, [""; 0]);
     refused(home.path(), &set_anchor(&first), "which does not lead to or from the one that you trust");
-    // A forged set that claims to follow the right one.
+    // A forged set claims to follow the correct set.
     fs::remove_file(home.path().join("keys-1.json")).unwrap();
     let next = KeySet::next(Some(&first), None, vec![eve.named()], &[]).unwrap();
     publish(home.path(), &next, &[&eve]);
@@ -210,7 +213,8 @@ fn sets_that_cannot_be_are_refused() {
     refuse(1, &["ada"], "bo", "the set has no key `bo`");
 }
 
-/// Whenever the power fails while two keys sign, the release is either signed or not, and signing again completes it.
+/// If the power fails while two keys sign, the release is either signed or unsigned, and signing again
+/// completes it.
 #[test]
 fn a_loss_of_power_leaves_nothing_half_signed() {
     let [ada, bo] = ["ada", "bo"].map(Holder::new);
@@ -237,8 +241,8 @@ fn a_loss_of_power_leaves_nothing_half_signed() {
     assert!(signed.is_sorted() && signed.len() > 12, "{signed:?}");
 }
 
-/// No altered byte of a signed statement, a set or a signature is accepted. The first line of a signature is a
-/// comment that nothing covers.
+/// A signed statement, a set or a signature with an altered byte is rejected. The first line of a signature
+/// is an exception, because it is a comment that no signature covers.
 #[test]
 fn altered_files_are_refused() {
     let home = tempfile::tempdir().unwrap();
@@ -263,7 +267,7 @@ fn altered_files_are_refused() {
             let mut copy = bytes.clone();
             copy[at] ^= 1 << (at % 7);
             fs::write(&path, &copy).unwrap();
-            // The line feed at the end of a signature is not part of it.
+            // The line feed at the end of a signature is not significant.
             let is_end = at + 1 == bytes.len() && start > 0;
             let found = judge(home.path(), &anchor);
             assert!(is_end || !found.problems.is_empty(), "{}: byte {at}", path.display());

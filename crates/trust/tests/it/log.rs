@@ -1,5 +1,5 @@
-//! Tests of the log of a year, and of attacks on it. Each attack is tried in many ways: 1,000 in a sweep
-//! (`cargo xtask sweep`).
+//! Tests of the log of a year, and of attacks on the log. Each attack is tried with many mutations, of which
+//! there are 1,000 in a sweep (`cargo xtask sweep`).
 
 use base::{Digest, Sampler, Seed};
 use blst::min_sig;
@@ -14,12 +14,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// The number of ways in which an attack is tried.
+/// Returns the number of mutations to try for each attack.
 fn mutations() -> u64 {
     if std::env::var_os("ARCADE_SWEEP").is_some() { 1000 } else { 20 }
 }
 
-/// Returns the sampler of one mutation. Its seed includes the value of `ARCADE_SWEEP`, so each sweep can differ.
+/// Returns the sampler for one mutation of an attack. Its seed includes the value of `ARCADE_SWEEP`, so that
+/// each sweep can differ.
 fn chance(purpose: &str, number: u64) -> Sampler {
     let sweep = std::env::var_os("ARCADE_SWEEP").and_then(|text| text.into_string().ok());
     Seed::from_text(&format!("{purpose} {}", sweep.unwrap_or_default())).child("mutation", number).sampler()
@@ -29,7 +30,8 @@ fn digest(text: &str) -> Digest {
     Digest::of(text.as_bytes())
 }
 
-/// Computes the commitment with a formula for these tests; the formula of releases is in `snapshots`.
+/// Computes a commitment with a formula that only these tests use. The formula for releases is in
+/// `snapshots`.
 fn commitment_of(revealed: &Revealed) -> Digest {
     digest(&format!("{} {} {}", revealed.seed, revealed.nonce, revealed.recipe))
 }
@@ -52,7 +54,7 @@ fn months() -> Vec<String> {
     (1..=12).map(|month| format!("2027-{month:02}")).collect()
 }
 
-/// A drand-like network, whose key the tests have.
+/// A network like drand, whose secret key is known to the tests.
 struct Network {
     key: min_sig::SecretKey,
     chain: Chain,
@@ -94,8 +96,8 @@ fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Returns a year as its publisher states it: each month is committed to, waits for its beacon, is minted, revealed,
-/// calibrated, and played by somebody.
+/// Returns the log entries of a year. In each month, the publisher commits to a release, waits for its
+/// beacon, mints the release, reveals its secret, and calibrates it, and somebody plays it.
 fn year() -> Vec<Entry> {
     let first_keys = Entry::Keys { version: 1, digest: digest("keys 1"), previous: None };
     let mut entries = vec![first_keys];
@@ -159,7 +161,7 @@ impl Publisher {
             .map_err(|error| error.to_string())
     }
 
-    /// Writes a log regardless of its entries, because publishers who attack their readers do not use `append`.
+    /// Writes a log without applying the rules, as a publisher would who attacks readers.
     fn forge(&self, entries: &[Entry]) -> (TempDir, Log) {
         let home = tempfile::tempdir().unwrap();
         let no_rules = |_: &[Entry]| Vec::new();
@@ -180,7 +182,7 @@ fn a_year_is_sound() {
     let key = publisher.secret.public();
     let entries = year();
     let mut seen: Option<Checkpoint> = None;
-    // The entries are appended in steps, as over a year.
+    // The entries are appended in steps, as they would be over a year.
     for step in entries.chunks(5) {
         let log = publisher.append(home.path(), step).unwrap();
         assert_eq!(log.faults(&key), [""; 0]);
@@ -205,14 +207,14 @@ fn a_year_is_sound() {
                 && proof.check(entry, &Publisher::new().secret.public()).is_err()
         );
     }
-    // A second writer and a different name are rejected.
+    // A second writer, and an append under a different name, are rejected.
     let other = append(home.path(), Some("other"), &publisher.secret, &[], &rules, &Disk::new());
     assert!(other.unwrap_err().to_string().contains("omit --origin"));
     assert!(Publisher::new().append(home.path(), &[]).unwrap_err().contains("is not signed by the key"));
 }
 
-/// Whenever the power fails while a month is appended, the log is either the old one or the new one. Appending again
-/// gives the bytes of an undisturbed log.
+/// If the power fails while a month is appended, the log is either the old log or the new log. Appending
+/// again gives the same bytes as an undisturbed append.
 #[test]
 fn a_loss_of_power_leaves_the_old_log_or_the_new_one() {
     let publisher = Publisher::new();
@@ -245,7 +247,7 @@ fn a_loss_of_power_leaves_the_old_log_or_the_new_one() {
     }
 }
 
-/// Checks that the entries break a rule, with these words in the message.
+/// Checks that the entries break a rule, and that the message contains the given words.
 #[track_caller]
 fn broken(entries: &[Entry], words: &str) {
     let found = rules(entries);
@@ -314,7 +316,7 @@ fn swapped_beacons_are_told() {
                 "which was known before it"
             }
             3 => {
-                // The round has a second value, which suits the publisher.
+                // The round gets a second value, which suits the publisher.
                 let place = one_of(&beacons, &mut chance);
                 let mut second = forged[place].clone();
                 if let Entry::Beacon { value, .. } = &mut second {
@@ -324,7 +326,7 @@ fn swapped_beacons_are_told() {
                 "has two values"
             }
             4 => {
-                // The value is made up, and so is the release.
+                // The publisher invents a value, and mints the release with it.
                 let place = one_of(&beacons, &mut chance);
                 let made_up = any_digest(&mut chance);
                 if let Entry::Beacon { value, proof, .. } = &mut forged[place] {
@@ -339,7 +341,7 @@ fn swapped_beacons_are_told() {
                 "the value of round"
             }
             5 => {
-                // The signature is altered, and the value is its hash.
+                // The signature is altered, and the value is the hash of the altered signature.
                 let place = one_of(&beacons, &mut chance);
                 let mut made_up = None;
                 if let Entry::Beacon { value, proof: Some(proof), .. } = &mut forged[place] {
@@ -369,7 +371,7 @@ fn swapped_beacons_are_told() {
                 "its `signature` is not the one of round"
             }
             _ => {
-                // The value never came.
+                // The value was never published.
                 forged.remove(one_of(&beacons, &mut chance));
                 "whose value is not in the log"
             }
@@ -390,7 +392,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
         };
         let mut forged = entries.clone();
         match number % 3 {
-            // A hundred commitments under one name.
+            // The publisher logs a hundred commitments under one name.
             0 => {
                 for _ in 0..99 {
                     let (commitment, recipe) = (any_digest(&mut chance), any_digest(&mut chance));
@@ -400,7 +402,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                 }
                 broken(&forged, "and a publisher may commit only once");
             }
-            // A hundred names with one round, of which the publisher keeps the preferred one.
+            // The publisher commits under a hundred names to one round, and keeps the preferred release.
             1 => {
                 for other in 0..99 {
                     let (commitment, recipe) = (any_digest(&mut chance), any_digest(&mut chance));
@@ -411,7 +413,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                 broken(&forged, "as another commitment does: one of the two could be chosen");
                 assert_eq!(unkept(&forged).len(), 99);
             }
-            // The secret is chosen afterwards.
+            // The publisher chooses the secret after the beacon is known.
             _ => {
                 if let Some(Entry::Reveal(revealed)) = forged.get_mut(place + 3) {
                     revealed.seed = format!("better {number}");
@@ -434,7 +436,8 @@ fn rollbacks_and_freezes_are_told() {
         assert_eq!(old.faults(&publisher.secret.public()), [""; 0]);
         let said = old.fork(&newest.checkpoint).unwrap();
         assert!(said.contains("the log was rolled back"), "{said}");
-        // A copy that is no longer updated lacks the months after its newest, regardless of its other entries.
+        // A copy that is no longer updated lacks all months after its newest month, whatever its other
+        // entries are.
         let is_root = |entry: &&Entry| matches!(entry, Entry::Root { .. });
         let minted = old.entries().unwrap().iter().filter(is_root).count();
         let mut copy = entries[..length].to_vec();
@@ -472,7 +475,7 @@ fn forks_are_told() {
         let (_home, fork) = publisher.forge(&forged);
         let said = fork.fork(&honest.checkpoint).unwrap();
         assert!(said.contains("the log has forked"), "{said}");
-        // A proof of growth cannot be made either, because a proof of a different log does not fit.
+        // No consistency proof can be made either, because a proof of a different log does not fit.
         let old = 1 + place as u64;
         let (_home, short) = publisher.forge(&entries[..old as usize]);
         let proof = fork.prove_growth(old).unwrap();
@@ -494,7 +497,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Somebody without the key alters, cuts or removes files.
+/// Somebody without the key alters, truncates or removes files.
 #[test]
 fn altered_and_truncated_files_are_told() {
     let publisher = Publisher::new();
@@ -522,7 +525,7 @@ fn altered_and_truncated_files_are_told() {
         }
         let is_sound = match Log::open(home.path()) {
             Ok(Some(log)) => log.faults(&publisher.secret.public()).is_empty(),
-            // The error is a statement about the log, and not a failure of the disk.
+            // The error concerns the log, and is not a failure of the disk.
             Err(error) => !matches!(error, TrustError::Document { .. }),
             Ok(None) => false,
         };
@@ -535,7 +538,7 @@ fn altered_and_truncated_files_are_told() {
     assert_eq!(read(home.path()).faults(&publisher.secret.public()), [""; 0]);
 }
 
-/// A lost or stolen key cannot continue the log, nor a history of keys with a gap.
+/// A lost or stolen key cannot continue the log. A history of keys with a gap is also rejected.
 #[test]
 fn other_keys_are_told() {
     let (publisher, thief) = (Publisher::new(), Publisher::new());
@@ -562,7 +565,7 @@ fn other_keys_are_told() {
     }
 }
 
-/// If the logs give different numbers than a result row, every improved number is reported.
+/// If the logs of the episodes give different numbers than a result row, every falsified number is reported.
 #[test]
 fn altered_rows_are_told() {
     let entries = year();
@@ -597,7 +600,7 @@ fn altered_rows_are_told() {
     }
 }
 
-/// Anyone who prepares the folder of a log can replace its lock by a link.
+/// Anyone who prepares the folder of a log can replace its lock file with a link.
 #[cfg(unix)]
 #[test]
 fn a_linked_lock_empties_nothing() {
@@ -610,7 +613,7 @@ fn a_linked_lock_empties_nothing() {
     assert_eq!(fs::read_to_string(&victim).unwrap(), "precious");
 }
 
-/// Readers of earlier states still read the partial tiles of those states.
+/// Readers of earlier states can still read the partial tiles of those states.
 #[test]
 fn damaged_tiles_of_earlier_states_are_faults() {
     let home = tempfile::tempdir().unwrap();

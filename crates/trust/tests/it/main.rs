@@ -1,4 +1,4 @@
-//! Tests of trust from the viewpoint of publishers and readers: signatures, key sets, the log.
+//! Tests of signatures, sets of keys and logs, from the viewpoints of publishers and readers.
 
 mod keys;
 mod log;

@@ -1,5 +1,5 @@
-//! `cargo xtask agreement`: random inputs of the functions in `statistics` with their results, for comparison with other
-//! libraries by `tools/scripts/agreement.py`.
+//! `cargo xtask agreement` prints random inputs of the functions in `statistics`, with their results.
+//! `tools/scripts/agreement.py` compares the results with those of other libraries.
 
 mod scale;
 
@@ -10,7 +10,8 @@ use statistics::{
     pearson, quantile, rate_over_games, spearman, stratified, student_p, student_quantile, welch, wilson,
 };
 
-/// Prints random inputs of the statistics in reports with their results, as one line of JSON per input.
+/// Prints random inputs of the statistical functions used in reports, with their results, as one line of JSON
+/// per input.
 ///
 /// The same seed gives the same lines.
 ///
@@ -59,23 +60,23 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Draws a number from 0 to `most`.
+/// Draws an integer from 0 to `most`, inclusive.
 fn up_to(draws: &mut Sampler, most: u64) -> u64 {
     draws.below(most as usize + 1) as u64
 }
 
-/// Draws a fraction in 0..1.
+/// Draws a fraction from the range 0..1.
 fn share(draws: &mut Sampler) -> f64 {
     draws.unit()
 }
 
-/// Draws numbers of successes and trials, with at least one trial.
+/// Draws a number of successes and a number of trials, which is at least one.
 fn counts(draws: &mut Sampler) -> (u64, u64) {
     let trials = 1 + up_to(draws, 60);
     (up_to(draws, trials), trials)
 }
 
-/// Draws numbers, which have ties half of the time.
+/// Draws a list of numbers. In half of the lists, numbers often repeat.
 fn numbers(draws: &mut Sampler, count: u64) -> Vec<f64> {
     let coarse = draws.below(2) == 0;
     (0..count).map(|_| if coarse { up_to(draws, 6) as f64 } else { share(draws) * 20.0 - 5.0 }).collect()

@@ -1,4 +1,4 @@
-//! A simulated calibration with its results, for `tools/scripts/scale.py`.
+//! Simulates a calibration and its results, for `tools/scripts/scale.py`.
 
 use serde_json::{Value, json};
 use statistics::scale::simulated::{AbilityCase, Plan, Simulator};

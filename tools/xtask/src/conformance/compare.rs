@@ -1,4 +1,4 @@
-//! Plays a trace's actions and compares every recorded field of every tick.
+//! Plays the actions of a trace, and compares every recorded field of every tick.
 
 use super::trace::{Line, Tick, Trace};
 use engine::{Action, Chance, Game, Level, Outcome, SpriteRecord, State};
@@ -6,18 +6,18 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The maximum number of differences to show for one tick. The first is the first divergence.
+/// The maximum number of differences shown for one tick. The first of them is the first divergence.
 const SHOWN: usize = 6;
 
 /// The first tick at which the engine and the trace differ.
 #[derive(Debug, Serialize)]
 pub(crate) struct Difference {
-    /// The number of the tick; −1 means before the first tick.
+    /// The number of the tick, where −1 stands for the state before the first tick.
     pub(crate) tick: i32,
     action: Option<Action>,
     /// The state of the game's random generator before the tick.
     chance_before: u64,
-    /// The first few fields that differ in the tick.
+    /// The first fields that differ in the tick, up to [`SHOWN`].
     fields: Vec<Field>,
     /// The number of further fields that differ.
     more: usize,
@@ -25,7 +25,7 @@ pub(crate) struct Difference {
 
 #[derive(Debug, Serialize)]
 struct Field {
-    /// The creation number and type of the sprite, if the field belongs to a sprite.
+    /// The creation number and the type of the sprite, if the field belongs to a sprite.
     sprite: Option<String>,
     field: &'static str,
     expected: String,
@@ -47,7 +47,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Returns the first divergence, or `None` if there is none.
+/// Returns the first tick that differs, or `None` if all ticks are equal.
 pub(crate) fn compare(game: &Game, level: &Level, trace: &Trace) -> Option<Difference> {
     let mut state = game.start_with(level, Chance::from_java(trace.header.seed));
     let mut expected: BTreeMap<u32, SpriteRecord> =
@@ -110,7 +110,7 @@ impl Check<'_> {
         self.equal("block_size", header.block_size, state.block());
         self.equal("width", header.width, columns * state.block());
         self.equal("height", header.height, rows * state.block());
-        // NIL is left out because not every avatar lists it, although it is always possible.
+        // NIL is ignored, because it is always possible, but not every avatar lists it.
         let nil = Some(Action::Nil);
         let mut actions: Vec<_> = header.actions.iter().map(|name| Action::from_reference(name)).collect();
         actions.retain(|action| *action != nil);
@@ -118,7 +118,8 @@ impl Check<'_> {
         let own = game.actions(state).iter().copied().map(Some).filter(|action| *action != nil);
         self.equal("actions", actions, own.collect());
         self.equal("avatar", header.avatar, state.avatar_id());
-        // The second of the two messages about a missing avatar is logged when the run starts, so a log may lack it.
+        // The second of the two messages about a missing avatar is logged when the run starts, so a trace may
+        // lack it.
         let messages = state.messages() as usize;
         let late = header.avatar.is_none() && header.log.len() < messages;
         self.equal("log", header.log.len(), messages - usize::from(late));
@@ -152,7 +153,8 @@ impl Check<'_> {
         }
     }
 
-    /// Applies this tick's changes to the expected sprites. A trace that contradicts itself results in a difference.
+    /// Applies the changes of a tick to the expected sprites. If the trace contradicts itself, a difference
+    /// is recorded.
     fn apply(&mut self, tick: &Tick, expected: &mut BTreeMap<u32, SpriteRecord>) {
         for id in &tick.line.del {
             let gone = expected.remove(id);
@@ -228,7 +230,8 @@ impl Check<'_> {
     }
 }
 
-/// Returns the bits of a value for comparison. In a trace, −0.0 and 0.0 are different, and all NaNs are equal.
+/// Returns the bits of a value, for comparison with a trace. −0.0 and 0.0 are different values, but all NaNs
+/// are equal.
 fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask conformance`: comparison of this engine with the reference.
+//! `cargo xtask conformance` compares this engine with the reference engine.
 
 mod compare;
 mod trace;
@@ -14,7 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use trace::Trace;
 
-/// Replays recorded traces of the reference engine and compares every field of every tick.
+/// Replays recorded traces of the reference engine, and compares every field of every tick.
 ///
 /// Prints the first divergence of every episode that differs. The last line is `identical: N of M episodes`.
 ///
@@ -46,7 +46,7 @@ struct Report {
 #[derive(Serialize)]
 struct Episode {
     trace: String,
-    /// The reason why the episode could not be played at all.
+    /// The reason why the episode could not be played, if it could not be played.
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -94,7 +94,7 @@ fn say(report: &Report) {
     println!("identical: {} of {} episodes", report.identical, report.episodes);
 }
 
-/// Returns the game and the path of every trace, sorted.
+/// Returns all traces, sorted. Each trace is given by the name of its game and its path.
 fn find_traces(args: &Args) -> anyhow::Result<Vec<(String, PathBuf)>> {
     let mut names = sorted_entries(&args.traces)?;
     names.retain(|path| path.is_dir());
@@ -131,19 +131,20 @@ fn sorted_entries(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// Reads a file of a game, as text.
+/// Reads a file of a game as text.
 fn read(path: &Path) -> anyhow::Result<String> {
     fs::read_to_string(path).with_context(|| format!("cannot read `{}`", path.display()))
 }
 
-/// A game with its rules, or the reason why it does not compile.
+/// A game and its compiled rules, or the reason why the game does not compile.
 struct Subject {
     source: PathBuf,
     game: Result<Game, String>,
 }
 
 impl Subject {
-    /// Reads the game with this name: a folder with a game, or a file with its levels beside it.
+    /// Reads the game with the given name. The game is a folder, or a file with its levels in the same
+    /// folder.
     fn read(games: &Path, name: &str) -> anyhow::Result<Subject> {
         let places =
             [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
@@ -168,7 +169,7 @@ impl Subject {
         Ok(Subject { source, game })
     }
 
-    /// Returns the path of a level's file.
+    /// Returns the path of the file with the given level.
     fn level(&self, number: usize) -> anyhow::Result<PathBuf> {
         let names = file_names(self.source.parent().unwrap_or(Path::new(".")))?;
         let own = self.source.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -186,7 +187,8 @@ fn file_names(folder: &Path) -> anyhow::Result<Vec<String>> {
     Ok(files.filter_map(|path| Some(path.file_name()?.to_str()?.to_owned())).collect())
 }
 
-/// Returns the number of ticks played and, if the engine differs, the episode's entry in the report.
+/// Replays a trace. Returns the number of ticks played and, if the engine differs, the episode's entry in the
+/// report.
 fn replay(
     args: &Args,
     subject: &Subject,
@@ -200,7 +202,8 @@ fn replay(
     if trace.header.game != name {
         bail!("{}: a trace of `{}` in the folder of `{name}`", path.display(), trace.header.game);
     }
-    // A game that the reference could not load must not load here either, or must stop before it starts.
+    // A game that the reference could not load must fail to load in this engine too, or must stop before it
+    // starts.
     let broken = trace.header.engine_error.is_some();
     let game = match &subject.game {
         Ok(game) => game,

@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-/// The maximum size of a line in bytes. The longest real lines have some hundred kilobytes.
+/// The maximum size of a line, in bytes. The longest lines in real traces have some hundred kilobytes.
 const MAX_LINE: u64 = 64 << 20;
 
 #[derive(Deserialize)]
@@ -42,7 +42,7 @@ struct Initial {
     rng: u64,
 }
 
-/// A tick as recorded.
+/// A tick in the form in which a trace records it.
 #[derive(Deserialize)]
 pub(crate) struct Line {
     pub(crate) tick: i32,
@@ -64,12 +64,12 @@ pub(crate) struct Line {
     pub(crate) del: Vec<u32>,
     #[serde(rename = "mod", default)]
     modified: Vec<Value>,
-    /// Present if the reference ended the game because it had logged too many messages.
+    /// A note that is present if the reference ended the game because it had logged too many messages.
     pub(crate) note: Option<String>,
     pub(crate) engine_error: Option<String>,
 }
 
-/// A tick with its action and the sprites that are new or changed.
+/// A tick with its action, and with the sprites that are new or have changed.
 pub(crate) struct Tick {
     pub(crate) line: Line,
     pub(crate) action: Action,
@@ -84,11 +84,11 @@ pub(crate) struct Trace {
 }
 
 impl Trace {
-    /// Reads a trace, gzipped or plain.
+    /// Reads a trace, which may be compressed with gzip or plain.
     ///
     /// # Errors
     ///
-    /// Returns a message with the problem and its line.
+    /// Returns a message that states the problem and its line.
     pub(crate) fn read(path: &Path) -> Result<Trace, String> {
         let file = File::open(path).map_err(|error| error.to_string())?;
         let packed = path.extension().is_some_and(|extension| extension == "gz");
@@ -118,7 +118,7 @@ impl Trace {
 
 type NumberedLine = Result<(usize, String), String>;
 
-/// Returns the lines with their numbers. A line longer than [`MAX_LINE`] is an error.
+/// Returns the lines of a reader with their numbers. A line longer than [`MAX_LINE`] is an error.
 fn numbered(mut reader: impl BufRead) -> impl Iterator<Item = NumberedLine> {
     let mut number = 0;
     std::iter::from_fn(move || {
@@ -143,7 +143,7 @@ fn records<'a>(line: usize, values: impl Iterator<Item = &'a Value>) -> Result<V
     values.map(|value| record(value).ok_or_else(|| wrong(value))).collect()
 }
 
-/// Parses a number, or one of the strings for values that JSON cannot express as numbers.
+/// Parses a number. Values that JSON cannot express as numbers are given as strings.
 fn double(value: &Value) -> Option<f64> {
     match value.as_str() {
         Some("NaN") => Some(f64::NAN),
@@ -153,7 +153,8 @@ fn double(value: &Value) -> Option<f64> {
     }
 }
 
-/// A recorded sprite: `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`, sometimes followed by `{"res": …, "rot": …}`.
+/// A recorded sprite in the form `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`. An object
+/// `{"res": …, "rot": …}` may follow.
 #[derive(Deserialize)]
 struct Record(u32, u16, i32, i32, i32, i32, Value, Value, Value, i32, u16, #[serde(default)] Extra);
 
@@ -168,7 +169,7 @@ fn record(value: &Value) -> Option<SpriteRecord> {
     let Record(id, stype, x, y, w, h, ox, oy, speed, health, flags, extra) =
         Record::deserialize(value).ok()?;
     let (rect, orientation, speed) = (Rect { x, y, w, h }, (double(&ox)?, double(&oy)?), double(&speed)?);
-    // An undeclared type has the number −1.
+    // The trace records an undeclared type as −1.
     let stype_of = |text: &str| if text == "-1" { Some(u16::MAX) } else { text.parse().ok() };
     let resources = extra.res.iter().map(|(held, &amount)| Some((stype_of(held)?, amount)));
     let mut resources = resources.collect::<Option<Vec<(u16, i32)>>>()?;

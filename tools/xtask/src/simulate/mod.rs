@@ -1,5 +1,5 @@
-//! `cargo xtask simulate`: measures how often the intervals in reports cover the true value, how often their tests err, and
-//! whether the stated power is correct.
+//! `cargo xtask simulate` measures three properties of reports: how often intervals contain the true value,
+//! how often tests err, and whether the stated power is correct.
 
 mod memory;
 mod scale;
@@ -11,8 +11,9 @@ use statistics::{Design, Spread};
 
 /// Simulates evaluations under the model of `arcade evaluate --dry-run`, and prints tables in Markdown.
 ///
-/// The same seed gives the same tables. At the default size, the first three take about a minute on two cores, and those of the
-/// scale (link, ability, drift, adaptive) take 15 to 25 minutes of one core each.
+/// The same seed gives the same tables. At the default size, each of the first three tables takes about a
+/// minute on two cores. The tables about the scale (link, ability, drift, adaptive) take 15 to 25 minutes of
+/// one core each.
 ///
 /// Example: cargo xtask simulate coverage --trials 1000
 #[derive(clap::Args)]
@@ -32,9 +33,9 @@ pub(crate) struct Args {
 enum Question {
     /// Coverage of nominal 95% intervals of win rates
     Coverage,
-    /// False positives: equal players that are reported as different
+    /// False positives: equal players reported as different
     Comparisons,
-    /// Power: different players that are reported as different, as stated and as simulated
+    /// Power: different players reported as different, as stated and as simulated
     Power,
     /// Players that replay published solutions: how often exact tests of memory flag them
     Memory,
@@ -49,7 +50,7 @@ enum Question {
 }
 
 impl Args {
-    /// Returns the number of evaluations per figure in the first three tables.
+    /// Returns the number of simulated evaluations per figure in the first three tables.
     fn evaluations(&self) -> u64 {
         self.trials.unwrap_or(4000)
     }
@@ -70,7 +71,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns a row for each of `cases`, computed in parallel. Each has its own random stream.
+/// Returns a table row for each of `cases`. The rows are computed in parallel, and each row has its own
+/// random stream.
 fn rows<T: Copy + Sync>(
     args: &Args,
     cases: &[T],

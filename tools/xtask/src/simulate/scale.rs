@@ -1,4 +1,5 @@
-//! Simulations of the scale: the stated and true errors of links, abilities and drifts.
+//! Simulations of the scale, which compare the stated errors of links, abilities and drifts with the true
+//! errors.
 
 use super::{Args, share};
 use rayon::prelude::*;
@@ -8,9 +9,10 @@ use statistics::scale::simulated::{
 };
 use statistics::scale::{Dimension, Spreads};
 
-/// The number of players per case on one pair of months.
+/// The number of players in each case on one pair of months.
 const PERSONS: usize = 40;
-/// The number of bootstrap replicates that correct the bias of the spreads. `arcade study calibrate` uses 40.
+/// The number of bootstrap replicates used to correct the bias of the spreads. `arcade study calibrate` uses
+/// 40.
 const REPLICATES: u64 = 4;
 
 fn plan(families: Vec<usize>, runs: u32) -> Plan {
@@ -27,13 +29,14 @@ fn plan(families: Vec<usize>, runs: u32) -> Plan {
     }
 }
 
-/// Returns all trials that could be calibrated. Each has its own seed.
+/// Returns the results of all trials that could be calibrated. Each trial has its own seed.
 fn trials<T: Send>(args: &Args, trials: u64, case: usize, one: impl Fn(u64) -> Option<T> + Sync) -> Vec<T> {
     let seed = args.seed * 1_000_003 + case as u64 * 10_007;
     (0..trials).into_par_iter().filter_map(|trial| one(seed + trial)).collect()
 }
 
-/// Returns the root mean square error, the mean stated error, and the fraction of cases that the 95% intervals cover.
+/// Returns the root mean square error, the mean stated error, and the fraction of cases in which the 95%
+/// interval contains the truth.
 fn errors(found: &[(f64, f64)]) -> [TableCell; 3] {
     let count = found.len() as f64;
     let square = found.iter().map(|(off, _)| off * off).sum::<f64>() / count;
@@ -42,7 +45,7 @@ fn errors(found: &[(f64, f64)]) -> [TableCell; 3] {
     [share(square.sqrt()), share(stated), share(covered as f64 / count)]
 }
 
-/// Simulates the link of two months of 120 games × 5 levels.
+/// Simulates the link between two months of 120 games with 5 levels each.
 pub(super) fn link(args: &Args) -> Table {
     let count = args.trials.unwrap_or(200);
     let cases = [
@@ -78,7 +81,7 @@ pub(super) fn link(args: &Args) -> Table {
     table
 }
 
-/// Simulates the ability of a player on a linked month.
+/// Simulates the estimation of a player's ability on a linked month.
 pub(super) fn ability(args: &Args) -> Table {
     let count = args.trials.unwrap_or(50);
     let alone = plan(vec![1; 8], 2);
@@ -100,7 +103,7 @@ pub(super) fn ability(args: &Args) -> Table {
         ("readers', 3 anchors twice", anchored(2), Dimension::Reader),
     ];
     for (number, (name, plan, dimension)) in dimensions.into_iter().enumerate() {
-        // All players share the same months.
+        // All players play the same months.
         let found: Vec<Vec<Vec<AbilityTrial>>> =
             trials(args, count, number, |seed| ability_trials(&plan, dimension, &cases, PERSONS, seed));
         for (at, case) in cases.iter().enumerate() {
@@ -117,7 +120,7 @@ pub(super) fn ability(args: &Args) -> Table {
     table
 }
 
-/// Simulates the drift of a month for readers, as measured with anchors.
+/// Simulates the drift of a month for readers, estimated with anchors.
 pub(super) fn drift(args: &Args) -> Table {
     let count = args.trials.unwrap_or(100);
     let mut cases = Vec::new();
@@ -132,7 +135,7 @@ pub(super) fn drift(args: &Args) -> Table {
     let mut table = Table::new("drift", "Drift as anchors see it", &note, &columns);
     for (case, (games, anchors, drift)) in cases.into_iter().enumerate() {
         let plan = Plan { games, anchors, anchor_runs: 1, ..plan(vec![1; 8], 2) };
-        // The months are the same with and without drift.
+        // The months with drift and without drift are otherwise the same.
         let found: Vec<LinkTrial> = trials(args, count, case / 2, |seed| link_trial(&plan, 0.3, drift, seed));
         let flagged = found.iter().filter(|trial| trial.drift.0.abs() > statistics::Z95 * trial.drift.1);
         let flagged = flagged.count() as f64 / found.len() as f64;
@@ -145,7 +148,8 @@ pub(super) fn drift(args: &Args) -> Table {
     table
 }
 
-/// Returns the number of episodes with which an adaptive choice reaches the error of a spread design.
+/// Returns a table with the number of episodes that an adaptive choice needs to reach the error of a design
+/// that spreads episodes over the games.
 pub(super) fn adaptive(args: &Args) -> Table {
     const EPISODES: usize = 200;
     const PLAYERS: usize = 20;
@@ -175,7 +179,7 @@ pub(super) fn adaptive(args: &Args) -> Table {
         "coverage",
     ];
     let mut table = Table::new("adaptive", "Episodes of an adaptive choice at equal error", &note, &columns);
-    // All players share the same months.
+    // All players play the same months.
     let all: Vec<Vec<Vec<AdaptiveTrial>>> =
         trials(args, months, 0, |seed| adaptive_trials(&plan, &cases, (EPISODES, &counts), PLAYERS, seed));
     for (at, (ability, mismatch)) in cases.iter().copied().enumerate() {

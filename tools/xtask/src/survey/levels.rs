@@ -1,4 +1,4 @@
-//! `cargo xtask survey`: surveys the levels of the constructive generator, game by game.
+//! `cargo xtask survey` surveys the levels that the constructive generator makes for each game.
 
 use super::folders;
 use super::missing::missing;
@@ -20,9 +20,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use validators::{Criteria, Criterion, CriterionSet};
 
-/// Makes levels for every game in a folder with the constructive generator, and judges them as `arcade generate levels --report`
-/// does: whether they are winnable with a witness, won by doing nothing or at random, similar in size and cover to the game's own
-/// levels, made quickly, and different from each other.
+/// Generates levels for every game in a folder with the constructive generator, and judges the levels as
+/// `arcade generate levels --report` does.
+///
+/// The report shows whether the levels are winnable with a witness, are won by doing nothing or at random,
+/// are similar in size and cover to the game's own levels, are generated quickly, and differ from each other.
 ///
 /// Example: cargo xtask survey --games corpora --count 5 --png sheets
 #[derive(clap::Args)]
@@ -45,7 +47,7 @@ pub(crate) struct Args {
     /// Number of episodes of doing nothing, and of random play, per level
     #[arg(long, value_name = "N", default_value_t = 20)]
     plays: u32,
-    /// Text that all seeds are derived from
+    /// Text from which all seeds are derived
     #[arg(long, value_name = "TEXT", default_value = "survey")]
     seed: String,
     /// Learn nothing from the games' own levels
@@ -65,7 +67,7 @@ pub(crate) struct Args {
     png: Option<PathBuf>,
 }
 
-/// The columns of fractions, with the section and key of each in the report on levels.
+/// The columns of fractions, each with its section and key in the report on levels.
 const SHARES: [(&str, &str, &str); 7] = [
     ("solved", "solvability", "solved"),
     ("impossible", "solvability", "impossible"),
@@ -76,7 +78,7 @@ const SHARES: [(&str, &str, &str); 7] = [
     ("copies", "novelty", "copies"),
 ];
 
-/// The measures in which new levels should stay within the range of the game's own levels.
+/// The measures in which new levels should be within the range of the game's own levels.
 const FIT: [&str; 3] = ["columns", "rows", "cover"];
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -139,7 +141,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the fraction of levels within the range of the game's own levels in a measure.
+/// Returns the fraction of new levels that are within the range of the game's own levels in a measure.
 fn within(report: &LevelSetReport, measure: &str) -> Option<Share> {
     report.fits.iter().find(|fit| fit.measure == measure).map(|fit| fit.within)
 }
@@ -148,8 +150,8 @@ fn percent(share: Option<f64>) -> TableCell {
     TableCell::number(share.map(|share| 100.0 * share), 0)
 }
 
-/// Returns the levels of one game, and the maximum time for making one of them in milliseconds. It uses one thread, so that the
-/// time is that of a single level.
+/// Returns the generated levels of one game, and the maximum time for generating a level, in milliseconds.
+/// Uses one thread, so that the time is that of a single level.
 fn make(name: &str, analysis: &Analysis, own: &[Level], args: &Args) -> anyhow::Result<(Vec<Level>, f64)> {
     let own = if args.unlearnt { &[] } else { own };
     let examples = Examples::of(analysis.game(), own);
@@ -174,7 +176,7 @@ fn make(name: &str, analysis: &Analysis, own: &[Level], args: &Args) -> anyhow::
     Ok((levels, most))
 }
 
-/// Returns the report on the levels.
+/// Returns the report on the generated levels.
 fn judge(
     name: &str,
     analysis: &Analysis,
@@ -209,9 +211,9 @@ fn judge(
     Ok(LevelSetReport::of(&sample))
 }
 
-/// The number of levels per row of a sheet.
+/// The number of levels in each row of a contact sheet.
 const COLUMNS: usize = 5;
-/// The longer side of a level on a sheet, in pixels.
+/// The length of a level's longer side on a contact sheet, in pixels.
 const SIDE: u32 = 300;
 
 fn draw(

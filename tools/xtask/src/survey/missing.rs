@@ -1,10 +1,10 @@
-//! The completeness of a level.
+//! Checks whether a level is complete.
 
 use engine::analysis::{Condition, Reason, Role};
 use engine::{Analysis, Level, SpriteType};
 use std::collections::BTreeSet;
 
-/// Returns the names of the types that the goals or placed things require and that the level lacks.
+/// Returns the names of the types that the goals or the placed sprites require but the level lacks.
 pub(super) fn missing(analysis: &Analysis, level: &Level) -> Vec<String> {
     let game = analysis.game();
     let count = |stype: SpriteType| {
@@ -26,7 +26,7 @@ pub(super) fn missing(analysis: &Analysis, level: &Level) -> Vec<String> {
     for requirement in analysis.requirements() {
         let asked = match requirement.reason {
             Reason::Avatar | Reason::Goal(_) => true,
-            // Other rules may make the missing sprite.
+            // Other rules may create the missing sprite.
             Reason::WinMethod(_) => false,
             Reason::Lock(stype) | Reason::Portal(stype) => count(stype) > 0,
         };

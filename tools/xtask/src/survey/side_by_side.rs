@@ -1,4 +1,4 @@
-//! `cargo xtask side-by-side`: compares two groups of games by the same criteria, line by line.
+//! `cargo xtask side-by-side` compares two groups of games by the same criteria, line by line.
 
 use super::folders;
 use crate::levels::{load, name_of};
@@ -13,9 +13,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use validators::Criteria;
 
-/// Judges the games in two folders by the same verdicts with the same budget, and prints a Markdown table: the mean or fraction
-/// for each group on seven lines, and the difference with its 95% interval. With --rows, games that have already been judged are
-/// not judged again, so an interrupted run can continue.
+/// Judges the games in two folders by the same criteria with the same budget, and prints a table in Markdown.
+///
+/// On each of seven lines, the table shows the mean or fraction for each group, and the difference with its
+/// 95% interval. With --rows, games that have already been judged are not judged again, so that an
+/// interrupted run can continue.
 ///
 /// Example: cargo xtask side-by-side --ours corpora --theirs gvgai/games --games 50 --rows side-by-side.jsonl
 #[derive(clap::Args)]
@@ -23,36 +25,38 @@ pub(crate) struct Args {
     /// Folder of game folders, each with game.vgdl or game.txt and lvl*.txt
     #[arg(long, value_name = "DIR")]
     ours: PathBuf,
-    /// Second folder, whose games are loaded as the reference loads them
+    /// Folder of the second group, whose games are loaded as the reference loads them
     #[arg(long, value_name = "DIR")]
     theirs: Option<PathBuf>,
     /// Maximum number of games per folder, drawn with the seed
     #[arg(long, value_name = "N", default_value_t = 50)]
     games: usize,
-    /// Maximum number of levels per game: the first, the last, and some evenly between
+    /// Maximum number of levels per game: the first level, the last level, and evenly spaced levels in
+    /// between
     #[arg(long, value_name = "N", default_value_t = 3)]
     levels: usize,
-    /// Text that the samples and all random draws are derived from
+    /// Text from which the samples and all random draws are derived
     #[arg(long, value_name = "TEXT", default_value = "side by side")]
     seed: String,
-    /// File of rows, one line of JSON per game; games with a row are not judged again, and new rows are added
+    /// File of rows, with one line of JSON per game. Games with a row are not judged again, and new rows are
+    /// added
     #[arg(long, value_name = "FILE")]
     rows: Option<PathBuf>,
     /// Forward-model calls to win a level
     #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().budget)]
     budget: u64,
-    /// Maximum number of episodes of each player of the ladder on a level
+    /// Maximum number of episodes on a level for each player of the ladder
     #[arg(long, value_name = "N", default_value_t = GameSurvey::criteria().ladder_plays)]
     plays: u64,
-    /// Forward-model calls of all players on a level after which no further round of episodes begins
+    /// Forward-model calls of all players on a level, after which no further round of episodes begins
     #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().ladder_calls)]
     ladder_calls: u64,
     /// Print only the names of the games that the seed draws
     #[arg(long)]
     sample: bool,
-    /// Put the games with all their levels through the gates of docs/reference/gates.md instead, and print how many games pass each gate.
-    /// Levels with a win in the folder `witness`, as generated games have it, are judged by that win. --rows takes one line per
-    /// game; --budget is 300000 unless given
+    /// Apply the gates of docs/reference/gates.md to the games with all their levels instead, and print how
+    /// many games pass each gate. A level with a win in the folder `witness` of its game is judged by that
+    /// win. --rows has one line per game, and --budget is 300000 by default
     #[arg(long)]
     gates: bool,
     /// Number of threads, or 0 for all cores. Does not affect the results
@@ -101,7 +105,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Puts both groups through the gates.
+/// Applies the gates to both groups of games.
 fn gates(args: &Args, groups: &[(&str, Vec<PathBuf>)], seed: Seed) -> anyhow::Result<()> {
     let usual = GateSurvey::criteria();
     let given = args.budget != GameSurvey::criteria().budget;
@@ -130,9 +134,9 @@ fn gates(args: &Args, groups: &[(&str, Vec<PathBuf>)], seed: Seed) -> anyhow::Re
     Ok(())
 }
 
-/// Returns a level with the episode that wins it, if the folder has one.
+/// Returns a level and the episode that wins it, if the folder contains one.
 fn won(folder: &Path, number: usize, game: &Game, level: Level) -> (Level, Option<Episode>) {
-    /// The relevant part of a witness file.
+    /// The fields of a witness file that are needed.
     #[derive(Deserialize)]
     struct Witness {
         episode: Episode,
@@ -146,7 +150,8 @@ fn won(folder: &Path, number: usize, game: &Game, level: Level) -> (Level, Optio
     (level, win)
 }
 
-/// Returns up to `most` game folders in a folder, sorted by name and drawn with the seed and the folder's own names.
+/// Returns a random sample of up to `most` game folders in a folder, sorted by name. The sample depends on
+/// the seed and on the names in the folder.
 fn draw(folder: &Path, most: usize, seed: Seed) -> anyhow::Result<Vec<PathBuf>> {
     let mut folders = folders(folder)?;
     seed.child("sample", 0).sampler().shuffle(&mut folders);
@@ -155,7 +160,8 @@ fn draw(folder: &Path, most: usize, seed: Seed) -> anyhow::Result<Vec<PathBuf>> 
     Ok(folders)
 }
 
-/// Returns up to `most` levels: the first, the last, and some evenly between.
+/// Returns up to `most` levels, which are the first level, the last level, and evenly spaced levels in
+/// between.
 fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
     let (count, steps) = (levels.len(), most.saturating_sub(1).max(1));
     if count <= most {
@@ -168,13 +174,14 @@ fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
 struct Judge<'a> {
     survey: GameSurvey,
     levels: usize,
-    /// The known rows by their digests.
+    /// The rows of games that have already been judged, by their digests.
     known: BTreeMap<Digest, GameRow>,
     file: Option<&'a Path>,
 }
 
 impl Judge<'_> {
-    /// Returns the rows of a group. New rows are printed and written as soon as they are available.
+    /// Returns the rows of a group of games. New rows are printed and written to the file as soon as they are
+    /// available.
     fn group(&mut self, folders: &[PathBuf]) -> anyhow::Result<Vec<GameRow>> {
         let mut rows = Vec::new();
         for folder in folders {
@@ -197,7 +204,7 @@ impl Judge<'_> {
     }
 }
 
-/// Reads the rows of a file by their digests. Returns no rows if the file does not exist.
+/// Reads the rows in a file, by their digests. Returns no rows if the file does not exist.
 fn read(path: &Path) -> anyhow::Result<BTreeMap<Digest, GameRow>> {
     if !path.exists() {
         return Ok(BTreeMap::new());

@@ -5,13 +5,13 @@ use crate::client::chat::{ChatMessage, ChatReply, ChatRequest, Finish, Role, Usa
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The version of the API, which is sent as a header of every request.
+/// The version of the API, which is sent in a header of every request.
 pub(super) const VERSION: &str = "2023-06-01";
 
-/// The token limit if the user sets none, because the API has no default.
+/// The token limit for an answer if the user sets no limit. The API requires a value.
 pub(super) const MAX_TOKENS: u32 = 8192;
 
-/// Returns the body of a request. The end of the system message, which is constant throughout an episode, is marked
+/// Returns the body of a request. The system message is constant throughout an episode, so its end is marked
 /// as the end of the prefix that the provider should cache.
 pub(super) fn body(model: &str, request: &ChatRequest) -> Value {
     let decoding = &request.decoding;
@@ -67,7 +67,7 @@ struct Block {
     thinking: Option<String>,
 }
 
-/// The token counts. The three counts of prompt tokens do not overlap.
+/// The token counts in a reply. The three counts of prompt tokens do not overlap.
 #[derive(Deserialize)]
 struct Counts {
     input_tokens: Option<u64>,

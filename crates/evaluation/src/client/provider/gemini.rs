@@ -1,11 +1,11 @@
-//! Gemini's `generateContent`.
+//! Gemini's `generateContent` API.
 
 use super::{base64, object, parse, text_or_placeholder};
 use crate::client::chat::{ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Role, Usage};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// Returns the body of a request. The model is part of the URL.
+/// Returns the body of a request. The body omits the model, which is part of the URL.
 pub(super) fn body(request: &ChatRequest) -> Value {
     let of_system = |message: &&ChatMessage| message.role == Role::System;
     let system: Vec<Value> = request.messages.iter().filter(of_system).map(|m| text(&m.text)).collect();
@@ -84,7 +84,7 @@ struct Feedback {
     block_reason: Option<String>,
 }
 
-/// The token counts. The count of the answer excludes thoughts.
+/// The token counts in a reply. The count for the answer excludes thoughts.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Counts {
@@ -102,7 +102,7 @@ pub(super) fn answer(body: &str) -> Result<ChatReply, String> {
         None if blocked => Finish::Refusal,
         None => return Err("a body without candidates".to_owned()),
         Some(candidate) => {
-            // The parts are pieces of one text, which may be split anywhere.
+            // The parts are pieces of one text, which the server may split anywhere.
             for part in candidate.content.map(|content| content.parts).unwrap_or_default() {
                 let target = if part.thought { &mut thoughts } else { &mut text };
                 target.push_str(part.text.as_deref().unwrap_or_default());
@@ -133,7 +133,7 @@ fn usage(counts: Counts) -> Usage {
         input_tokens: counts.prompt_token_count,
         cached_input_tokens: counts.cached_content_token_count,
         cache_write_tokens: None,
-        // A server that reports counts omits a field whose value is 0.
+        // A server that reports counts omits every field whose value is 0.
         output_tokens: match (answer, thoughts) {
             (None, None) => counts.prompt_token_count.map(|_| 0),
             _ => Some(answer.unwrap_or(0).saturating_add(thoughts.unwrap_or(0))),

@@ -1,4 +1,4 @@
-//! The APIs of model servers. Each has a module, which builds request bodies and parses reply bodies.
+//! The APIs of model servers. Each API has a module that builds request bodies and parses reply bodies.
 
 mod anthropic;
 mod gemini;
@@ -18,13 +18,13 @@ use ureq::http::HeaderValue;
 base::named_enum! {
     /// The API of a server.
     pub enum Provider {
-        /// OpenAI's chat completions, in the dialect of its own servers.
+        /// OpenAI's chat-completions API, in the dialect of its own servers.
         OpenAi = "openai",
-        /// Chat completions of other servers: vLLM, llama.cpp, Ollama, gateways.
+        /// The chat-completions API of other servers, such as vLLM, llama.cpp, Ollama and gateways.
         Compatible = "compatible",
-        /// Anthropic's messages.
+        /// Anthropic's messages API.
         Anthropic = "anthropic",
-        /// Gemini's `generateContent`.
+        /// Gemini's `generateContent` API.
         Gemini = "gemini",
     }
 }
@@ -35,7 +35,8 @@ impl Provider {
         prefixed.into_iter().find(|provider| provider.name() == prefix)
     }
 
-    /// Returns the base URL of the provider's own servers; `None` if it has none.
+    /// Returns the base URL of the provider's own servers, or `None` if the provider has no servers of its
+    /// own.
     pub(super) fn own_url(self) -> Option<&'static str> {
         match self {
             Provider::OpenAi => Some("https://api.openai.com/v1"),
@@ -54,10 +55,11 @@ impl Provider {
         }
     }
 
-    /// Returns the decoding to send, which is the requested one plus the settings that this provider requires.
+    /// Returns the decoding to send: the requested settings plus the settings that this provider requires.
     ///
     /// # Errors
-    /// Returns an error if the request uses a setting that the provider does not have, or a number outside its range.
+    /// Returns an error if the request uses a setting that the provider does not have, or a number outside
+    /// its range.
     pub(super) fn decoding(self, requested: &Decoding) -> Result<Decoding, EvaluationError> {
         let mut decoding = requested.clone();
         check_ranges(requested).map_err(EvaluationError::Malformed)?;
@@ -71,7 +73,7 @@ impl Provider {
         Ok(decoding)
     }
 
-    /// Returns the path to append to the base URL.
+    /// Returns the URL path to append to the base URL.
     pub(super) fn path(self, model: &str) -> String {
         match self {
             Provider::OpenAi | Provider::Compatible => "/chat/completions".to_owned(),
@@ -80,7 +82,7 @@ impl Provider {
         }
     }
 
-    /// Returns the headers in addition to `Content-Type`.
+    /// Returns the headers to send in addition to `Content-Type`.
     pub(super) fn headers(self, key: Option<&Key>) -> Vec<(&'static str, HeaderValue)> {
         let mut headers = Vec::new();
         if self == Provider::Anthropic {
@@ -133,7 +135,8 @@ fn check_ranges(decoding: &Decoding) -> Result<(), String> {
     }
 }
 
-/// The text sent for an empty message, for APIs that do not allow one. It shows a model that it has said nothing.
+/// The text sent instead of an empty message, for APIs that reject empty messages. The text shows a model
+/// that its answer was empty.
 const PLACEHOLDER: &str = "(no words)";
 
 /// Returns the text, or [`PLACEHOLDER`] if it is empty.
@@ -145,7 +148,7 @@ fn base64(picture: &[u8]) -> String {
     STANDARD.encode(picture)
 }
 
-/// Returns an object of the fields that are set.
+/// Returns a JSON object that contains the fields whose values are set.
 fn object(fields: Vec<(&str, Option<Value>)>) -> Value {
     fields.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
@@ -154,7 +157,7 @@ fn parse<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, String> {
     serde_json::from_str(body).map_err(|error| format!("a body that is not a reply: {error}"))
 }
 
-/// Joins texts with line breaks; `None` if there are no texts.
+/// Joins texts with line breaks. Returns `None` if there are no texts.
 fn joined(texts: Vec<String>) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("\n"))
 }
@@ -179,7 +182,8 @@ mod tests {
         assert_eq!(Provider::Compatible.decoding(&fine).unwrap(), fine);
     }
 
-    /// Otherwise, sums would overflow, and a server's mistake could exhaust the caps.
+    /// Implausible counts are dropped. Otherwise, sums would overflow, and a server's mistake could exhaust
+    /// the caps.
     #[test]
     fn implausible_counts_are_left_out() {
         let body = r#"{"choices":[{"message":{"content":"up"},"finish_reason":"stop"}],
@@ -218,7 +222,7 @@ mod examples {
         }
     }
 
-    /// Returns a request with a single word.
+    /// Returns a request with one short message and no options.
     pub(super) fn bare() -> ChatRequest {
         let messages = vec![ChatMessage { role: Role::User, text: "Hi".to_owned(), image: None }];
         ChatRequest { messages, decoding: Decoding::default(), sample: Seed::from_text("bare") }

@@ -1,4 +1,4 @@
-//! Chat completions: OpenAI's own API, and the compatible ones of many other servers.
+//! The chat-completions API of OpenAI, and the compatible APIs of many other servers.
 
 use super::{base64, object, parse};
 use crate::client::chat::{ChatMessage, ChatReply, ChatRequest, Finish, Usage};
@@ -9,9 +9,10 @@ use serde_json::{Value, json};
 /// The dialects of chat completions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
-    /// The dialect of OpenAI's own servers, whose reasoning models accept only the newer name of the token limit.
+    /// The dialect of OpenAI's own servers, whose reasoning models accept only the newer name of the token
+    /// limit.
     Own,
-    /// The dialect of other servers, some of which accept only the older name.
+    /// The dialect of other servers, some of which accept only the older name of the token limit.
     Compatible,
 }
 
@@ -62,13 +63,13 @@ struct Choice {
 struct Message {
     content: Option<Content>,
     refusal: Option<String>,
-    /// The reasoning, as DeepSeek, vLLM and llama.cpp return it.
+    /// The reasoning, in the field that DeepSeek, vLLM and llama.cpp use.
     reasoning_content: Option<String>,
-    /// The reasoning, as Ollama, OpenRouter and later versions of vLLM return it.
+    /// The reasoning, in the field that Ollama, OpenRouter and later versions of vLLM use.
     reasoning: Option<String>,
 }
 
-/// The content of a message: a text, or parts, some of which are texts and others, such as images, are not.
+/// The content of a message: a single text, or a list of parts. Parts such as images have no text.
 #[derive(Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Content {
@@ -98,7 +99,8 @@ struct Counts {
     total_tokens: Option<u64>,
     prompt_tokens_details: Option<InputDetails>,
     completion_tokens_details: Option<OutputDetails>,
-    /// DeepSeek's name for a count that other servers list among the details.
+    /// The number of cached prompt tokens, in the field that DeepSeek uses. Other servers report the number
+    /// among the details.
     prompt_cache_hit_tokens: Option<u64>,
 }
 
@@ -115,7 +117,7 @@ struct OutputDetails {
 pub(super) fn answer(body: &str) -> Result<ChatReply, String> {
     let completion: Completion = parse(body)?;
     let Some(choice) = completion.choices.into_iter().next() else {
-        // Gateways report the errors of their upstream servers in this way.
+        // Gateways report the errors of their upstream servers in this field.
         let error = completion.error.filter(|error| !error.is_null());
         return Err(error.map_or("a body without choices".to_owned(), |error| {
             format!("an error instead of a reply: {error}")
@@ -141,8 +143,8 @@ fn usage(counts: Counts) -> Usage {
     let cached = counts.prompt_tokens_details.and_then(|details| details.cached_tokens);
     let reasoning = counts.completion_tokens_details.and_then(|details| details.reasoning_tokens);
     let mut output = counts.completion_tokens;
-    // Some servers count the reasoning in addition to the answer, not as a part of it. The total shows which is the
-    // case.
+    // Some servers count the reasoning in addition to the answer, and others count it as a part of the
+    // answer. The total shows which of the two applies.
     if let (Some(input), Some(answer), Some(reasoning), Some(total)) =
         (counts.prompt_tokens, output, reasoning, counts.total_tokens)
         && reasoning > 0

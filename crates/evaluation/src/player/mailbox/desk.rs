@@ -1,4 +1,4 @@
-//! The side of a mailbox that people and programs answer on.
+//! The player's side of a mailbox, on which people and programs answer prompts.
 
 use super::files::{
     FINISHED_FILE, FINISHED_TEXT, MAX_ANSWER, PROBLEM_FILE, PromptFile, is_absent, names, read_data,
@@ -12,7 +12,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A reader of a mailbox, which also delivers answers.
+/// The player's access to a mailbox, for reading prompts and delivering answers.
 #[derive(Debug)]
 pub struct Desk {
     folder: PathBuf,
@@ -24,22 +24,22 @@ pub struct Desk {
 pub struct View {
     /// The prompts that are waiting for an answer, sorted by episode.
     pub waiting: Vec<OpenPrompt>,
-    /// The number of prompts whose answer the evaluation has not read yet.
+    /// The number of answered prompts whose answers the evaluation has not read yet.
     pub answered: usize,
     /// The episodes that have ended, with their results.
     pub ended: Vec<(String, EpisodeResult)>,
-    /// The result of the evaluation, once all episodes have ended.
+    /// The result of the whole evaluation, once all episodes have ended.
     pub finished: Option<Finished>,
-    /// `true` if an evaluation is running on the mailbox.
+    /// `true` if an evaluation is currently using the mailbox.
     pub is_running: bool,
 }
 
 /// A prompt that is waiting for an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OpenPrompt {
-    /// The prompt.
+    /// The prompt to answer.
     pub prompt: PromptFile,
-    /// The problem with a previous answer that was set aside.
+    /// The problem with an earlier answer that was set aside.
     pub problem: Option<String>,
 }
 
@@ -48,9 +48,9 @@ pub struct OpenPrompt {
 pub enum Delivery {
     /// The answer was written to its file.
     Delivered,
-    /// The prompt already has an answer, or is no longer open.
+    /// The prompt was already answered, or is no longer open.
     TooLate,
-    /// The answer cannot be used, for the given reason.
+    /// The answer was rejected for the given reason.
     Refused(String),
 }
 
@@ -58,9 +58,11 @@ impl Desk {
     /// Opens the mailbox in a folder.
     ///
     /// # Errors
-    /// Returns an error if the folder has no mailbox, or if the mailbox has a newer format or is damaged.
+    /// Returns an error if the folder does not contain a mailbox, or if the mailbox has a newer format or is
+    /// damaged.
     pub fn open(folder: &Path) -> Result<Desk, EvaluationError> {
-        // If the path is a file, reading the marker below it would fail with a path that the user did not give.
+        // If the path is a file, the error for the marker below it would contain a path that the user did not
+        // give.
         let found = if folder.is_file() { None } else { marker(folder)? };
         match found {
             Some(marker) => Ok(Desk { folder: folder.to_owned(), player: marker.player }),
@@ -81,12 +83,13 @@ impl Desk {
         self.folder.join(episode)
     }
 
-    /// Returns the content of the mailbox.
+    /// Returns the current content of the mailbox.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read or is damaged.
     pub fn view(&self) -> Result<View, EvaluationError> {
-        // In this order, an evaluation that ends in the meantime is not mistaken for an interrupted one.
+        // The lock is checked first, so that an evaluation that ends in the meantime is not mistaken for an
+        // interrupted one.
         let is_running = is_locked(&self.folder);
         let finished = read_data(&self.folder.join(FINISHED_FILE))?;
         let mut view = View { finished, is_running, ..View::default() };
@@ -108,7 +111,7 @@ impl Desk {
             view.answered += names.iter().filter(|name| is_answered(name)).count();
             let Some(name) = prompts.max() else { continue };
             let Some(prompt) = read_data::<PromptFile>(&folder.join(name))? else { continue };
-            // The file states where its answer goes, which must be this folder.
+            // The prompt file states where its answer belongs, which must be this folder.
             if prompt.episode == episode && prompt.address.prompt_data() == *name {
                 let problem = read_text(&folder.join(PROBLEM_FILE))?.map(|text| text.trim().to_owned());
                 view.waiting.push(OpenPrompt { prompt, problem });
@@ -117,7 +120,7 @@ impl Desk {
         Ok(view)
     }
 
-    /// Returns the last message of an episode; `None` if it has not ended.
+    /// Returns the last message of an episode, or `None` if the episode has not ended.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
@@ -125,7 +128,7 @@ impl Desk {
         read_text(&self.episode(episode).join(FINISHED_TEXT))
     }
 
-    /// Delivers the answer to a prompt, unless the prompt already has one.
+    /// Delivers the answer to a prompt, unless the prompt already has an answer.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.

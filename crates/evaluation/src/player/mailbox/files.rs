@@ -1,4 +1,4 @@
-//! The names and contents of the files in a mailbox, and functions for writing and reading them.
+//! The names and contents of the files in a mailbox, with functions that read and write them.
 
 use crate::client::ChatMessage;
 use crate::error::EvaluationError;
@@ -11,23 +11,24 @@ use std::io;
 use std::path::Path;
 use std::str::FromStr;
 
-/// The file that marks a folder as a mailbox.
+/// The name of the file that marks a folder as a mailbox.
 pub(super) const MARKER_FILE: &str = "mailbox.json";
-/// The lock file, held by the evaluation that writes to a mailbox.
+/// The name of the lock file, which is locked by the evaluation that writes to the mailbox.
 pub(super) const LOCK_FILE: &str = ".lock";
-/// The file with the result of the whole evaluation, or of an episode.
+/// The name of the file with the result of an episode or of the whole evaluation.
 pub(super) const FINISHED_FILE: &str = "finished.json";
-/// The file with the last message of an episode.
+/// The name of the file with the last message of an episode.
 pub(super) const FINISHED_TEXT: &str = "finished.txt";
-/// The file with the problem of the last answer that was set aside.
+/// The name of the file with the problem of the last answer that was set aside.
 pub(super) const PROBLEM_FILE: &str = "problem.txt";
 
-/// The maximum size of an answer, in bytes: 256 KiB.
+/// The maximum size of an answer, in bytes (256 KiB).
 pub const MAX_ANSWER: usize = 1 << 18;
-/// The maximum size of the other files, in bytes.
+/// The maximum size of any other file in a mailbox, in bytes.
 pub(super) const MAX_FILE: u64 = 1 << 26;
 
-/// The address of a prompt within its episode, from which the names of its files are derived: `0007-0`.
+/// The address of a prompt within its episode, such as `0007-0`. The names of the prompt's files are derived
+/// from its address.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Address {
     /// The number of actions played before the decision.
@@ -42,17 +43,17 @@ impl Address {
         format!("{self}.prompt.txt")
     }
 
-    /// Returns the name of the file with the prompt as data, a [`PromptFile`].
+    /// Returns the name of the file with the prompt as data in the form of a [`PromptFile`].
     pub fn prompt_data(self) -> String {
         format!("{self}.prompt.json")
     }
 
-    /// Returns the name of the file with the image beside the prompt.
+    /// Returns the name of the file with the image that accompanies the prompt.
     pub fn picture(self) -> String {
         format!("{self}.png")
     }
 
-    /// Returns the name of the file for the answer.
+    /// Returns the name of the file for the answer to the prompt.
     pub fn answer(self) -> String {
         format!("{self}.answer.txt")
     }
@@ -75,12 +76,12 @@ impl FromStr for Address {
         };
         let attempt = u32::try_from(number(attempt)?).map_err(|_| ())?;
         let address = Address { step: number(step)?, attempt };
-        // Each address has exactly one name.
+        // Each address has exactly one valid name.
         if address.to_string() == text { Ok(address) } else { Err(()) }
     }
 }
 
-/// A prompt as data.
+/// A prompt in the form of data.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PromptFile {
     /// The version of the file format.
@@ -92,11 +93,11 @@ pub struct PromptFile {
     pub address: Address,
     /// The available actions.
     pub actions: Vec<String>,
-    /// The name of the file that takes the answer, beside the prompt.
+    /// The name of the file for the answer, in the folder of the prompt.
     pub answer: String,
-    /// The conversation, oldest message first, without images.
+    /// The conversation without images, oldest message first.
     pub messages: Vec<ChatMessage>,
-    /// The name of the PNG file with the newest message's image.
+    /// The name of the PNG file with the image of the newest message.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,
 }
@@ -107,16 +108,16 @@ pub(super) fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Evalu
     disk::write(&path, bytes, Access::Shared).map_err(EvaluationError::io("write", &path))
 }
 
-/// Writes data as indented JSON.
+/// Writes data to a file as indented JSON.
 pub(super) fn write_data(folder: &Path, name: &str, data: &impl Serialize) -> Result<(), EvaluationError> {
     let text = serde_json::to_string_pretty(data).expect("plain data") + "\n";
     write(folder, name, text.as_bytes())
 }
 
-/// Reads data; `None` if there is no such file.
+/// Reads data from a JSON file. Returns `None` if the file does not exist.
 ///
 /// # Errors
-/// Returns an error if the path is not a plain file with such data, or cannot be read.
+/// Returns an error if the path is not a plain file with data of this type, or cannot be read.
 pub(super) fn read_data<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, EvaluationError> {
     let Some(text) = read_text(path)? else { return Ok(None) };
     let wrong = |error: serde_json::Error| {
@@ -125,7 +126,7 @@ pub(super) fn read_data<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, E
     serde_json::from_str(&text).map(Some).map_err(wrong)
 }
 
-/// Reads a text; `None` if there is no such file.
+/// Reads a text file. Returns `None` if the file does not exist.
 pub(super) fn read_text(path: &Path) -> Result<Option<String>, EvaluationError> {
     match fs::symlink_metadata(path) {
         Err(error) if is_absent(&error) => return Ok(None),
@@ -138,7 +139,7 @@ pub(super) fn read_text(path: &Path) -> Result<Option<String>, EvaluationError> 
     match disk::read_no_follow(path, MAX_FILE) {
         Ok(None) => Err(EvaluationError::malformed(path, "not a file of a mailbox; remove it")),
         Ok(Some(bytes)) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
-        // An evaluation may remove answered prompts at any time.
+        // An evaluation may remove the files of answered prompts at any time.
         Err(error) if is_absent(&error) => Ok(None),
         Err(error) => Err(EvaluationError::io("read", path)(error)),
     }

@@ -1,4 +1,4 @@
-//! Creating, locking and finishing the folder of a mailbox, on the side of the evaluation.
+//! Creates, locks and finishes the folder of a mailbox, on the evaluation's side.
 
 use super::MAILBOX_FORMAT;
 use super::files::{FINISHED_FILE, LOCK_FILE, MARKER_FILE, names, read_data, write_data};
@@ -14,15 +14,16 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-/// The number of tries to lock a mailbox, and the pause between them. A [`Desk`](super::Desk) holds the lock for an
-/// instant when it tests whether an evaluation does.
+/// The number of tries to lock a mailbox. A [`Desk`](super::Desk) holds the lock briefly while it tests
+/// whether an evaluation holds it.
 const TRIES: u32 = 20;
+/// The pause between two tries to lock a mailbox.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// A function that shows notices to the user of the evaluation.
+/// A function that shows notices to the user who started the evaluation.
 pub type Notices = Arc<dyn Fn(&str) + Send + Sync>;
 
-/// A mailbox that an evaluation writes to.
+/// A mailbox, on the evaluation's side.
 pub struct Mailbox {
     pub(super) folder: PathBuf,
     pub(super) player: String,
@@ -37,7 +38,7 @@ pub(super) struct Marker {
     pub(super) format: u32,
     /// The name of the player in results.
     pub(super) player: String,
-    /// A digest of the settings of the evaluation that writes to the mailbox.
+    /// The digest of the settings of the evaluation that uses the mailbox.
     pub(super) evaluation: Digest,
 }
 
@@ -51,12 +52,11 @@ pub struct Finished {
 }
 
 impl Mailbox {
-    /// Opens the mailbox of an evaluation. The folder must be absent or empty or, with `resume`, the mailbox of the
-    /// same evaluation. A mailbox without any episode is free for every evaluation.
+    /// Opens the mailbox of an evaluation. The folder must be absent or empty. With `resume`, it may also be
+    /// the mailbox of the same evaluation. A mailbox without any episode can be used by every evaluation.
     ///
     /// # Errors
-    /// Returns an error if the folder is unsuitable, a different evaluation is writing to it, or it cannot be
-    /// written.
+    /// Returns an error if the folder is unsuitable, cannot be written, or is used by a different evaluation.
     pub fn open(
         folder: &Path,
         settings: &Settings,
@@ -103,7 +103,7 @@ impl Mailbox {
         Ok(Mailbox { folder: folder.to_owned(), player, notices, stopped: Mutex::default(), _lock: lock })
     }
 
-    /// Returns the folder of the mailbox.
+    /// Returns the path of the mailbox folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
@@ -113,12 +113,12 @@ impl Mailbox {
         self.stopped.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
     }
 
-    /// Returns the reason to stop waiting.
+    /// Returns the reason why the episodes must stop waiting, if there is one.
     pub(super) fn stopped(&self) -> Option<Halt> {
         self.stopped.lock().expect("no holder panics").clone()
     }
 
-    /// Informs the players that all episodes have ended. Does nothing if any episode has not ended.
+    /// Informs the players that all episodes have ended. Does nothing if any episode is still open.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.
@@ -137,7 +137,7 @@ impl std::fmt::Debug for Mailbox {
     }
 }
 
-/// Reads the marker of a mailbox; `None` if the folder has none.
+/// Reads the marker of a mailbox. Returns `None` if the folder has no marker.
 pub(super) fn marker(folder: &Path) -> Result<Option<Marker>, EvaluationError> {
     let path = folder.join(MARKER_FILE);
     let Some(data) = read_data::<serde_json::Value>(&path)? else { return Ok(None) };
@@ -153,7 +153,7 @@ pub(super) fn marker(folder: &Path) -> Result<Option<Marker>, EvaluationError> {
     read_data(&path)
 }
 
-/// Returns `true` if an evaluation is writing to the mailbox.
+/// Returns `true` if an evaluation is currently using the mailbox.
 pub(super) fn is_locked(folder: &Path) -> bool {
     Lock::is_held(&folder.join(LOCK_FILE))
 }
@@ -172,7 +172,7 @@ fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     Err(EvaluationError::malformed(folder, what))
 }
 
-/// Returns a digest that distinguishes evaluations.
+/// Returns a digest of the settings. Different evaluations have different digests.
 fn digest(settings: &Settings) -> Digest {
     Digest::of(&serde_json::to_vec(settings).expect("settings are plain data"))
 }

@@ -1,8 +1,10 @@
-//! Players that answer through files: people, chat windows and programs of any kind (`docs/how-to/mailbox.md`).
+//! Players that answer through files, such as people, chat windows and arbitrary programs
+//! (`docs/how-to/mailbox.md`).
 //!
-//! [`Mailbox`] is the evaluation's side of the folder, and [`MailboxPlayer`] plays an episode through it. [`Desk`] is
-//! the other side, which lists open prompts and delivers answers. Files appear complete, by renaming, and the log of
-//! the episode is the only record that a resumed evaluation depends on.
+//! [`Mailbox`] is the evaluation's side of the folder, and [`MailboxPlayer`] plays an episode through it.
+//! [`Desk`] is the player's side, which lists open prompts and delivers answers. Every file is complete when
+//! it appears, because it is written under a different name and then renamed. A resumed evaluation depends
+//! only on the log of the episode.
 
 mod desk;
 mod files;
@@ -14,5 +16,6 @@ pub use files::{Address, MAX_ANSWER, PromptFile};
 pub use folder::{Finished, Mailbox, Notices};
 pub use player::{EpisodeResult, MailboxPlayer};
 
-/// The version of the files in a mailbox, which is raised when a reader of older files could misread newer ones.
+/// The version of the files in a mailbox. It is raised whenever a reader of older files could misread newer
+/// files.
 pub const MAILBOX_FORMAT: u32 = 1;

@@ -26,29 +26,29 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-/// The pause between two checks for an answer.
+/// The pause between two checks for an answer file.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// An agent whose prompts and answers are files in its episode's folder. It uses the same prompts, complaints and
-/// parsing as a language model.
+/// An agent whose prompts and answers are files in its episode's folder. Its prompts, its feedback on invalid
+/// answers and its parser are those of a language model.
 pub struct MailboxPlayer {
     player: ModelPlayer,
     prompter: Arc<Prompter>,
     folder: Arc<EpisodeFolder>,
 }
 
-/// The result of an episode, as its folder records it.
+/// The result of an episode, as recorded in its folder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EpisodeResult {
     /// The outcome of the game, which is `ongoing` if the step limit was reached.
     pub outcome: Outcome,
-    /// The score.
+    /// The final score of the episode.
     pub score: f64,
     /// The number of actions played.
     pub steps: u64,
 }
 
-/// The folder of an episode. It acts as a model that answers a request when somebody has written the answer.
+/// The folder of an episode, as a model. It answers a request once somebody has written the answer file.
 #[derive(Debug)]
 struct EpisodeFolder {
     mailbox: Arc<Mailbox>,
@@ -57,7 +57,7 @@ struct EpisodeFolder {
     open: Mutex<Open>,
 }
 
-/// The prompt that is open, or will be opened next.
+/// The prompt that is open or is opened next.
 #[derive(Debug, Default)]
 struct Open {
     address: Address,
@@ -65,8 +65,8 @@ struct Open {
 }
 
 impl MailboxPlayer {
-    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of repeated questions,
-    /// with a complaint, after an answer without an available action.
+    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of times that
+    /// the question is repeated after an answer without an available action.
     pub fn new(
         mailbox: Arc<Mailbox>,
         task: &Task<'_>,
@@ -81,7 +81,7 @@ impl MailboxPlayer {
 }
 
 impl MailboxPlayer {
-    /// Opens the next prompt, which is about the given turn.
+    /// Opens the next prompt, which asks about the given turn.
     fn open(&self, turn: &Turn<'_>, journal: &Journal) {
         let answered = journal.pending().iter().filter(|event| matches!(event, Event::Reply(_))).count();
         let address = Address { step: turn.number, attempt: answered as u32 };
@@ -89,7 +89,7 @@ impl MailboxPlayer {
         *self.folder.open.lock().expect("no holder panics") = Open { address, actions };
     }
 
-    /// Removes the files of a prompt whose answer is in the log.
+    /// Removes the files of a prompt whose answer is recorded in the log.
     fn close<T>(&self, answered: Result<T, Halt>) -> Result<T, Halt> {
         let answered = answered.map_err(|halt| self.folder.mailbox.stopped().unwrap_or(halt))?;
         self.folder.clear(None).map_err(|error| Halt::Infrastructure(told(&error)))?;
@@ -153,7 +153,7 @@ impl EpisodeFolder {
         EpisodeFolder { mailbox, episode, path, open: Mutex::default() }
     }
 
-    /// Creates the folder, which may already exist.
+    /// Creates the episode's folder, which may already exist.
     fn create(&self) -> Result<(), EvaluationError> {
         match fs::create_dir(&self.path) {
             Ok(()) => Ok(()),
@@ -171,12 +171,12 @@ impl EpisodeFolder {
             _ => false,
         };
         let mut removed: Vec<&String> = names.iter().filter(is_removed).collect();
-        // Answers are removed last, because a prompt without its answer would be mistaken for an open one.
+        // Answers are removed last, because a prompt without its answer would be mistaken for an open prompt.
         removed.sort_by_key(|name| name.ends_with(".answer.txt"));
         removed.into_iter().try_for_each(|name| remove(&self.path.join(name)))
     }
 
-    /// Writes the files of a prompt. The text comes last.
+    /// Writes the files of a prompt. The text file is written last.
     fn show(&self, open: &Open, messages: &[ChatMessage]) -> Result<(), EvaluationError> {
         let address = open.address;
         let picture = messages.last().and_then(|message| message.image.as_deref());
@@ -197,8 +197,8 @@ impl EpisodeFolder {
         write(&self.path, &address.prompt_text(), conversation(messages).as_bytes())
     }
 
-    /// Waits for the answer to the open prompt, or until the evaluation stops. Files that cannot be its answer are
-    /// set aside with a notice.
+    /// Waits for the answer to the open prompt, or until the evaluation stops. Files that cannot be the
+    /// answer are set aside with a notice.
     fn wait(&self, address: Address) -> Result<String, EvaluationError> {
         let (mut last, mut is_told) = (None, false);
         loop {
@@ -220,7 +220,7 @@ impl EpisodeFolder {
                     last = None;
                     self.set_aside(&name, &why)?;
                 }
-                // A file that is still being written has different bytes at the next look.
+                // A file that is still being written will have different bytes at the next check.
                 Look::Bytes(bytes) if last.as_ref() != Some(&bytes) => last = Some(bytes),
                 Look::Bytes(bytes) => match String::from_utf8(bytes) {
                     Ok(text) => {
@@ -241,7 +241,7 @@ impl EpisodeFolder {
         }
     }
 
-    /// Renames a file that cannot be the answer, and writes the reason beside the prompt.
+    /// Renames a file that cannot be the answer, and writes the reason to a file in the same folder.
     fn set_aside(&self, name: &str, why: &str) -> Result<(), EvaluationError> {
         let to = |number: u32| name.replace(".answer.txt", &format!(".refused-{number}.txt"));
         let free = |name: &String| fs::symlink_metadata(self.path.join(name)).is_err();
@@ -291,7 +291,7 @@ impl Model for EpisodeFolder {
     }
 }
 
-/// The state of the file for an answer.
+/// The state of an answer file.
 enum Look {
     Absent,
     /// The file contains only white space.
@@ -324,7 +324,7 @@ fn look(path: &Path) -> Result<Look, EvaluationError> {
     }
 }
 
-/// Splits the name of a prompt's file into its address and its kind: `prompt.txt`, `answer.txt`.
+/// Splits the name of a prompt's file into its address and its kind, such as `prompt.txt` or `answer.txt`.
 fn split(name: &str) -> Option<(Address, &str)> {
     let (address, kind) = name.split_once('.')?;
     Some((address.parse().ok()?, kind))
@@ -338,7 +338,7 @@ fn remove(path: &Path) -> Result<(), EvaluationError> {
     }
 }
 
-/// Returns a conversation as one text. Roles are named only if it contains an answer.
+/// Returns a conversation as one text. Roles are shown only if the conversation contains an answer.
 fn conversation(messages: &[ChatMessage]) -> String {
     let has_answers = messages.iter().any(|message| message.role == Role::Assistant);
     let part = |message: &ChatMessage| match (has_answers, message.role) {
@@ -349,7 +349,7 @@ fn conversation(messages: &[ChatMessage]) -> String {
     messages.iter().map(part).join("\n\n") + "\n"
 }
 
-/// Returns an error with its cause on one line.
+/// Formats an error and its cause on one line.
 fn told(error: &EvaluationError) -> String {
     match error {
         EvaluationError::Io { source, .. } => format!("{error}: {source}"),

@@ -1,4 +1,4 @@
-//! A child process that communicates in lines.
+//! A child process that communicates in lines of text.
 
 #[cfg(unix)]
 use super::running::running;
@@ -13,28 +13,29 @@ use std::thread;
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// The maximum size of a line from a process, in bytes: 1 MiB.
+/// The maximum size of a line from a process, in bytes (1 MiB).
 pub(super) const MAX_LINE: usize = 1 << 20;
 
-/// The number of bytes kept from the end of standard error.
+/// The number of trailing bytes kept from standard error.
 const STDERR_TAIL: usize = 2000;
 
 /// The number of unread lines from a process after which its writes block.
 const MAX_QUEUED_LINES: usize = 16;
 
-/// The time that a process has to exit after it has been informed of the end.
+/// The time that a process has to exit after it was informed of the end.
 pub(super) const EXIT_TIME: Duration = Duration::from_secs(2);
 
-/// The time that the threads have to deliver the remaining output of a dead process.
+/// The time that the reading threads have to deliver the remaining output of a dead process.
 const DRAIN_TIME: Duration = Duration::from_millis(500);
 
-/// The number of polls for a guard to kill its program and exit, and the pause between them, which add up to at most
-/// ten seconds.
+/// The number of polls in which a guard must kill its program and exit. With the pauses between polls, the
+/// time adds up to at most ten seconds.
 const POLLS: u32 = 2000;
+/// The pause between two polls for a guard.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// The environment variables that every process inherits if they are set: the locations of programs, libraries and
-/// their caches, and the language. None of them is an API key.
+/// The environment variables that every process inherits if they are set. They contain the locations of
+/// programs, libraries and caches, and the language. None of these variables holds an API key.
 const ENVIRONMENT: &[&str] = &[
     "PATH",
     "HOME",
@@ -49,18 +50,18 @@ const ENVIRONMENT: &[&str] = &[
     "SYSTEMROOT",
 ];
 
-/// A running process with its own empty folder. Dropping it kills the process with all its descendants, and removes
-/// the folder.
+/// A running process with its own empty folder. Dropping the value kills the process and all its descendants,
+/// and removes the folder.
 #[derive(Debug)]
 pub(super) struct LineProcess {
-    /// The process or its guard.
+    /// The process, or the guard if the process has one.
     child: Child,
     is_guarded: bool,
-    /// The channel for sending lines; `None` once nothing more will be sent.
+    /// The channel for sending lines, or `None` once nothing more will be sent.
     input: Option<Sender<Vec<u8>>>,
     output: Receiver<Output>,
     stderr_tail: Receiver<String>,
-    /// The folder, which is removed on drop.
+    /// The folder of the process, which is removed on drop.
     _folder: TempDir,
     ended: bool,
 }
@@ -74,23 +75,23 @@ enum Output {
 /// The reason why no line was received.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NoLine {
-    /// No line arrived in time.
+    /// No line arrived before the timeout.
     TimedOut,
-    /// The process has closed its standard output: it is dead or about to exit.
+    /// The process closed its standard output, so it is dead or about to exit.
     Closed,
     /// The line is longer than [`MAX_LINE`].
     TooLong,
-    /// There were too many answers to earlier questions.
+    /// The process sent too many answers to earlier questions.
     Stale,
 }
 
 impl LineProcess {
-    /// Starts a program, behind a guard if a guard command is given. Words of the command that are names of files are
-    /// made absolute, because the process runs in a different folder.
+    /// Starts a program. If a guard command is given, the program runs behind a guard. Words of the command
+    /// that are names of files are made absolute, because the process runs in a different folder.
     ///
     /// # Errors
-    /// Returns an error if the process cannot be started. The kind `Interrupted` means that this program is about to
-    /// end.
+    /// Returns an error if the process cannot be started. The error kind `Interrupted` means that this
+    /// program is about to end.
     pub(super) fn start(
         words: &[String],
         inherited: &[String],
@@ -98,7 +99,7 @@ impl LineProcess {
     ) -> std::io::Result<LineProcess> {
         let place = std::path::absolute(std::env::temp_dir())?;
         let mut builder = tempfile::Builder::new();
-        // The files that players write there must not be readable by other users.
+        // The files that players write to the folder must not be readable by other users.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
         let folder = builder.prefix("arcade-player-").tempdir_in(place)?;
@@ -146,11 +147,11 @@ impl LineProcess {
         })
     }
 
-    /// Sends a line without waiting until it is read.
+    /// Sends a line without waiting until the process reads it.
     pub(super) fn send_line(&self, mut line: Vec<u8>) {
         line.push(b'\n');
         if let Some(input) = &self.input {
-            // If nobody reads the line, the missing answer will show it.
+            // If the process does not read the line, it will not answer it either.
             let _ = input.send(line);
         }
     }
@@ -165,7 +166,8 @@ impl LineProcess {
         }
     }
 
-    /// Closes the input, and gives the process a moment to exit by itself. Its output is ignored.
+    /// Closes the input of the process, and gives the process a moment to exit by itself. Its output is
+    /// ignored.
     pub(super) fn close(mut self) {
         self.input = None;
         let closed = Stopwatch::start();
@@ -176,11 +178,11 @@ impl LineProcess {
         }
     }
 
-    /// Kills the process with all its descendants. Returns its exit status, if it had already exited, and the end of
-    /// its standard error.
+    /// Kills the process and all its descendants. Returns the exit status, if the process had already exited,
+    /// and the end of its standard error.
     pub(super) fn kill(mut self) -> (Option<ExitStatus>, String) {
         if matches!(self.receive(Duration::ZERO), Err(NoLine::Closed)) {
-            // The process is exiting, and has its own exit status after a moment.
+            // The process is already exiting, and will have its own exit status after a moment.
             thread::sleep(DRAIN_TIME / 10);
         }
         let status = self.end().filter(|status| status.code().is_some());
@@ -198,8 +200,8 @@ impl LineProcess {
         self.child.wait().ok()
     }
 
-    /// Makes the guard end its program, and kills the remaining process group. The process ID cannot be reused before
-    /// the process is reaped, and `end_all` waits for the returned lock until then.
+    /// Makes the guard end its program, and kills the remaining process group. The process ID cannot be
+    /// reused before the process is reaped. `end_all` waits for the returned lock until then.
     #[cfg(unix)]
     fn end_group(&self) -> Option<std::sync::MutexGuard<'static, super::running::Running>> {
         use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
@@ -257,8 +259,8 @@ fn spawn(command: &mut Command, is_guarded: bool) -> std::io::Result<Child> {
     }
 }
 
-/// Resolves a word so that it means the same in any folder. If the word is the name of a file, returns the file's
-/// absolute path.
+/// Resolves a word so that it has the same meaning in any folder. If the word is the name of an existing
+/// file, returns the file's absolute path.
 fn resolved(word: &str, may_be_file: bool) -> OsString {
     let path = Path::new(word);
     let absolute = || std::path::absolute(path).ok();
@@ -290,7 +292,7 @@ fn read(stdout: impl Read, sender: &SyncSender<Output>) {
     }
 }
 
-/// Returns the end of a stream after reading all of it.
+/// Reads a stream to its end, and returns its last [`STDERR_TAIL`] bytes as text.
 fn tail(mut stderr: impl Read) -> String {
     let (mut kept, mut bytes) = (VecDeque::new(), [0; 4096]);
     while let Ok(length @ 1..) = stderr.read(&mut bytes) {

@@ -1,15 +1,16 @@
-//! The guard of a player: a process between `arcade` and an external program, which ends the program when `arcade` is
-//! gone.
+//! The guard of an external player. A guard is a process between `arcade` and the player's program, which
+//! ends the program when `arcade` is gone.
 //!
-//! `arcade` can be killed in ways that no handler sees, and a program can start processes that leave its group
-//! (`setsid`). The guard relays the messages of `arcade`. When that stream closes, because the episode is over or
-//! because `arcade` no longer exists, the guard kills the program with all its descendants, and removes the folder in
-//! which it ran. Standard output and standard error of the program go directly to `arcade`.
+//! `arcade` can be killed without a chance to handle the signal, and a program can start processes that leave
+//! its process group (`setsid`). The guard relays the messages of `arcade` to the program. The stream of
+//! messages closes when the episode is over or `arcade` no longer exists. The guard then kills the program
+//! and all its descendants, and removes the folder in which the program ran. Standard output and standard
+//! error of the program go directly to `arcade`.
 //!
-//! On Linux, the guard is the reaper of its descendants (`PR_SET_CHILD_SUBREAPER`): a process that outlives its
-//! parent stays below the guard, in any group or session, and is found there. On other systems, processes that have
-//! left the program's group escape. A control group would find no more, because a process started through an external
-//! service (`systemd-run`, `docker`) escapes both.
+//! On Linux, the guard is the reaper of its descendants (`PR_SET_CHILD_SUBREAPER`). A process that outlives
+//! its parent stays a descendant of the guard, in any group or session, and can be found. On other systems,
+//! processes that have left the program's group escape. A control group would not find more processes,
+//! because a process started through an external service (`systemd-run`, `docker`) escapes both.
 
 use super::child::EXIT_TIME;
 use rustix::io::Errno;
@@ -27,33 +28,34 @@ use std::time::Duration;
 /// The exit status of a guard whose program could not be started.
 pub(super) const NOT_STARTED: i32 = 126;
 
-/// The beginning of the last message of such a guard, which the reason follows.
+/// The beginning of the last message of a guard whose program could not be started. The reason follows.
 pub(super) const NOT_STARTED_BECAUSE: &str = "arcade player-guard: not started: ";
 
-/// The maximum number of rounds of killing all descendants until none is found.
+/// The maximum number of rounds in which all remaining descendants are killed.
 const ROUNDS: u32 = 1000;
 
-/// The pause after each round.
+/// The pause after each round of killing descendants.
 const PAUSE: Duration = Duration::from_millis(5);
 
 enum Event {
-    /// A signal: `SIGCHLD`, or a request to end.
+    /// A signal, which is `SIGCHLD` or a request to end.
     Signal(i32),
     InputEnded,
-    /// The time for exiting voluntarily is over.
+    /// The time for the program to exit voluntarily is over.
     TimeUp,
 }
 
-/// Runs a program until it has ended with all its descendants, or until it must end: two seconds after standard input
-/// has closed, or at once on `SIGTERM`, `SIGINT`, `SIGHUP` or `SIGQUIT`. Removes `folder` at the end.
+/// Runs a program until it has ended with all its descendants, or until it must end. The program must end two
+/// seconds after standard input has closed, or at once on `SIGTERM`, `SIGINT`, `SIGHUP` or `SIGQUIT`. Removes
+/// `folder` at the end.
 ///
-/// Returns the exit status of the program, 128 plus the number of the signal that ended it, or 126 if it could not be
-/// started. A guard that has to kill its program also ends itself by `SIGKILL`, together with its process group,
-/// whose leader it should be.
+/// Returns the exit status of the program, 128 plus the number of the signal that ended it, or 126 if it
+/// could not be started. A guard that has to kill its program also ends itself by `SIGKILL`, together with
+/// its process group. The guard should be the leader of that group.
 pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
     let (sender, events) = channel();
     let started = Signals::new([SIGCHLD, SIGTERM, SIGINT, SIGHUP, SIGQUIT]).and_then(|signals| {
-        // On systems without subreapers, killing the group must suffice.
+        // On systems without subreapers, the guard can kill only the process group.
         #[cfg(target_os = "linux")]
         let _ = rustix::process::set_child_subreaper(Some(getpid()));
         let child = Command::new(program).args(arguments).stdin(Stdio::piped()).spawn()?;
@@ -95,7 +97,8 @@ impl Program {
         Pid::from_child(&self.child)
     }
 
-    /// Waits until all processes have ended or must end. Returns `true` if the exit status may be needed.
+    /// Waits until all processes have ended or must end. Returns `true` if the caller may need the exit
+    /// status.
     fn wait_for_end(&mut self, events: &Receiver<Event>, sender: &Sender<Event>) -> bool {
         loop {
             match events.recv().expect("this thread can tell itself") {
@@ -105,7 +108,7 @@ impl Program {
                     }
                 }
                 Event::Signal(_) => {
-                    // If the program has exited by itself, it keeps its own status.
+                    // If the program has exited by itself, its own exit status is kept.
                     self.reap();
                     return true;
                 }
@@ -121,7 +124,7 @@ impl Program {
         }
     }
 
-    /// Kills all remaining descendants, and waits until they are gone, for up to [`ROUNDS`] rounds.
+    /// Kills all remaining descendants in up to [`ROUNDS`] rounds, and waits until they are gone.
     fn kill(&mut self) {
         let had_left = self.status;
         for _ in 0..ROUNDS {
@@ -139,7 +142,7 @@ impl Program {
         self.status = had_left;
     }
 
-    /// Reaps all ended processes. Returns `true` if any process remains.
+    /// Reaps all ended processes. Returns `true` if any process is still running.
     fn reap(&mut self) -> bool {
         loop {
             match wait(WaitOptions::NOHANG) {
@@ -155,7 +158,8 @@ impl Program {
     }
 }
 
-/// Closes the guard's standard output and standard error, so that they close when the program closes them.
+/// Closes the guard's standard output and standard error, so that `arcade` sees the end of output when the
+/// program closes them.
 fn release_output() {
     if let Ok(nowhere) = std::fs::File::options().write(true).open("/dev/null") {
         let _ = rustix::stdio::dup2_stdout(&nowhere);
@@ -163,15 +167,16 @@ fn release_output() {
     }
 }
 
-/// Relays standard input to the program. Reading never waits for writing, so the end of input is noticed even while
-/// the program reads nothing. The buffer holds only messages that `arcade` sent without waiting for an answer.
+/// Relays standard input to the program. Reading never waits for writing, so the guard notices the end of
+/// input even while the program reads nothing. The buffer holds only messages that `arcade` sent without
+/// waiting for an answer.
 fn relay(mut to: ChildStdin, sender: Sender<Event>) {
     let (pass, passed) = channel::<Vec<u8>>();
     thread::spawn(move || {
         let mut bytes = vec![0; 1 << 16];
         let mut from = std::io::stdin().lock();
         while let Ok(length @ 1..) = from.read(&mut bytes) {
-            // A program that no longer reads may still write.
+            // Even if the program no longer reads its input, it may still write output.
             let _ = pass.send(bytes[..length].to_vec());
         }
         drop(pass);
@@ -199,8 +204,8 @@ fn descendants() -> Vec<Pid> {
     found.into_iter().skip(1).filter_map(Pid::from_raw).collect()
 }
 
-/// Parses the parent in a line of `/proc/<pid>/stat`, which is the second field after the name. The name is in
-/// parentheses and may contain any byte.
+/// Parses the parent process ID in a line of `/proc/<pid>/stat`. The ID is the second field after the process
+/// name. The name is in parentheses and may contain any byte.
 #[cfg(target_os = "linux")]
 fn parent(stat: &[u8]) -> Option<i32> {
     let end = stat.iter().rposition(|&byte| byte == b')')?;
@@ -208,7 +213,7 @@ fn parent(stat: &[u8]) -> Option<i32> {
     rest.split_whitespace().nth(1)?.parse().ok()
 }
 
-/// Returns no descendants, because they are unknown without a subreaper.
+/// Returns an empty list, because descendants are unknown without a subreaper.
 #[cfg(not(target_os = "linux"))]
 fn descendants() -> Vec<Pid> {
     Vec::new()

@@ -1,7 +1,8 @@
 //! External agents, each of which is a process that communicates in lines of JSON (`docs/how-to/agents.md`).
 //!
-//! The process receives only the facts that a player may know: not the source of the level, the forward model, the
-//! seed, or the path to a witness. It runs in its own empty folder, with a reduced environment.
+//! The process receives only facts that a player may know. It does not receive the source of the level, the
+//! forward model, the seed, or the path to a witness. The process runs in its own empty folder, with a
+//! reduced environment.
 
 mod child;
 #[cfg(unix)]
@@ -43,28 +44,29 @@ use std::ffi::OsString;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The maximum number of recorded characters of an invalid answer.
+/// The maximum number of characters recorded from an invalid answer.
 const MAX_RECORDED: usize = 500;
 
-/// The maximum number of repeated questions after an invalid answer.
+/// The maximum number of times that a question is repeated after an invalid answer.
 const MAX_REASKS: u32 = 1;
 
-/// The maximum wait for the answer to an `invalid` message before a notice is shown.
+/// The time without an answer to an `invalid` message after which a notice is shown.
 const NOTICE_AFTER: Duration = Duration::from_secs(10);
 
-/// The maximum size of answers to earlier turns that are skipped before the answer to a question, in bytes: 1 MiB.
+/// The maximum total size of answers to earlier turns that are skipped while waiting for an answer, in bytes
+/// (1 MiB).
 const MAX_STALE: usize = 1 << 20;
 
-/// The configuration of processes.
+/// The configuration of an external process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProcessConfig {
-    /// The time limit for an answer. For the first answer, it includes the start of the process.
+    /// The time limit for an answer. The first answer's limit includes the start of the process.
     pub timeout: Duration,
-    /// The names of environment variables that the process inherits in addition to the usual ones.
+    /// The names of environment variables that the process inherits in addition to the default variables.
     pub inherited: Vec<String>,
-    /// The command of a guard, which is a program that calls [`guard`](guard()) with its remaining arguments: the
-    /// folder, `--`, and the words of the command. If it is empty, the process is started directly, and survives if
-    /// this program is killed.
+    /// The command of a guard, which is a program that calls [`guard`](guard()) with its remaining arguments.
+    /// These arguments are the folder, `--`, and the words of the command. If the guard command is empty, the
+    /// process is started directly, and survives if this program is killed.
     pub guard: Vec<OsString>,
 }
 
@@ -74,8 +76,8 @@ impl Default for ProcessConfig {
     }
 }
 
-/// A player that is an external program. The program is started at the first turn of an episode, and killed at its
-/// end.
+/// A player that is an external program. The program is started at the first turn of an episode, and killed
+/// at the end of the episode.
 #[derive(Debug)]
 pub struct Process {
     command: String,
@@ -85,7 +87,7 @@ pub struct Process {
     notices: Notices,
     /// The track, which determines the information that the process receives.
     track: Track,
-    /// `true` if the process has been greeted in this level.
+    /// `true` if the process has received the `hello` message for this level.
     is_greeted: bool,
 }
 
@@ -105,7 +107,8 @@ struct Running {
 }
 
 impl Process {
-    /// Creates a player from a command line. Words are split as by a shell, but no shell is run.
+    /// Creates a player from a command line. The command line is split into words by the rules of a shell,
+    /// but no shell is run.
     ///
     /// # Errors
     /// Returns an error if the command line is empty, or if its quotes do not match.
@@ -119,28 +122,28 @@ impl Process {
         Ok(Process { command: command.to_owned(), words, config, running: None, notices, track, is_greeted })
     }
 
-    /// Sets the function that shows notices to the user, for example that the process is silent after its answer was
-    /// rejected.
+    /// Sets the function that shows notices to the user. For example, a notice reports that the process is
+    /// silent after its answer was rejected.
     #[must_use]
     pub fn with_notices(mut self, notices: Arc<dyn Fn(&str) + Send + Sync>) -> Process {
         self.notices = Notices(notices);
         self
     }
 
-    /// Sets the track. On [`Track::Discover`], the process plays all levels of a series, and is asked for predictions
-    /// at the end.
+    /// Sets the track. On [`Track::Discover`], the process plays all levels of a series, and must make
+    /// predictions at the end.
     #[must_use]
     pub fn on_track(mut self, track: Track) -> Process {
         self.track = track;
         self
     }
 
-    /// Checks, before anything depends on them, that the program of the command line exists, and the script that an
-    /// interpreter should run.
+    /// Checks that the program of the command line exists, and the script if the program is an interpreter.
+    /// The check runs before anything depends on the program.
     ///
     /// # Errors
-    /// Returns an error if the program cannot be started, as far as this can be checked. The message suggests the
-    /// name that was probably intended.
+    /// Returns an error if the check shows that the program cannot be started. The message suggests the name
+    /// that was probably intended.
     #[cfg(unix)]
     pub fn find(&self) -> Result<(), String> {
         program::find(&self.words).map_err(|problem| format!("`cmd:{}`: {problem}", self.command))
@@ -151,7 +154,7 @@ impl Process {
         &self.command
     }
 
-    /// Returns the process, started and greeted if necessary.
+    /// Returns the process. If necessary, the process is started and the `hello` message is sent.
     fn running(&mut self, turn: &Turn<'_>) -> Result<&mut Running, Halt> {
         let running = match self.running.take() {
             Some(running) => running,
@@ -171,7 +174,7 @@ impl Process {
         Ok(self.running.insert(running))
     }
 
-    /// Returns the notice about a process that ignores `invalid` messages.
+    /// Returns the notice about a process that does not answer `invalid` messages.
     fn silence(&self, turn: &Turn<'_>) -> String {
         let (command, number, seconds) = (&self.command, turn.number, self.config.timeout.as_secs_f64());
         format!(
@@ -184,7 +187,7 @@ impl Process {
         Halt::Rejected(format!("`{}` cannot be started: {why}", self.command))
     }
 
-    /// Handles a failure of the player by killing it and reporting its last output.
+    /// Handles a failure of the player by killing the process and reporting its last output.
     fn failed(&mut self, no_line: NoLine, turn: &Turn<'_>, attempt: u32) -> Halt {
         let number = turn.number;
         let what = match no_line {
@@ -326,18 +329,19 @@ impl Agent for Process {
     }
 }
 
-/// Returns the available actions that can have an effect in the game, which are the same as in the prompts of models.
+/// Returns the available actions that can have an effect in the game. The prompts of models list the same
+/// actions.
 fn of_use(turn: &Turn<'_>) -> Vec<Action> {
     let analysis = &turn.subject.analysis;
     turn.actions.iter().copied().filter(|&action| is_of_use(analysis, action)).collect()
 }
 
-/// The facts about a game for the whole episode.
+/// The facts about a game that apply to the whole episode.
 #[derive(Debug)]
 struct Shown {
     rules: String,
     legend: Legend,
-    /// The mask with the names that the process receives, if they are not the game's own.
+    /// The mask with the names that the process receives, or `None` if it receives the game's own names.
     mask: Option<Mask>,
     /// `true` if the score is shown only at the end.
     hides_score: bool,
@@ -352,18 +356,19 @@ impl Shown {
         let shuffled = mask.as_ref().map(|_| Mask::neutral_characters(game));
         let legend = Legend::new(analysis, &LegendOptions { shuffled, ..LegendOptions::default() });
         let hides_score = track == Track::Discover;
-        // The legend is omitted, because the characters of the level files differ from those of the grid.
+        // The game's own legend is omitted, because the characters of the level files differ from those of
+        // the grid.
         let rules = Guide { legend: Vec::new(), ..limited(Guide::from_analysis(analysis), turn.limit) };
         let rules = if hides_score { String::new() } else { rules.to_string() };
         Shown { rules, legend, mask, hides_score }
     }
 
-    /// Returns the name that the process receives.
+    /// Returns the name that the process receives for one of the game's own names.
     fn name<'a>(&'a self, own: &'a str) -> &'a str {
         self.mask.as_ref().map_or(own, |mask| mask.name(own))
     }
 
-    /// Returns the observation under the names that the process receives.
+    /// Returns the observation with the names that the process receives.
     fn masked<'a>(&self, seen: &'a Observation) -> Cow<'a, Observation> {
         self.mask.as_ref().map_or(Cow::Borrowed(seen), |mask| Cow::Owned(mask.observation(seen)))
     }
@@ -386,7 +391,7 @@ impl Shown {
         }
     }
 
-    /// Returns the line for a turn.
+    /// Returns the message for a turn, as a line of JSON.
     fn turn(&self, turn: &Turn<'_>, past: Option<Past>) -> Vec<u8> {
         let masked = self.masked(turn.observation);
         let played = (!turn.commit.is_one()).then(|| turn.played.iter().map(Tick::of).collect());
@@ -401,21 +406,23 @@ impl Shown {
     }
 }
 
-/// An answer with an action, or with the actions of a plan.
+/// An answer that contains an action, or the actions of a plan.
 #[derive(Deserialize)]
 struct Answer {
     action: Option<String>,
     actions: Option<Vec<String>>,
 }
 
-/// The turn that an answer states, if it states one.
+/// The optional turn number in an answer.
 #[derive(Deserialize)]
 struct Addressed {
     turn: u64,
 }
 
-/// Returns the next answer. Answers to an earlier turn are skipped, so that an agent that states turns cannot get out
-/// of step. The timeout keeps running in the meantime. After `notice_after`, `notice` is called once.
+/// Returns the next answer to the given turn.
+///
+/// Answers to an earlier turn are skipped, so that an agent that states turns cannot get out of step. The
+/// timeout includes the skipped answers. After `notice_after`, `notice` is called once.
 fn receive(
     process: &LineProcess,
     timeout: Duration,
@@ -445,7 +452,7 @@ fn receive(
     }
 }
 
-/// Returns the actions in an answer, up to the number due, or the problem with the answer.
+/// Returns the actions in an answer, up to the number due, or a message about the problem with the answer.
 fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     if let Ok(Addressed { turn: addressed }) = serde_json::from_slice(answer)
         && addressed > turn.number
@@ -468,7 +475,7 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
             Ok(vec![*known.ok_or_else(unavailable)?])
         }
         (true, None, _) => Err(expected("missing field `action`")),
-        // It is unknown at this point which actions will be available later.
+        // At this point, it is unknown which actions will be available later.
         (false, _, Some(actions)) => {
             let known = |action: String| {
                 let found = Action::ALL.into_iter().find(|known| known.to_string() == action);
@@ -482,8 +489,8 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     }
 }
 
-/// Returns the predictions in an answer, or the problem with the answer. `names` maps the names that the process
-/// received to the game's own.
+/// Returns the predictions in an answer, or a message about the problem with the answer. `names` maps the
+/// names that the process received to the game's own names.
 fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<Predicted, String> {
     const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with kinds that were asked about";
     let answer: BTreeMap<String, Value> =

@@ -1,5 +1,5 @@
-//! A check of a command's program before it is started, so that a misspelt name is reported before a results folder
-//! is created.
+//! Checks a command's program before the program is started, so that a misspelt name is reported before a
+//! results folder is created.
 
 use base::MessagePath;
 use itertools::Itertools;
@@ -7,22 +7,22 @@ use std::ffi::OsStr;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-/// The file extensions of scripts, which interpreters take as their first argument.
+/// The file extensions of scripts that are run as the first argument of an interpreter.
 const SCRIPTS: [&str; 9] = ["py", "sh", "js", "mjs", "ts", "rb", "pl", "lua", "jl"];
 
-/// Checks that the program given by the first word exists, and the script given by the second word if it looks like a
-/// script.
+/// Checks that the program in the first word exists. If the second word looks like a script, checks that the
+/// script exists too.
 pub(super) fn find(words: &[String]) -> Result<(), String> {
     let path = std::env::var_os("PATH");
     find_in(words, path.as_deref(), Path::new(""))
 }
 
-/// Checks the program and the script, with the folders of `path` relative to `here`.
+/// Checks the program and the script. Relative folders of `path` are resolved against `here`.
 fn find_in(words: &[String], path: Option<&OsStr>, here: &Path) -> Result<(), String> {
     let program = words.first().expect("a command has a first word");
     match program.contains(std::path::is_separator) {
         true => check(program, &here.join(program), true)?,
-        // Without PATH, the locations of programs depend on the system.
+        // Without `PATH`, the locations of programs depend on the system.
         false => path.map_or(Ok(()), |path| in_path(program, path, here))?,
     }
     match words.get(1) {
@@ -86,7 +86,7 @@ fn in_path(program: &str, path: &OsStr, here: &Path) -> Result<(), String> {
     Err(format!("there is no program `{program}` in PATH{near}"))
 }
 
-/// Returns the sorted names in a folder; empty if it cannot be read.
+/// Returns the sorted names in a folder, or an empty list if the folder cannot be read.
 fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.filter_map(|entry| entry.file_name().into_string().ok()).sorted().collect_vec()

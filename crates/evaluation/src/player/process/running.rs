@@ -1,4 +1,4 @@
-//! A registry of the running processes of all players, which lets a program that must exit end them first.
+//! A registry of the running processes of all players, so that a program that must exit can end them first.
 
 use rustix::process::{Pid, Signal, kill_process, kill_process_group};
 use std::collections::BTreeMap;
@@ -8,16 +8,19 @@ use std::time::Duration;
 
 static RUNNING: Mutex<Running> = Mutex::new(Running { is_over: false, players: BTreeMap::new() });
 
-/// The number of polls until all players are gone, and the pause between them, which add up to at most three seconds.
+/// The maximum number of polls until all players are gone. With the pauses between polls, the time adds up to
+/// at most three seconds.
 const POLLS: u32 = 600;
+/// The pause between two polls for running players.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// The players by process ID, with `true` if they have a guard.
+/// The registry of running players.
 pub(super) struct Running {
     /// `true` if no further player may start.
     pub(super) is_over: bool,
-    /// The running players. A player is inserted while it is started, and removed before it is reaped, because its ID
-    /// may belong to a different process afterwards.
+    /// The running players by process ID, with `true` for players that have a guard. A player is inserted
+    /// while it is started, and removed before it is reaped, because its ID may belong to a different process
+    /// afterwards.
     pub(super) players: BTreeMap<u32, bool>,
 }
 
@@ -26,15 +29,16 @@ pub(super) fn running() -> MutexGuard<'static, Running> {
     RUNNING.lock().expect("nothing panics while it holds this lock")
 }
 
-/// Ends all players of this program and prevents new ones, for a program that is about to exit. Episodes in progress
-/// are left in the same state as after an interruption. Returns when the players are gone, or after at most three
-/// seconds.
+/// Ends all players of this program and prevents new players from starting, so that the program can exit.
+///
+/// Episodes in progress are left in the same state as after an interruption. The function returns when the
+/// players are gone, or after at most three seconds.
 pub fn end_all() {
     let mut all = running();
     all.is_over = true;
     for (&id, &is_guarded) in &all.players {
         let Some(id) = Pid::from_raw(id.cast_signed()) else { continue };
-        // A guard ends its program, which takes a moment.
+        // A guard needs a moment to end its program.
         let _ = match is_guarded {
             true => kill_process(id, Signal::TERM),
             false => kill_process_group(id, Signal::KILL),

@@ -11,7 +11,7 @@ use serde_json::Value;
 const GAME: &str = "BasicGame\n  SpriteSet\n    goal > Door\n    coin > Resource limit=2\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    c > coin\n  InteractionSet\n    avatar wall > stepBack\n    coin avatar > collectResource scoreChange=1\n    goal avatar > killSprite scoreChange=2\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    Timeout limit=90\n";
 const LEVEL: &str = "wwwwww\nwA c w\nw   gw\nwwwwww\n";
 
-/// An episode on a small board.
+/// An episode on a small board, with a script as the player.
 struct Board {
     subject: Subject,
     state: State,
@@ -29,7 +29,7 @@ impl Board {
     }
 
     fn playing(source: &str, script: &str, timeout: Duration) -> Board {
-        // Only the reference loads avatars that shoot nothing.
+        // Only the reference engine accepts a shooting avatar that shoots nothing.
         let facts = SubjectFacts { as_reference: true, ..SubjectFacts::default() };
         let subject = Subject::read("board", source, &[(0, LEVEL.to_owned(), None)], facts).unwrap();
         let state = subject.game.start(&subject.levels[0].level, Seed::from_text("board"));
@@ -81,14 +81,14 @@ impl Board {
         self.number += 1;
     }
 
-    /// Makes one decision and plays it.
+    /// Asks for one decision and plays it.
     fn decide(&mut self) -> Result<Choice, Halt> {
         let choice = self.turn(|agent, journal, turn| agent.act(turn, journal))?;
         self.play(choice.action(0));
         Ok(choice)
     }
 
-    /// Recalls one previously played decision.
+    /// Recalls a decision that was played before.
     fn recall(&mut self, action: Action) {
         let choice = Choice::of(action);
         self.turn(|agent, journal, turn| agent.recall(turn, journal, &choice)).unwrap();
@@ -107,7 +107,7 @@ impl Board {
     }
 }
 
-/// Reads the messages that a script has copied to a file.
+/// Reads the messages that a script copied to a file.
 fn heard(path: &std::path::Path) -> Vec<Value> {
     let text = std::fs::read_to_string(path).unwrap();
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
@@ -133,7 +133,7 @@ fn an_episode_is_played_in_lines() {
     assert_eq!((&hello["columns"], &hello["rows"], &hello["step_limit"]), (&6.into(), &4.into(), &30.into()));
     assert!(hello["rules"].as_str().unwrap().contains("You win when no goal is left."));
     assert!(!hello["rules"].as_str().unwrap().contains("characters"));
-    // The limit of decisions comes before the Timeout.
+    // The step limit applies before the game's Timeout.
     assert!(hello["rules"].as_str().unwrap().contains("Play stops at tick 30"));
     assert!(!hello["rules"].as_str().unwrap().contains("tick 90"));
     assert_eq!(hello["legend"]["w"], serde_json::json!(["wall"]));
@@ -156,7 +156,8 @@ fn an_episode_is_played_in_lines() {
     }
 }
 
-/// As in the prompts of models, an avatar that could shoot but has nothing to shoot has no use key.
+/// As in the prompts of models, the use key is omitted for an avatar that could shoot but has nothing to
+/// shoot.
 #[test]
 fn the_use_key_is_offered_where_it_does_something() {
     let folder = tempfile::tempdir().unwrap();
@@ -216,7 +217,8 @@ fn past_turns_are_sent_without_a_question() {
 
 #[test]
 fn a_wrong_answer_is_asked_again_once() {
-    // Invalid at first and valid after the complaint; later invalid twice.
+    // The first answer is invalid, and the answer after the `invalid` message is valid. Later, two answers
+    // are invalid.
     let mut board = Board::of(
         "read hello; read turn; echo '{\"action\":\"jump\"}'; read invalid; echo \"$invalid\" >&2; echo '{\"action\":\"left\"}'; \
          read turn; echo hm; read invalid; echo '{\"act\":\"left\"}'; read turn; exit 3",
@@ -251,7 +253,7 @@ fn late_answers_are_skipped() {
     assert_eq!(board.decide().map(|choice| choice.action(0)), Ok(Action::Right));
 }
 
-/// An answer to a later turn is invalid, because otherwise all further answers would be out of step.
+/// An answer to a later turn is invalid. Otherwise, all further answers would be out of step.
 #[test]
 fn answers_to_future_turns_are_invalid() {
     let mut board = Board::of(
@@ -283,7 +285,7 @@ fn late_answers_do_not_extend_the_timeout() {
     assert!(message.contains("more than 1024 KiB of answers to earlier steps at step 1"), "{message}");
 }
 
-/// The user is informed before the timeout that the agent ignores `invalid` messages.
+/// Before the timeout, the user is informed that the agent ignores `invalid` messages.
 #[test]
 fn silence_after_an_invalid_answer_is_reported() {
     let script = "read hello; read turn; echo '{\"action\":\"fly\"}'; exec sleep 600";
@@ -298,7 +300,7 @@ fn silence_after_an_invalid_answer_is_reported() {
     let shown = shown.lock().unwrap();
     assert_eq!(shown.len(), 1, "{shown:?}");
     assert!(shown[0].contains("has not answered since its answer at step 0 was rejected"), "{shown:?}");
-    // A timely answer needs no notice.
+    // An answer in time needs no notice.
     let mut prompt = Board::of(
         "read hello; read turn; echo '{\"action\":\"fly\"}'; read invalid; echo '{\"action\":\"up\"}'; exec sleep 600",
     );
@@ -338,7 +340,7 @@ fn a_missing_program_stops_the_evaluation() {
 
 #[test]
 fn processes_and_folders_are_removed() {
-    // The child of the process survives when the process is let go, and is killed with it.
+    // The child of the process survives its parent's end of input, and is killed together with the process.
     let folder = tempfile::tempdir().unwrap();
     let pid = folder.path().join("pid");
     let mut board = Board::of(&format!(
@@ -354,7 +356,7 @@ fn processes_and_folders_are_removed() {
     assert!(!path.exists());
     let gone = |id: i32| test_kill_process(Pid::from_raw(id).unwrap()).is_err();
     assert!(gone(own.cast_signed()));
-    // The child is orphaned now, and the process that adopts orphans may need a moment to reap it.
+    // The child is orphaned at this point, and the process that adopts it may need a moment to reap it.
     let dead = || {
         let status = std::fs::read_to_string(format!("/proc/{child}/stat")).unwrap_or_default();
         gone(child) || status.contains(") Z ")

@@ -1,5 +1,5 @@
-//! The meaning of the rules' sentences for the choice of a target. Only sentences written by `engine::describe` are
-//! understood.
+//! Interprets the sentences of the rules for the choice of a target. Only sentences written by
+//! `engine::describe` are understood.
 
 use engine::EffectFamily;
 use engine::analysis::{EffectSummary, Precondition, Side};
@@ -10,31 +10,32 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-/// A player's beliefs about the things on the board, by name. Sentences that it does not understand are ignored.
+/// A player's beliefs about the sprites on the board, by name. Sentences that the player does not understand
+/// are ignored.
 #[derive(Debug, Default)]
 pub(super) struct Beliefs<'a> {
     /// The current type of the player.
     me: &'a str,
     groups: BTreeMap<&'a str, Vec<&'a str>>,
-    /// Things that cannot be entered.
+    /// The sprites that the player cannot enter.
     pub(super) blocks: BTreeSet<&'a str>,
-    /// Things that can be pushed.
+    /// The sprites that the player can push.
     pub(super) pushed: BTreeSet<&'a str>,
-    /// Things that kill when touched, if the condition holds.
+    /// The sprites that kill when they are touched, if the condition on a resource holds.
     kills: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
-    /// Things that are removed when touched, if the condition holds.
+    /// The sprites that are removed when they are touched, if the condition on a resource holds.
     taken: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
-    /// Things with a different effect when touched: on the player's type, on its resources, or elsewhere.
+    /// The sprites whose touch has some other effect, on the player's type, on its resources, or elsewhere.
     pub(super) changes: BTreeSet<&'a str>,
-    /// Things whose removal wins the game, in the singular or the plural: the rules say `no lamp` and
-    /// `at most 2 lamps`.
+    /// The sprites whose removal wins the game. A name may be in the singular or the plural, because the
+    /// rules contain phrases such as `no lamp` and `at most 2 lamps`.
     wins: BTreeSet<&'a str>,
-    /// Things whose removal loses the game.
+    /// The sprites whose removal loses the game.
     pub(super) must_keep: BTreeSet<&'a str>,
     pub(super) moves: BTreeSet<&'a str>,
-    /// Pairs of a thing and a different thing whose touch removes it.
+    /// Pairs of sprites, the first of which is removed when it touches the second.
     removals: Vec<(&'a str, &'a str)>,
-    /// The sprite that the use key makes.
+    /// The sprite that the use key creates.
     pub(super) shot: Option<Shot<'a>>,
 }
 
@@ -42,18 +43,19 @@ pub(super) struct Beliefs<'a> {
 struct ResourceCondition<'a> {
     resource: &'a str,
     least: i32,
-    /// `true` if the resource must not be held.
+    /// `true` if the condition is that the resource is not held.
     not: bool,
 }
 
-/// The sprite that the use key makes.
+/// A sprite that the use key creates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Shot<'a> {
     pub(super) name: &'a str,
-    /// `true` if the sprite appears at the player's position, not ahead of it.
+    /// `true` if the sprite appears at the player's position rather than ahead of it.
     pub(super) at_player: bool,
     pub(super) ammo: Vec<&'a str>,
-    /// `Some` if the sprite moves by itself, with the direction if it is always the same.
+    /// `Some` if the sprite moves by itself. The inner value is the direction, if the direction is always the
+    /// same.
     pub(super) flight: Option<Option<&'a str>>,
 }
 
@@ -68,23 +70,24 @@ enum Subject {
     Group,
     Win,
     Lose,
-    /// The first party cannot enter the second.
+    /// The first party cannot enter the cell of the second party.
     Block,
-    /// The first party is removed by touching the second.
+    /// The first party is removed when it touches the second party.
     End,
-    /// The first party is removed by touching the second, if the two move in a certain way.
+    /// The first party is removed when it touches the second party, if the two move in a certain way.
     MayEnd,
     EndBoth,
-    /// The second party pushes the first.
+    /// The second party pushes the first party.
     Push,
-    /// The touch of the two parties has a different effect.
+    /// A touch between the two parties has some other effect.
     Change,
     /// The first party moves by itself.
     Motion,
 }
 
-/// The patterns of the sentences, of which the first match counts. The patterns about meetings come from the
-/// templates of `engine::describe`. Those with more text of their own come first, because they are more specific.
+/// The patterns of the sentences. The first matching pattern counts. The patterns of meetings come from the
+/// templates of `engine::describe`. Templates with more fixed text come first, because they are more
+/// specific.
 static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
     use Subject::{Block, Group, Lose, Motion, Win};
     let others = [
@@ -111,8 +114,8 @@ static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
     others.into_iter().chain(meetings).map(compile).collect()
 });
 
-/// Returns the pattern of a template. The groups `one` and `two` are the two sprites, and `holds`, `least` and
-/// `resource` are the condition on a resource.
+/// Returns the pattern of a template. The groups `one` and `two` match the two sprites. The groups `holds`,
+/// `least` and `resource` match the condition on a resource.
 fn pattern(template: &Template) -> String {
     let mut named = BTreeSet::new();
     let mut group = |name: &'static str, pattern: &str| {
@@ -134,7 +137,8 @@ fn pattern(template: &Template) -> String {
     format!("^{}$", template.parts.iter().map(part).collect::<String>())
 }
 
-/// Returns the subject of a template according to its effects; `None` if it does not matter for choosing a target.
+/// Returns the subject of a template, derived from its effects. Returns `None` if the template is irrelevant
+/// to the choice of a target.
 fn subject(template: &Template) -> Option<Subject> {
     use EffectSummary as Does;
     let does = |wanted: fn(&Does) -> bool| template.effects.iter().any(wanted);
@@ -172,12 +176,12 @@ fn subject(template: &Template) -> Option<Subject> {
             | Does::Collect
             | Does::Shield { .. } => false,
         };
-        // Later effects, and effects elsewhere, are not listed among the effects.
+        // Delayed effects and effects elsewhere are not listed among the effects of a template.
         (template.effects.is_empty() || template.effects.iter().any(changes)).then_some(Subject::Change)
     }
 }
 
-/// The words that refer to the player's resources in sentences with a condition on them.
+/// The words that refer to the player's resources in conditions.
 const YOU_HOLD: &str = "you hold";
 
 /// The effect of the use key in the description of the keys.
@@ -187,7 +191,8 @@ static USE_KEY: LazyLock<Regex> = LazyLock::new(|| {
 });
 
 impl<'a> Beliefs<'a> {
-    /// Derives the beliefs of a player of type `me` from sentences. Cost: O(sentences × bytes).
+    /// Derives the beliefs of a player of type `me` from the sentences of the rules. Cost: O(sentences ×
+    /// bytes).
     pub(super) fn of(sentences: &[&'a str], me: &'a str) -> Beliefs<'a> {
         let mut beliefs = Beliefs { me, ..Beliefs::default() };
         let fits = |sentence: &&'a str| {
@@ -198,7 +203,7 @@ impl<'a> Beliefs<'a> {
             Some((subject?, found))
         };
         let mut read: Vec<(Subject, Captures<'a>)> = sentences.iter().filter_map(fits).collect();
-        // Groups must be known before other sentences are read.
+        // Groups must be known before other sentences are interpreted.
         read.sort_by_key(|(subject, _)| *subject);
         for (subject, found) in read {
             let [one, two] = ["one", "two"].map(|part| beliefs.names(&found, part));
@@ -211,7 +216,7 @@ impl<'a> Beliefs<'a> {
                 Subject::Push if two_is_me => beliefs.pushed.extend(one),
                 Subject::Block | Subject::Push => {}
                 Subject::End => beliefs.end(&found),
-                // Things that may kill must be avoided, and things that may be removed are not targets.
+                // Sprites that may kill must be avoided, but sprites that may be removed are not targets.
                 Subject::MayEnd if one_is_me => {
                     beliefs.kills.extend(two.into_iter().map(|name| (name, None)))
                 }
@@ -228,27 +233,27 @@ impl<'a> Beliefs<'a> {
         beliefs
     }
 
-    /// Returns `true` if touching the named thing kills, given the resources held.
+    /// Returns `true` if touching the named sprite kills the player, given the held resources.
     pub(super) fn is_deadly(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
         applies(&self.kills, name, held)
     }
 
-    /// Returns `true` if touching the named thing removes it, given the resources held.
+    /// Returns `true` if touching the named sprite removes it, given the held resources.
     pub(super) fn is_taken(&self, name: &str, held: &BTreeMap<&str, i32>) -> bool {
         applies(&self.taken, name, held)
     }
 
-    /// Returns `true` if the removal of the named thing wins the game.
+    /// Returns `true` if removing the named sprite wins the game.
     pub(super) fn is_wanted(&self, name: &str) -> bool {
         self.wins.contains(name) || self.wins.contains(plural(name).as_str())
     }
 
-    /// Returns `true` if a shot removes the named thing.
+    /// Returns `true` if a shot removes the named sprite.
     pub(super) fn is_shot(&self, name: &str) -> bool {
         self.shot.as_ref().is_some_and(|shot| self.removals.contains(&(name, shot.name)))
     }
 
-    /// Returns `true` if the named thing stops a shot.
+    /// Returns `true` if the named sprite stops a shot.
     pub(super) fn stops_shots(&self, name: &str) -> bool {
         self.shot.as_ref().is_some_and(|shot| self.removals.contains(&(shot.name, name)))
     }
@@ -321,7 +326,8 @@ impl<'a> Beliefs<'a> {
         self.parties(found, part).into_iter().filter_map(Party::name).collect()
     }
 
-    /// Splits phrases such as `you`, `you as bare` or `the crate or any beast` into parties, with groups expanded.
+    /// Splits a phrase such as `you`, `you as bare` or `the crate or any beast` into parties. Groups are
+    /// expanded to their members.
     fn parties(&self, found: &Captures<'a>, part: &str) -> Vec<Party<'a>> {
         let text = found.name(part).map_or("", |found| found.as_str());
         let words =

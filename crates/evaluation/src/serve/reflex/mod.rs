@@ -1,8 +1,9 @@
 //! A player that reads the board and the rules from the prompt, and takes the shortest way to a good target.
 //!
-//! The player does not look ahead: a plan is the way to one target after the other, as if nothing else moved. It
-//! avoids deadly things. It prefers a thing whose removal wins, then one that can be collected or changes something,
-//! then one with no known harm. It shoots at things that its shots remove.
+//! The player does not look ahead. A plan leads from one target to the next, as if nothing else moved, and
+//! avoids deadly sprites. The best targets are sprites whose removal wins. Sprites that can be collected or
+//! change something come next, followed by sprites with no known harm. The player shoots at sprites that its
+//! shots remove.
 
 mod beliefs;
 
@@ -15,17 +16,17 @@ use engine::describe::Guide;
 use engine::{Action, Game};
 use std::collections::BTreeMap;
 
-/// The extra cost of a step next to a deadly moving thing, in steps.
+/// The extra cost of a step next to a deadly moving sprite, in steps.
 const DANGER_COST: u32 = 8;
 
-/// The cost of pushing a thing, in steps.
+/// The cost of pushing a sprite, in steps.
 const PUSH_COST: u32 = 20;
 
-/// The reciprocal of the fraction of decisions that are random steps. Without memory, the player would otherwise
-/// follow a useless way forever.
+/// The reciprocal of the fraction of decisions in which the player takes a random step. Because the player
+/// has no memory, it could otherwise follow a useless way forever.
 const RANDOM_STEP_ODDS: usize = 16;
 
-/// Chooses the next steps, as many as are due.
+/// Chooses the next steps, up to the number of actions due.
 ///
 /// # Errors
 /// Returns an error if the prompt shows no board, or no rules in English or VGDL.
@@ -79,8 +80,8 @@ struct Reflex<'a> {
 }
 
 impl Reflex<'_> {
-    /// Returns the cell that a step enters, and for each thing in it whether the thing is taken, as if nothing else
-    /// moved and nothing was pushed.
+    /// Returns the cell that a step would enter. For each sprite in the cell, the list states whether it
+    /// would be taken. Other moves and pushes are ignored.
     fn imagine(&self, action: Action) -> Option<(usize, Vec<bool>)> {
         let (_, way) = DIRECTIONS.into_iter().find(|(known, _)| *known == action)?;
         let cell = self.board.beside(self.you.cell, way).filter(|&cell| !self.is_blocked(cell))?;
@@ -112,7 +113,7 @@ impl Reflex<'_> {
             .any(|name| self.beliefs.blocks.contains(name) && !self.beliefs.is_taken(name, self.held))
     }
 
-    /// Returns the rank of a cell as a target, where 0 is the best; `None` if it is not a target.
+    /// Returns the rank of a cell as a target, where 0 is best. Returns `None` if the cell is not a target.
     fn rank(&self, cell: usize) -> Option<u32> {
         let rank = |name: &str| {
             let (beliefs, taken) = (self.beliefs, self.is_taken(name));
@@ -130,7 +131,8 @@ impl Reflex<'_> {
         self.others(cell).filter_map(rank).min()
     }
 
-    /// Returns the cost of entering a cell in a direction; `None` if the cell kills or cannot be entered.
+    /// Returns the cost of entering a cell in a direction. Returns `None` if the cell kills or cannot be
+    /// entered.
     fn entry_cost(&self, cell: usize, way: (isize, isize)) -> Option<u32> {
         if self.is_deadly(cell) || (self.is_blocked(cell) && self.rank(cell).is_none_or(|rank| rank > 1)) {
             return None;
@@ -143,7 +145,8 @@ impl Reflex<'_> {
         Some(1 + near)
     }
 
-    /// Returns the use key if a target is in the line of fire, or a turn towards a target in a different line.
+    /// Returns the use key if a target is in the line of fire. Otherwise, returns a turn towards a target in
+    /// a different line, if there is one.
     fn fire(&self) -> Option<Action> {
         let shot = self.beliefs.shot.as_ref()?;
         let has_ammo = |ammo: &&str| {
@@ -170,11 +173,11 @@ impl Reflex<'_> {
             .into_iter()
             .filter(|(action, _)| self.shown.actions.contains(action) && always.is_none());
         let mut seen = turns.filter_map(|(action, way)| Some((self.target(way, reach)?, action)));
-        // Skip a target that is too close for a turn.
+        // A target in the next cell is skipped, because it is too close for a turn.
         seen.find(|(distance, _)| *distance > 1).map(|(_, action)| action)
     }
 
-    /// Returns the distance to the first target in a direction.
+    /// Returns the distance to the nearest target in a direction.
     fn target(&self, way: (isize, isize), reach: usize) -> Option<usize> {
         let mut cell = self.you.cell;
         for distance in 1..=reach {
@@ -193,7 +196,8 @@ impl Reflex<'_> {
         None
     }
 
-    /// Returns the first step to the best reachable target, and to the nearest one among equally good targets.
+    /// Returns the first step to the best reachable target. Among equally good targets, the nearest one is
+    /// chosen.
     fn go(&self, choices: &mut Sampler) -> Option<Action> {
         let enter = |cell: usize, way| self.entry_cost(cell, way);
         let routes = Routes::from(self.board, self.you.cell, &self.shown.actions, enter, |cell| {
@@ -202,7 +206,7 @@ impl Reflex<'_> {
         let cells = 0..self.shown.cells.len();
         let reached = cells.filter_map(|cell| Some((self.rank(cell)?, routes.to(cell)?)));
         let (_, (cost, first)) = reached.min_by_key(|(rank, (cost, _))| (*rank, *cost))?;
-        // The last step to the target is never replaced by a random one.
+        // The last step to the target is never replaced by a random step.
         (cost == 1 || choices.below(RANDOM_STEP_ODDS) != 0).then_some(first)
     }
 

@@ -73,7 +73,8 @@ fn causes() {
     check(2, &[Right], (EndingKind::Appeared, "lost when weed appeared", rule, "1 of 1 gem left"));
 }
 
-/// An avatar that takes a different form is alive; the lost sprite is the form that a termination counts.
+/// An avatar that has changed its type is alive. The lost sprite is reported under the type that a
+/// termination counts.
 #[test]
 fn another_form_is_no_death() {
     let forms = "me >\n            avatar > MovingAvatar\n            frog > MovingAvatar";
@@ -86,8 +87,8 @@ fn another_form_is_no_death() {
     assert_eq!((found.kind, found.words().as_str()), (EndingKind::Lost, "lost avatar to pit"));
 }
 
-/// If several interactions could have killed in the last tick, the one that did is reported, not the last one. A dead
-/// avatar continues to touch things, and conditions may hold or not.
+/// If several interactions could have killed in the last tick, the interaction that killed is reported,
+/// rather than the last one. A dead avatar continues to touch sprites, and conditions may hold or not.
 #[test]
 fn the_interaction_that_killed_is_named() {
     let check = |rules: &str, sprites: &str, expect: &str, rule: &str| {
@@ -128,8 +129,8 @@ fn limits_wins_and_aborted_episodes() {
     assert_eq!(ending(0, &[Left], 20), None, "the player was cut off");
 }
 
-/// One episode of each cause, with the most frequent cause first and its episode nearest to a win; then second
-/// episodes, then wins.
+/// The order has one episode of each cause, followed by second episodes, followed by wins. The most frequent
+/// cause comes first, with its episode nearest to a win.
 #[test]
 fn telling_episodes() {
     let subject = subject();
@@ -193,12 +194,12 @@ fn results_by_kind() {
     assert_eq!(rows, ["maze 2", "not recorded 1", "shooter 1"]);
     assert!(table.rows[0][2].plain().starts_with("1.00 ["), "{:?}", table.rows[0]);
     assert!(study.verdict()[0].contains("it won most in maze (2 of 2); least in"), "{:?}", study.verdict());
-    // If the results have no kinds, the report lists none.
+    // If the results record no kinds, the report lists no kinds.
     let unknown = Study::new(results, Vec::new());
     assert!(unknown.kinds.is_empty() && !unknown.verdict()[0].contains("kind"), "{:?}", unknown.verdict());
 }
 
-/// A baseline may be better than the best of the others, and there may be no winner.
+/// A baseline may be better than the best other player, and there may be no best player.
 #[test]
 fn the_best_is_called_best_only_if_it_is() {
     let won = |wins: u64| {
@@ -213,7 +214,8 @@ fn the_best_is_called_best_only_if_it_is() {
     assert!(first(2, 1).starts_with("m (zero-shot) won the most: 50%"), "{}", first(2, 1));
     assert!(first(1, 2).starts_with("m (zero-shot) won: 25%"), "{}", first(1, 2));
     assert!(first(0, 2).starts_with("m (zero-shot) won nothing: 0%"), "{}", first(0, 2));
-    // The higher rate comes from one additional easy level: on the levels that both played, the baseline won more.
+    // The higher rate comes from one additional easy level. On the levels that both players played, the
+    // baseline won more often.
     let on = |wins: &[(&str, bool)]| {
         let outcome = |won: bool| if won { Won } else { Lost };
         wins.iter().map(|&(game, won)| episode(game, 0, 0, outcome(won), 0.0, 9)).collect::<Vec<_>>()

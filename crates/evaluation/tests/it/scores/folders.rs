@@ -1,5 +1,5 @@
-//! Tests of results folders of built-in players that are read together, and of invariants of the episodes of every
-//! game.
+//! Tests of results folders of built-in players that are read together. Other tests check invariants of
+//! episodes on all games.
 
 use super::logs::subject;
 use agents::Budget;
@@ -23,12 +23,13 @@ fn planner(name: &str) -> Contestant {
     Contestant::Planner { spec: name.parse().expect("a planner"), budget: Budget(30) }
 }
 
-/// Lets a built-in player play all levels of these games twice, 30 steps each.
+/// Evaluates a built-in player on all levels of the given games, with two runs of 30 steps each.
 pub(super) fn evaluate(folder: &Path, name: &str, subjects: Vec<Subject>) -> PathBuf {
     with_details(folder, name, subjects, serde_json::Value::Null)
 }
 
-/// Lets a built-in player with these details play all levels of these games twice, 30 steps each.
+/// Evaluates a built-in player with the given details on all levels of the given games, with two runs of 30
+/// steps each.
 pub(super) fn with_details(
     folder: &Path,
     name: &str,
@@ -72,7 +73,7 @@ fn folders_are_read_together() {
         assert_eq!(time.decisions, steps);
     }
     assert!(study.times[1].median_calls.is_some_and(|calls| calls > 0.0));
-    // The same study from memory.
+    // Building the study from logs in memory gives the same result.
     let evaluation = Evaluation::open(&folders[0]).unwrap();
     let tasks = evaluation.tasks();
     let logs = tasks.iter().map(|task| (task.subject, evaluation.events(task).unwrap())).collect();
@@ -101,7 +102,7 @@ fn incompatible_folders_are_rejected() {
     check(&[once.clone(), other], "differs from that of an earlier folder");
     check(&[home.path().join("nowhere")], "no results of an evaluation");
 
-    // One episode was not started, and one was cut off.
+    // One episode was not started, and one episode was interrupted.
     fs::remove_file(once.join("episodes/hall-lvl0-run0.jsonl")).unwrap();
     let path = once.join("episodes/hall-lvl3-run1.jsonl");
     let text = fs::read_to_string(&path).unwrap();
@@ -112,12 +113,13 @@ fn incompatible_folders_are_rejected() {
     assert_eq!((scores.episodes, scores.excluded), (2, 1));
     assert_eq!(study.notes.len(), 2, "{:?}", study.notes);
 
-    // An altered step.
+    // A step in the log is altered.
     fs::write(&path, text.replacen("\"action\":\"", "\"action\":\"nil\",\"was\":\"", 1)).unwrap();
     check(std::slice::from_ref(&once), "not an event");
 }
 
-/// Random episodes on all games of the corpus: every log replays, ratios are within range, and the parts agree.
+/// Plays random episodes on all games of the corpus. Every log replays, ratios are between 0 and 1, and the
+/// parts of each sum agree.
 #[test]
 fn invariants_of_any_episode() {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpora");
@@ -167,7 +169,7 @@ fn invariants_of_any_episode() {
             movement.coverage,
         ];
         assert!(shares.into_iter().flatten().all(|share| (0.0..=1.0).contains(&share)), "{name}: {shares:?}");
-        // Doing nothing is meaningful only with a reward, and a step with a reward always is.
+        // Doing nothing is meaningful only with a reward, and a step with a reward is always meaningful.
         for ((flag, action), reward) in
             replayed.meaningful.iter().zip(&replayed.actions).zip(&replayed.rewards)
         {

@@ -1,4 +1,4 @@
-//! Tests that scores mean what they say, with one test for each way in which numbers were once misleading.
+//! Tests that scores are not misleading. Each test covers a way in which numbers were misleading in the past.
 
 use super::episode;
 use super::folders::{evaluate, with_details};
@@ -13,7 +13,7 @@ use evaluation::{Evaluation, Event, Subject, SubjectFacts};
 use serde_json::json;
 use std::collections::BTreeSet;
 
-/// Returns `runs` episodes on each of these games and levels, with these wins.
+/// Returns `runs` episodes on each of the given games and levels. `wins` gives the number of wins on a level.
 fn episodes(
     games: usize,
     levels: usize,
@@ -40,7 +40,7 @@ fn a_player_without_a_win_may_have_luck_elsewhere() {
     let rates: Vec<_> = study.leaderboard.iter().filter_map(|row| row.scores.win_rate).collect();
     assert!(rates[0].value == 1.0 && rates[0].high == 1.0 && (0.4..0.5).contains(&rates[0].low), "{rates:?}");
     assert!(rates[1].value == 0.0 && rates[1].low == 0.0 && (0.5..0.6).contains(&rates[1].high), "{rates:?}");
-    // With a single game, the interval holds for its levels.
+    // With a single game, the interval applies to the game's levels.
     let study = two(episodes(1, 5, 5, |_, _| 0), episodes(1, 5, 5, |_, _| 5));
     assert!(study.leaderboard[1].scores.win_rate.is_some_and(|rate| rate.high < 0.14));
 }
@@ -63,7 +63,7 @@ fn differences_and_tests_are_of_the_same_rates() {
     assert!((found.difference - 0.1).abs() < 1e-9 && (interval.value - found.difference).abs() < 1e-12);
     assert!((found.rates[0] - found.rates[1] - found.difference).abs() < 1e-12 && found.h > 0.0);
     assert!(found.p.is_some_and(|p| p < 0.05) && interval.low > 0.0, "{found:?}");
-    // 64 episodes were aborted: all of them may have been wins of the second player, or losses.
+    // Of the episodes, 64 were aborted. All of them may have been wins of the second player, or losses.
     let [least, most] = found.bounds.expect("some were broken off");
     assert!((least + 0.3).abs() < 1e-9 && (most - 0.1).abs() < 1e-9, "{least} {most}");
     let row = study.leaderboard.iter().find(|row| row.player == 1).unwrap();
@@ -99,13 +99,14 @@ fn identical_episodes_are_one_observation() {
     let scores = &study.leaderboard[0].scores;
     assert_eq!((scores.episodes, scores.observations), (5, 1));
     assert!(scores.win_rate.is_some_and(|rate| rate.value == 1.0 && rate.low < 0.21));
-    // Different ways to the same result count as different episodes.
+    // Episodes with different steps count as different episodes, even if their results are equal.
     let mut different = copies(Won, "won");
     different.iter_mut().for_each(|episode| episode.course = Some(Digest::of(&[episode.run as u8])));
     assert_eq!(two(different, copies(Lost, "lost")).leaderboard[0].scores.observations, 5);
 }
 
-/// The first sentences of a report state who is best, how certain this is, and how players fail.
+/// The first sentences of a report state which player is best, how certain this result is, and how players
+/// fail.
 #[test]
 fn verdicts() {
     let said = |games: usize, theirs: u64| {
@@ -142,7 +143,7 @@ fn courses_of_episodes() {
     assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), 4);
 }
 
-/// One model at two temperatures is two persons, and the rows state the difference.
+/// One model at two temperatures counts as two persons, and the labels of their rows state the difference.
 #[test]
 fn decoding_and_prompts_tell_persons_apart() {
     let home = tempfile::tempdir().unwrap();
@@ -158,13 +159,13 @@ fn decoding_and_prompts_tell_persons_apart() {
     let labels: Vec<String> = study.players.iter().map(Player::label).collect();
     assert_eq!(labels, ["random (temperature 0.0)", "random (temperature 1.5)"]);
     assert_eq!(study.pairs.overall.len(), 1, "and they are compared");
-    // The same model on a different server is the same person, who played twice.
+    // The same model on a different server is the same person. The same episodes were played twice.
     let again = folder("again", 0.0, "there");
     let error = Study::read(&[folders[0].clone(), again]).unwrap_err().to_string();
     assert!(error.contains("also played run"), "{error}");
 }
 
-/// The game under different names: its episodes have the same randomness, and the same states after the same actions.
+/// A renamed game has the same randomness in its episodes, and the same states after the same actions.
 #[test]
 fn twins_share_chance_and_states() {
     let own = subject();
@@ -206,8 +207,8 @@ fn twins_share_chance_and_states() {
     assert_eq!((study.games.len(), study.pairs.overall.len()), (1, 1));
 }
 
-/// The left-right mirror image of a game is the same game with different randomness. Games that are not mirror images
-/// are rejected.
+/// The left-right mirror image of a game counts as the same game with different randomness. Games that differ
+/// in other ways are rejected.
 #[test]
 fn mirrored_twins_are_reported_beside_originals() {
     let source = "BasicGame\n  SpriteSet\n    gem > Immovable\n    eastgust > Missile orientation=RIGHT\n    imp > Bomber stype=gem \

@@ -1,4 +1,4 @@
-//! Tests of episodes played by hand, with metrics calculated by hand.
+//! Tests of scripted episodes whose metrics were calculated by hand.
 
 use base::Seed;
 use engine::Action::{self, Left, Nil, Right, Up, Use};
@@ -44,7 +44,7 @@ pub(crate) fn subject() -> Subject {
     Subject::read("hall", GAME, &levels, SubjectFacts::default()).expect("the game is sound")
 }
 
-/// An agent that plays these actions, and is aborted after them.
+/// An agent that plays the given actions. The episode is aborted after the last action.
 struct Script(Vec<Action>);
 
 impl Agent for Script {
@@ -76,7 +76,8 @@ pub(super) fn log(subject: &Subject, level: usize, actions: &[Action], max_steps
     journal.events().to_vec()
 }
 
-/// A bump, there and back, a pause, to the gem, back and forth, and through the door.
+/// The avatar bumps into a wall, moves away and returns, pauses, takes the gem, moves back and forth, and
+/// goes through the door.
 #[test]
 fn worked_by_hand() {
     let subject = subject();
@@ -88,7 +89,7 @@ fn worked_by_hand() {
     assert_eq!(replayed.rewards, [0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0]);
     let flags = |text: &str| text.chars().map(|flag| flag == '1').collect::<Vec<bool>>();
     assert_eq!(replayed.meaningful, flags("0000110011"));
-    // The code counts the move away before each return, and loses the last step.
+    // The reference's code counts the move away before each return, and loses the last step.
     assert_eq!(replayed.meaningful_as_code, flags("010011001"));
 
     let found = EpisodeMetrics::of(&subject, &log).unwrap();
@@ -119,13 +120,14 @@ fn the_shortest_win() {
         (found.meaningful, found.optimality(), found.unused_steps()),
         (Some(1.0), Some(1.0), Some(0.92))
     );
-    // The optimum of level 3 is unknown.
+    // The shortest win of level 3 is unknown.
     let log = self::log(&subject, 3, &[Right; 9], 50);
     let found = EpisodeMetrics::of(&subject, &log).unwrap();
     assert_eq!((found.level, found.optimality()), (3, None));
 }
 
-/// Pushing a box and going back has changed the state. Using a key that the avatar does not have has not.
+/// Pushing a box and returning has changed the state. Pressing a key that the avatar does not have has not
+/// changed it.
 #[test]
 fn moving_things_is_meaningful() {
     let subject = subject();
@@ -166,7 +168,7 @@ fn check_fault(change: impl Fn(&mut Vec<Event>), expect: &str) {
     assert!(error.contains(expect), "{error}");
 }
 
-/// A log that does not replay is an error that states the step.
+/// The error for a log that does not replay states the step.
 #[test]
 fn damaged_logs_are_rejected() {
     let at = |log: &mut [Event], number: u64, change: &dyn Fn(&mut Event)| {
@@ -267,7 +269,7 @@ fn answers() {
     assert_eq!((found.spending.requests, found.spending.replies), (7, 7));
     assert_eq!((found.spending.input_tokens, found.spending.output_tokens), (Some(700), Some(49)));
     assert_eq!(found.spending.reasoning_tokens, None);
-    // A reply without a token count makes the sum unknown.
+    // A reply without a token count makes the sum of tokens unknown.
     log.push(reply(5, 0, Strict, None));
     assert_eq!(EpisodeMetrics::of(&subject, &log).unwrap().spending.output_tokens, None);
     let silent = EpisodeMetrics::of(&subject, &steps).unwrap().spending;

@@ -1,4 +1,5 @@
-//! Tests of reports on the published win rates (`docs/reference/spec/paper-winrates.csv`): `spec/06` §3, §3.1 and §5.1.
+//! Tests of reports on the published win rates in `docs/reference/spec/paper-winrates.csv` (`spec/06` §3,
+//! §3.1 and §5.1).
 
 use super::episode;
 use engine::Outcome;
@@ -7,11 +8,12 @@ use evaluation::study::{CONTEXTUAL, Player, Scope, Study, ZERO_SHOT};
 use report::TableCell;
 use std::path::Path;
 
-/// The levels and runs of the main experiment.
+/// The number of levels per game in the paper's main experiment.
 const LEVELS: u64 = 5;
+/// The number of runs per level in the paper's main experiment.
 const RUNS: u64 = 5;
 
-/// A row of the published table: the player, and its wins out of 25 on each game.
+/// A row of the published table, with the player and its number of wins in 25 episodes on each game.
 type Row = (Player, Vec<(String, u64)>);
 
 fn published() -> Vec<Row> {
@@ -31,7 +33,7 @@ fn published() -> Vec<Row> {
     reader.records().map(|record| row(record.unwrap())).collect()
 }
 
-/// Returns episodes with these wins, dealt to levels in turn.
+/// Returns episodes with the given numbers of wins, assigned to the levels in turn.
 fn episodes(wins: &[(String, u64)]) -> Vec<EpisodeMetrics> {
     let mut episodes = Vec::new();
     for (game, wins) in wins {
@@ -48,7 +50,7 @@ fn study(rows: &[Row], keep: impl Fn(&Player) -> bool) -> Study {
     Study::new(kept.map(|(player, wins)| (player.clone(), episodes(wins))).collect(), Vec::new())
 }
 
-/// Wilson's intervals for wins out of 25, to the two digits printed: `spec/06` §3.1.
+/// Wilson's intervals for each number of wins in 25 episodes, to the two digits that `spec/06` §3.1 prints.
 const PRINTED: [(u64, &str); 21] = [
     (0, "0.00 [0.00, 0.13]"),
     (1, "0.04 [0.01, 0.20]"),
@@ -143,7 +145,8 @@ fn sums() {
     assert_eq!(failures.excluded, 2250, "no step flags are published");
 }
 
-/// With 25 episodes per side, the prompt has significant effects, which five per side cannot show.
+/// With 25 episodes per side, the prompt has significant effects. Five episodes per side cannot show these
+/// effects.
 #[test]
 fn prompt_modes_differ_significantly() {
     let rows = published();
@@ -176,7 +179,8 @@ fn pairs_of_models() {
     assert_eq!(study.pairs.by_game.iter().filter(|comparison| comparison.q <= 0.05).count(), 75);
 }
 
-/// An aid of a model: on aliens, no win without it and two wins with it; on escape, no win and one win.
+/// Compares a model with and without an aid. On aliens, the model has no win without the aid and two wins
+/// with it. On escape, it has no win without the aid and one win with it.
 #[test]
 fn aids_are_compared() {
     let games =

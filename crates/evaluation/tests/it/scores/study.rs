@@ -1,4 +1,4 @@
-//! Tests of studies of a few made-up episodes, with numbers calculated by hand.
+//! Tests of studies of a few invented episodes, with numbers calculated by hand.
 
 use super::episode;
 use engine::Outcome::{Lost, Ongoing, Won};
@@ -12,8 +12,8 @@ fn close(found: impl Into<Option<f64>>, expect: f64) {
     assert!(found.is_some_and(|found| (found - expect).abs() < 1e-6), "{found:?}, not {expect}");
 }
 
-/// Returns a study of one level with a model that wins in 20 of 100 steps and loses in 40, and with random, which
-/// reaches the limit.
+/// Returns a study of one level with two players. The model wins in 20 of 100 steps and loses in 40 steps,
+/// and `random` reaches the limit.
 fn one_level() -> Study {
     let meaningful = |share: f64, metrics: EpisodeMetrics| EpisodeMetrics {
         meaningful: Some(share),
@@ -99,7 +99,7 @@ fn missing_values_stay_missing() {
     assert!(text.contains('–') && !text.contains("NaN") && !text.contains("inf"), "{text}");
 }
 
-/// Both modes of a model share a row of the combined heat map; references are in all heat maps.
+/// The two modes of a model share a row of the combined heat map. Reference players are in all heat maps.
 #[test]
 fn heat_maps() {
     let play = |wins: u64| -> Vec<EpisodeMetrics> {
@@ -128,8 +128,9 @@ fn heat_maps() {
     let modes = &study.modes.overall[0];
     assert_eq!((modes.wins, modes.episodes, modes.levels), ([1, 4], [4, 4], 2));
     close(modes.difference, -0.75);
-    // Level 0: one of two against two; level 1: none against two. Among the tables with these totals, the observed
-    // one has probability (1/2) · (1/6), and so does its mirror image.
+    // On level 0, one win in two episodes is compared with two wins. On level 1, no win is compared with two
+    // wins. Among the tables with these totals, the observed table has probability (1/2) · (1/6). Its mirror
+    // image has the same probability.
     close(modes.within_levels.p, 1.0 / 6.0);
     assert_eq!((modes.p, modes.over_games), (None, None), "one game says nothing about others");
     assert_eq!(study.pairs.overall.len(), 2);

@@ -1,10 +1,10 @@
-//! The boards of an episode, stored as differences from one to the next.
+//! The boards of an episode. Each board is stored as a difference from the previous board.
 
 use render::{Picture, Tile, svg_tile};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 use std::fmt::Write;
 
-/// The tiles of a game's boards, each stored once in the page.
+/// The tiles on a game's boards, each stored once in the page.
 pub(super) struct Tiles {
     pub(super) prefix: String,
     known: Vec<Tile>,
@@ -15,7 +15,7 @@ impl Tiles {
         Tiles { prefix, known: Vec::new() }
     }
 
-    /// Returns the tiles as SVG groups, each with its ID.
+    /// Returns the tiles as SVG groups with IDs.
     pub(super) fn symbols(&self) -> String {
         let symbol = |(at, tile)| svg_tile(&format!("{}{at}", self.prefix), tile);
         self.known.iter().enumerate().map(symbol).collect()
@@ -29,24 +29,24 @@ impl Tiles {
     }
 }
 
-/// A tile with its left edge, top edge, width and height in pixels.
+/// The index of a tile, and its left edge, top edge, width and height in pixels.
 type Mark = (usize, [i32; 4]);
 
 pub(super) struct Boards {
     cell: i32,
     last: Vec<Mark>,
-    /// For each board, the replacements that turn the previous board into it, from the end of the board to its beginning. The
-    /// first board replaces an empty one.
+    /// For each board, the replacements that turn the previous board into this board. The replacements go
+    /// from the end of the board to its beginning. The first board replaces an empty board.
     pub(super) changes: Vec<String>,
 }
 
 impl Boards {
-    /// Creates an empty sequence for cells of `cell` pixels.
+    /// Creates an empty sequence of boards, with cells of `cell` pixels.
     pub(super) fn new(cell: u32) -> Boards {
         Boards { cell: cell.cast_signed(), last: Vec::new(), changes: Vec::new() }
     }
 
-    /// Adds a board. Cost: O(stamps · changes).
+    /// Adds a board to the sequence. Cost: O(stamps · changes).
     pub(super) fn push(&mut self, picture: &Picture, tiles: &mut Tiles) {
         let here: Vec<usize> = picture.tiles().iter().map(|tile| tiles.number(tile)).collect();
         let place =
@@ -58,9 +58,9 @@ impl Boards {
     }
 }
 
-/// Returns the change from one board to the next: one line `AT COUNT MARK…` per replaced range. The last range comes first, so
-/// that the positions of earlier ranges stay valid. A mark is `TILE,X,Y`, followed by its width and height if it does not fill a
-/// cell.
+/// Returns the change from one board to the next, with one line `AT COUNT MARK…` for each replaced range. The
+/// last range comes first, so that the positions of earlier ranges stay valid. A mark is `TILE,X,Y`, followed
+/// by its width and height if it does not fill a cell.
 fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
     let mut text = String::new();
     for op in capture_diff_slices(Algorithm::Myers, from, to).iter().rev() {
@@ -86,7 +86,7 @@ fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
 mod tests {
     use super::*;
 
-    /// Applies a change in the same way as the page's script.
+    /// Applies a change to a board in the same way as the page's script.
     fn applied(marks: &[Mark], change: &str, cell: i32) -> Vec<Mark> {
         let mut marks = marks.to_vec();
         for line in change.lines() {

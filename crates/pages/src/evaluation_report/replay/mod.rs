@@ -1,4 +1,4 @@
-//! Replays of some episodes, step by step: the boards, with the prompts and answers beside each board.
+//! Replays of some episodes, step by step. Each board is shown with its prompts and answers.
 
 mod frames;
 mod talk;
@@ -19,18 +19,20 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use talk::{Talk, talks};
 
-/// The numbers of decisions shown from the start and from the end of a long episode.
+/// The number of decisions shown from the start of a long episode.
 const FIRST: usize = 200;
+/// The number of decisions shown from the end of a long episode.
 const LAST: usize = 100;
-/// The cell size in pixels of the animated boards, and the longer side of the still ones in pixels.
+/// The cell size of the animated boards, in pixels.
 const CELL: u32 = 20;
+/// The longer side of the still boards, in pixels.
 const STILL: u32 = 220;
 /// The number of still boards per episode, including the start and the end.
 const STILLS: usize = 4;
 
 #[derive(Serialize)]
 pub(super) struct Replays {
-    /// The tiles of the boards, as SVG.
+    /// The tiles of the boards, as SVG groups.
     symbols: String,
     players: Vec<PlayerReplays>,
     note: String,
@@ -44,38 +46,39 @@ struct PlayerReplays {
 
 #[derive(Serialize)]
 struct Replay {
-    /// The game, level and run.
+    /// The title of the replay, with the game, level and run.
     title: String,
     result: String,
     /// `true` if the episode was won.
     won: bool,
     size: [u32; 2],
-    /// The data for the script: the tiles, the changes from board to board, and the text below each board.
+    /// The data for the page's script, with the tiles, the changes from board to board, and the text below
+    /// each board.
     data: String,
     stills: Vec<Figure>,
-    /// All actions, with repeated ones counted.
+    /// The actions of the episode. Repeated actions are counted.
     actions: String,
-    /// The prompt before the player's first decision.
+    /// The prompt shown to the player before its first decision.
     told: Vec<String>,
-    /// The texts of each decision. Empty for players without texts.
+    /// The messages of each decision. The list is empty for players without messages.
     decisions: Vec<Decision>,
-    /// The number of omitted decisions in the middle.
+    /// The number of decisions omitted from the middle of the episode.
     skipped: usize,
 }
 
 #[derive(Serialize)]
 struct Decision {
-    /// The index of the board that the player saw, among the boards shown.
+    /// The index of the board at which the player decided, among the boards shown.
     at: usize,
-    /// The index of the step.
+    /// The index of the decision's first step.
     step: usize,
     action: String,
-    /// The problem with the choice, if there is one.
+    /// A phrase for the problem with the choice, or an empty text.
     validity: &'static str,
     talk: Talk,
 }
 
-/// The input of the page's script.
+/// The data that the page's script reads.
 #[derive(Serialize)]
 struct Data<'a> {
     cell: u32,
@@ -84,7 +87,7 @@ struct Data<'a> {
     captions: &'a [String],
 }
 
-/// An episode to show.
+/// An episode that may be replayed in the page.
 struct Candidate<'a> {
     evaluation: &'a Evaluation,
     task: Task<'a>,
@@ -92,8 +95,9 @@ struct Candidate<'a> {
 }
 
 impl Replays {
-    /// Returns `results.replays` episodes per player: failures first, with one for each cause. If there is not enough room, in
-    /// bytes, models take precedence. Cost: O(steps) of play and drawing per episode.
+    /// Returns up to `results.replays` episodes per player. Failures come first, with one episode for each
+    /// cause. If the replays exceed `room` bytes, models take precedence. Cost: O(steps) of play and drawing
+    /// per episode.
     pub(super) fn of(results: &Results<'_>, room: usize) -> Result<Replays, PageError> {
         let (players, mut left_out) = (candidates(results), 0);
         let mut tiles: BTreeMap<String, Tiles> = BTreeMap::new();
@@ -146,7 +150,7 @@ fn note(episodes: usize, left_out: u64) -> String {
     note
 }
 
-/// Returns the episodes to show for each player, starting with the models.
+/// Returns the episodes to replay for each player, starting with the models.
 fn candidates<'a>(results: &Results<'a>) -> Vec<(String, Vec<Candidate<'a>>)> {
     let Results { study, evaluations, replays } = *results;
     let order = study.leaderboard.iter().map(|row| row.player);
@@ -159,7 +163,7 @@ fn candidates<'a>(results: &Results<'a>) -> Vec<(String, Vec<Candidate<'a>>)> {
     order.map(of_player).collect()
 }
 
-/// Finds the evaluation and the task of a study's episode.
+/// Finds the evaluation and the task to which an episode of a study belongs.
 fn found<'a>(evaluations: &'a [Evaluation], episode: &StudyEpisode) -> Option<Candidate<'a>> {
     let EpisodeMetrics { folder, game, level, run, ending, .. } = &episode.metrics;
     let evaluation = evaluations.get((*folder)?)?;
@@ -169,7 +173,7 @@ fn found<'a>(evaluations: &'a [Evaluation], episode: &StudyEpisode) -> Option<Ca
 }
 
 impl Replay {
-    /// Replays and draws an episode. Returns `None` if nothing was played.
+    /// Replays an episode and draws its boards. Returns `None` if nothing was played.
     fn of(
         Candidate { evaluation, task, ending }: &Candidate<'_>,
         tiles: &mut Tiles,
@@ -261,7 +265,7 @@ impl Replay {
     }
 }
 
-/// Returns the heading of the still board before this decision, if there is such a board.
+/// Returns the heading of the still board before the given decision, if the page shows such a board.
 fn still(decision: usize, steps: usize) -> Option<&'static str> {
     if decision == 0 {
         return Some("the start");
@@ -282,7 +286,7 @@ fn failed(error: RenderError) -> PageError {
     PageError::failed("the boards of a replay")(error)
 }
 
-/// Returns a text like `won in 34 steps, score 5`.
+/// Returns the result of an episode, such as `won in 34 steps, score 5`.
 fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String {
     let how = match state.outcome() {
         Outcome::Won => "won in",
@@ -296,7 +300,7 @@ fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String 
     format!("{how} {}, score {}", words::many(steps as u64, "step"), words::short(state.score()))
 }
 
-/// Returns a text like `: died of touching dragonfly; 2 of 5 gem left`.
+/// Returns the cause of an ending, such as `: died of touching dragonfly; 2 of 5 gem left`.
 fn because(ending: Option<&Ending>) -> String {
     ending.map_or(String::new(), |ending| {
         let distance = ending.distance.as_ref().map_or(String::new(), |left| format!("; {}", left.words()));
@@ -307,7 +311,7 @@ fn because(ending: Option<&Ending>) -> String {
     })
 }
 
-/// Returns a description of the problem with a choice.
+/// Returns a phrase for the problem with a choice, or an empty text.
 fn told(validity: Validity) -> &'static str {
     match validity {
         Validity::Valid => "",
@@ -317,7 +321,7 @@ fn told(validity: Validity) -> &'static str {
     }
 }
 
-/// Returns a text like `right ×3, use, nil ×2`.
+/// Returns a summary of actions, such as `right ×3, use, nil ×2`.
 fn counted(steps: &[(Action, Validity)]) -> String {
     let runs = steps.chunk_by(|one, other| one.0 == other.0);
     let said = |run: &[(Action, Validity)]| match run.len() {

@@ -1,21 +1,23 @@
-//! The messages at each decision of an episode.
+//! The messages exchanged at each decision of an episode.
 
 use crate::page::words;
 use evaluation::client::{Finish, Role};
 use evaluation::log::{Event, Reply, ReplyClass};
 use serde::Serialize;
 
-/// The maximum lengths of an answer, of reasoning and of a prompt, in characters.
+/// The maximum number of characters shown of an answer.
 const ANSWER: usize = 1_500;
+/// The maximum number of characters shown of the reasoning.
 const REASONING: usize = 1_500;
+/// The maximum number of characters shown of a prompt.
 const SHOWN: usize = 6_000;
 
-/// The messages at a decision.
+/// The messages exchanged at a decision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(super) struct Talk {
-    /// The messages that were new to the player, except its own.
+    /// The messages that were new to the player, excluding its own answers.
     pub(super) shown: Vec<String>,
-    /// The player's answers, of which there are several if the request was repeated.
+    /// The player's answers. There are several answers if the question was repeated.
     pub(super) answers: Vec<Answer>,
 }
 
@@ -23,15 +25,16 @@ pub(super) struct Talk {
 pub(super) struct Answer {
     pub(super) text: String,
     pub(super) reasoning: Option<String>,
-    /// The validity of the answer, in one word. Empty if the answer has the requested format.
+    /// The validity of the answer, in one word. The text is empty if the answer has the requested format.
     pub(super) class: &'static str,
-    /// The number of tokens and the time, in words.
+    /// A phrase with the number of tokens and the duration.
     pub(super) cost: String,
 }
 
-/// Returns the messages at each decision, in order. The entry of a decision without texts is empty. Texts of earlier levels,
-/// which a log repeats when a conversation continues, are left out. The question after the last decision belongs to that
-/// decision.
+/// Returns the messages exchanged at each decision, in order. A decision without messages has an empty entry.
+///
+/// If a conversation continues from an earlier level, the log repeats the texts of that level, and they are
+/// omitted here. The question after the last decision belongs to that decision.
 pub(super) fn talks(log: &[Event]) -> Vec<Talk> {
     let (mut talks, mut current, mut new): (Vec<Talk>, _, _) = (Vec::new(), Talk::default(), Vec::new());
     for event in log {
@@ -86,7 +89,7 @@ impl Answer {
     }
 }
 
-/// Returns the first characters of a text, and the number of omitted ones.
+/// Returns the first `most` characters of a text, and a note with the number of omitted characters.
 fn cut(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         None => text.trim_end().to_owned(),

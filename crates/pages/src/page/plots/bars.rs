@@ -1,27 +1,30 @@
-//! Stacked bars: amounts with their parts, one per line.
+//! Stacked bars, with one amount per line that is divided into parts.
 
 use super::Label;
 use super::canvas::{Anchor, Canvas};
 
-/// The widths in pixels of the names, of the longest bar, and of the figures beside it.
+/// The width of the names, in pixels.
 const LEFT: f64 = 150.0;
+/// The width of the longest bar, in pixels.
 const PLANE: f64 = 300.0;
+/// The width of the figures next to the bars, in pixels.
 const RIGHT: f64 = 70.0;
-/// The heights in pixels of a line, and of the key above the lines.
+/// The height of a line, in pixels.
 const LINE: f64 = 24.0;
+/// The height of the key above the lines, in pixels.
 const HEAD: f64 = 24.0;
 
 /// An amount that is divided into parts.
 pub(crate) struct BarRow {
     pub(crate) label: Label,
-    /// One non-negative number per part.
+    /// The sizes of the parts, which are not negative.
     pub(crate) parts: Vec<f64>,
-    /// The amount as text, which is shown beside the bar.
+    /// The amount as text, which is shown next to the bar.
     pub(crate) amount: String,
 }
 
-/// Draws the rows in order, scaled to the largest one. `label` describes the plot, and `key` has the names of the parts. Cost:
-/// O(rows).
+/// Draws the rows in order, scaled to the largest amount. `label` describes the plot, and `key` holds the
+/// names of the parts. Cost: O(rows).
 pub(crate) fn bars(label: &str, key: &[&str], rows: &[BarRow]) -> String {
     let mut canvas = Canvas::new("bars", LEFT + PLANE + RIGHT, HEAD + rows.len() as f64 * LINE + 4.0, label);
     let total = |row: &BarRow| row.parts.iter().sum::<f64>();
@@ -69,7 +72,7 @@ mod tests {
             amount: format!("{name} in all"),
         };
         let svg = bars("costs", &["kept", "lost"], &[row("look", &[1.0, 3.0]), row("skill", &[2.0, 0.0])]);
-        // One bar ends at half of the longest bar's length, and one at its full length.
+        // One bar ends at half of the longest bar's length, and the other bar at its full length.
         assert!(svg.contains("L300 ") && svg.contains("L450 "), "{svg}");
         assert!(svg.contains("skill in all") && svg.contains("<title>look, lost</title>"), "{svg}");
         assert_eq!(svg.matches("class=\"fill\"").count(), 5, "the key, and each part that is not 0");

@@ -1,4 +1,4 @@
-//! A builder of SVG text.
+//! A canvas that builds SVG text.
 
 use super::{Label, shortened};
 use crate::page::facts::number;
@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// The maximum length of a row's name, in characters.
 const LETTERS: usize = 18;
 
-/// The part of a text that is aligned to its position.
+/// The part of a text that is placed at the given position.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     Start,
@@ -16,7 +16,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// A drawing under construction, in which later shapes cover earlier ones.
+/// A drawing under construction. Later shapes cover earlier shapes.
 pub(super) struct Canvas {
     text: String,
 }
@@ -27,7 +27,8 @@ fn escaped(text: &str) -> String {
 }
 
 impl Canvas {
-    /// Creates an empty drawing of a kind and a size in pixels. `label` describes the drawing for people who cannot see it.
+    /// Creates an empty drawing of the given kind, with its size in pixels. `label` describes the drawing for
+    /// people who cannot see it.
     pub(super) fn new(kind: &str, width: f64, height: f64, label: &str) -> Canvas {
         let (width, height, label) = (number(width), number(height), escaped(label));
         let text = format!(
@@ -37,7 +38,7 @@ impl Canvas {
         Canvas { text }
     }
 
-    /// Opens a group with this class. `title` is its tooltip.
+    /// Opens a group with the given class. `title` is its tooltip.
     pub(super) fn open(&mut self, class: &str, title: &str) {
         let _ = write!(self.text, "<g class=\"{class}\">");
         if !title.is_empty() {
@@ -60,7 +61,7 @@ impl Canvas {
         let _ = write!(self.text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" class=\"{class}\"/>");
     }
 
-    /// Draws straight lines, each through its points.
+    /// Draws polylines, each through its points.
     pub(super) fn lines(&mut self, lines: &[&[[f64; 2]]], class: &str) {
         let ways: String = lines.iter().map(|points| way(points)).collect();
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{ways}\"/>");
@@ -70,7 +71,7 @@ impl Canvas {
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{}Z\"/>", way(points));
     }
 
-    /// Draws a text whose baseline is at this position.
+    /// Draws a text whose baseline is at the given position.
     pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, class: &str, words: &str) {
         let (x, y, words) = (number(x), number(y), escaped(words));
         let anchor = match anchor {
@@ -82,8 +83,8 @@ impl Canvas {
         let _ = write!(self.text, "<text x=\"{x}\" y=\"{y}\"{anchor}{class}>{words}</text>");
     }
 
-    /// Draws a row's label to the left of a position: on one line at that height, or on two lines around it. Each line is
-    /// shortened to fit.
+    /// Draws a row's label to the left of a position. A label with one line is at the height of the position,
+    /// and a label with two lines is centred on it. Each line is shortened to fit.
     pub(super) fn label(&mut self, x: f64, y: f64, Label { name, note }: &Label) {
         let lift = if note.is_empty() { 0.0 } else { 5.0 };
         self.text(x, y - lift, Anchor::End, "", &shortened(name, LETTERS));
@@ -92,7 +93,7 @@ impl Canvas {
         }
     }
 
-    /// Draws a text that runs upwards, with its middle at this position.
+    /// Draws a text that runs upwards, with its middle at the given position.
     pub(super) fn upright(&mut self, x: f64, y: f64, class: &str, words: &str) {
         let (x, y, words) = (number(x), number(y), escaped(words));
         let _ = write!(
@@ -101,7 +102,7 @@ impl Canvas {
         );
     }
 
-    /// Draws a grey, hatched rectangle with a dash, where a value is missing.
+    /// Draws a grey, hatched rectangle with a dash, which represents a missing value.
     pub(super) fn missing(&mut self, [x, y, w, h]: [f64; 4], title: &str) {
         self.open("none", title);
         self.rect([x, y, w, h]);
@@ -121,7 +122,7 @@ impl Canvas {
     }
 }
 
-/// Returns the path through these points.
+/// Returns the SVG path through the given points.
 fn way(points: &[[f64; 2]]) -> String {
     let point = |(at, [x, y]): (usize, &[f64; 2])| {
         format!("{}{} {}", if at == 0 { 'M' } else { 'L' }, number(*x), number(*y))

@@ -3,14 +3,19 @@
 use super::canvas::{Anchor, Canvas};
 use crate::page::words;
 
-/// The size of the plotting area in pixels, and of the margins beside and below it.
+/// The width and height of the plotting area, in pixels.
 const PLANE: [f64; 2] = [300.0, 150.0];
+/// The width of the margin to the left of the plotting area, in pixels.
 const LEFT: f64 = 46.0;
+/// The width of the margin to the right of the plotting area, in pixels.
 const RIGHT: f64 = 24.0;
+/// The height of the margin above the plotting area, in pixels.
 const TOP: f64 = 10.0;
+/// The height of the margin below the plotting area, in pixels.
 const FOOT: f64 = 36.0;
 
-/// A point on a curve: a position on the scale, its name there, and a fraction with its interval.
+/// A point on a curve, with its position on the scale, the name of the position, and a fraction with its
+/// interval.
 pub(crate) struct CurvePoint {
     pub(crate) at: f64,
     pub(crate) name: String,
@@ -18,8 +23,8 @@ pub(crate) struct CurvePoint {
     pub(crate) band: [f64; 2],
 }
 
-/// Draws a curve of fractions with whiskers, a line at one half, and, at the position `marked`, an interval on the scale where
-/// the curve crosses that line. Cost: O(points).
+/// Draws a curve of fractions with whiskers, and a line at one half. `marked` holds the position where the
+/// curve crosses that line, with its interval on the scale. Cost: O(points).
 pub(crate) fn curve(label: &str, points: &[CurvePoint], marked: Option<(f64, [f64; 2])>) -> String {
     let mut canvas = Canvas::new("curve", LEFT + PLANE[0] + RIGHT, TOP + PLANE[1] + FOOT, label);
     let ends = marked.iter().flat_map(|(at, band)| [*at, band[0], band[1]]);

@@ -1,15 +1,18 @@
-//! Forest plots: fractions with their intervals, one per line.
+//! Forest plots, with one fraction and its interval per line.
 
 use super::Label;
 use super::canvas::{Anchor, Canvas};
 use crate::page::words;
 
-/// The widths in pixels of the names, of the scale from 0 to 1, and of the figures beside it.
+/// The width of the names, in pixels.
 const LEFT: f64 = 150.0;
+/// The width of the scale from 0 to 1, in pixels.
 const PLANE: f64 = 200.0;
+/// The width of the figures next to the scale, in pixels.
 const RIGHT: f64 = 160.0;
-/// The heights in pixels of a line, and of the scale's marks.
+/// The height of a line, in pixels.
 const LINE: f64 = 28.0;
+/// The height of the scale's labels, in pixels.
 const FOOT: f64 = 24.0;
 
 pub(crate) struct ForestRow {
@@ -17,11 +20,11 @@ pub(crate) struct ForestRow {
     /// The fraction and its interval, or `None` if there are no cases.
     pub(crate) share: Option<(f64, [f64; 2])>,
     pub(crate) of: String,
-    /// `true` for a reference to compare with, and `false` for a subject.
+    /// `true` for a reference player, and `false` for a player under test.
     pub(crate) reference: bool,
 }
 
-/// Draws the rows in order, with a line at one half. `label` describes the plot. Cost: O(rows).
+/// Draws the rows in order, with a vertical line at one half. `label` describes the plot. Cost: O(rows).
 pub(crate) fn forest(label: &str, rows: &[ForestRow]) -> String {
     let foot = rows.len() as f64 * LINE + 4.0;
     let mut canvas = Canvas::new("forest", LEFT + PLANE + RIGHT, foot + FOOT, label);

@@ -1,15 +1,18 @@
-//! Correlation matrices of measures, in which each pair occurs once.
+//! Correlation matrices, in which each pair of measures occurs once.
 
 use super::canvas::{Anchor, Canvas};
 use super::step;
 
-/// The sizes in pixels of the names, of a cell, and of the foot.
+/// The width of the row names, in pixels.
 const LEFT: f64 = 128.0;
+/// The width and height of a cell, in pixels.
 const CELL: [f64; 2] = [74.0, 46.0];
+/// The height of the column names below the cells, in pixels.
 const FOOT: f64 = 24.0;
 
-/// Draws the part of the matrix below the diagonal. `label` describes the matrix. `cells` contains, by row and column of the
-/// measures in `names`, the coefficient from -1 to 1 and the text under it; `None` means missing. Cost: O(cells).
+/// Draws the part of the matrix below the diagonal. `label` describes the matrix. For each pair of the
+/// measures in `names`, `cells` holds the coefficient from -1 to 1 and the text below it. `None` stands for a
+/// missing value. Cost: O(cells).
 pub(crate) fn matrix(label: &str, names: &[&str], cells: &[Vec<Option<(f64, String)>>]) -> String {
     let count = names.len();
     let sides = count.saturating_sub(1) as f64;

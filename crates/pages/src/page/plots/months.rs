@@ -1,35 +1,39 @@
-//! Values over the months, such as abilities, each with its interval.
+//! Plots of values over the months, such as abilities, with an interval for each value.
 
 use super::canvas::{Anchor, Canvas};
 use super::shortened;
 
-/// The sizes of the margins in pixels.
+/// The width of the margin on the left, in pixels.
 const LEFT: f64 = 38.0;
+/// The height of the margin at the top, in pixels.
 const TOP: f64 = 8.0;
+/// The height of the margin at the bottom, in pixels.
 const FOOT: f64 = 24.0;
-/// The minimum distance, in pixels, between line names beside the plotting area.
+/// The minimum vertical distance between line names next to the plotting area, in pixels.
 const LABEL: f64 = 13.0;
-/// The maximum length of a name beside the plotting area in characters, and the width of the names in pixels.
+/// The maximum number of characters in a name next to the plotting area.
 const LETTERS: usize = 22;
+/// The width of the names next to the plotting area, in pixels.
 const NAMES: f64 = 150.0;
 
-/// A value for a month, with its interval.
+/// A value for one month, with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MonthPoint {
     pub(crate) value: f64,
     pub(crate) band: [f64; 2],
-    /// `true` for each end of the interval that was determined. Otherwise the interval extends to the edge.
+    /// For each end of the interval, `true` if the end was determined. Otherwise, the interval extends to the
+    /// edge of the plot.
     pub(crate) is_bounded: [bool; 2],
 }
 
-/// A line over the months.
+/// A line in a plot over the months.
 pub(crate) struct MonthSeries {
     pub(crate) name: String,
-    /// The class that sets the line's colour: `hue0` to `hue5`, or `mark`.
+    /// The class that sets the line's colour, which is `hue0` to `hue5`, or `mark`.
     pub(crate) class: String,
-    /// The value for each month, or `None` if there is no value.
+    /// The value for each month, or `None` for a month without a value.
     pub(crate) points: Vec<Option<MonthPoint>>,
-    /// `true` to draw intervals in addition to the line.
+    /// `true` to draw the intervals in addition to the line.
     pub(crate) whiskers: bool,
 }
 
@@ -37,17 +41,17 @@ pub(crate) struct MonthSeries {
 pub(crate) struct MonthPlot<'a> {
     pub(crate) label: &'a str,
     pub(crate) months: &'a [String],
-    /// The lines. Later ones are drawn over earlier ones.
+    /// The lines of the plot. Later lines are drawn over earlier lines.
     pub(crate) series: &'a [MonthSeries],
-    /// The minimum and maximum of the axis.
+    /// The lower and the upper end of the axis.
     pub(crate) range: [f64; 2],
-    /// The size of the plotting area in pixels.
+    /// The width and height of the plotting area, in pixels.
     pub(crate) plane: [f64; 2],
-    /// `true` to write the lines' names beside the plotting area.
+    /// `true` to write the names of the lines next to the plotting area.
     pub(crate) names: bool,
 }
 
-/// Draws the lines over the months on an axis in logits, with a line at 0. Cost: O(points).
+/// Draws lines over the months, on an axis in logits with a horizontal line at 0. Cost: O(points).
 pub(crate) fn over_months(plot: &MonthPlot<'_>) -> String {
     let MonthPlot { months, series, range: [least, most], plane: [width, height], .. } = *plot;
     let right = if plot.names { NAMES } else { 12.0 };
@@ -70,7 +74,7 @@ pub(crate) fn over_months(plot: &MonthPlot<'_>) -> String {
     for (at, name) in months.iter().enumerate().filter(|(at, _)| at % every == 0) {
         canvas.text(centre(at), TOP + height + 16.0, Anchor::Middle, "soft", name);
     }
-    // Lines with intervals are placed side by side within a month.
+    // Lines with intervals are placed side by side within each month.
     let wide = series.iter().filter(|line| line.whiskers).count();
     let dodge = (slot * 0.6 / wide.max(1) as f64).min(9.0);
     let mut place = 0;
@@ -122,7 +126,7 @@ fn draw(
         if is_bounded == [true, true] {
             canvas.dot(x, up(value), if line.whiskers { 3.5 } else { 2.0 }, "dot");
         } else if line.whiskers {
-            // The end that was determined.
+            // Only one end of the interval was determined.
             let end = up(if is_bounded[0] { low } else { high });
             canvas.lines(&[&[[x - 4.0, end], [x + 4.0, end]]], "whisker");
         }
@@ -130,7 +134,7 @@ fn draw(
     }
 }
 
-/// Writes the lines' names at their ends, with enough vertical distance between them.
+/// Writes the names of the lines at their ends, with sufficient vertical distance between names.
 fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64) -> f64) {
     let mut ends: Vec<(f64, &MonthSeries)> = plot
         .series
@@ -148,7 +152,8 @@ fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64
         })
         .collect();
     ends.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.name.cmp(&other.1.name)));
-    // Names are pushed down where they are too close, and then up from the foot.
+    // Names that are too close are moved down first. If they run past the bottom of the plot, they are moved
+    // up again.
     let mut taken = f64::NEG_INFINITY;
     for (y, _) in &mut ends {
         *y = y.max(taken + LABEL);
@@ -166,7 +171,7 @@ fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64
     }
 }
 
-/// Returns the distance between the marks of the axis, of which there are about five to ten.
+/// Returns the distance between two labels of the axis. An axis has about five to ten labels.
 fn tick(range: f64) -> f64 {
     [0.5, 1.0, 2.0, 5.0, 10.0].into_iter().find(|step| range / step <= 8.0).unwrap_or(20.0)
 }

@@ -1,17 +1,19 @@
-//! The plot of an expressive range: points in a plane, counted by cell.
+//! Plots of expressive ranges, which show points in a plane, counted by cell.
 
 use super::canvas::{Anchor, Canvas};
 use super::step;
 use crate::page::words;
 use forge::levels::report::{Axis, BINS, Range};
 
-/// The size of the plotting area in pixels, and of the room for the marks of its axes.
+/// The width and height of the plotting area, in pixels.
 const PLANE: f64 = 240.0;
+/// The width of the margin for the labels of the vertical axis, in pixels.
 const LEFT: f64 = 58.0;
+/// The height of the margin at the top, in pixels.
 const TOP: f64 = 10.0;
 
-/// Draws the levels of a set by two measures. The darker a cell, the more levels it has. The game's own levels are diamonds.
-/// Cost: O(cells).
+/// Draws the levels of a set by two measures. Cells with more levels are darker. The game's own levels are
+/// shown as diamonds. Cost: O(cells).
 pub(crate) fn range(range: &Range) -> String {
     let Range { x, y, cells, examples, .. } = range;
     let label = format!("{} by {}", x.measure, y.measure);
@@ -38,7 +40,7 @@ pub(crate) fn range(range: &Range) -> String {
         canvas.area(&[[x, y - 6.0], [x + 6.0, y], [x, y + 6.0], [x - 6.0, y]], "");
         canvas.close();
     }
-    // Label the ends and the middle of the axes, and add the names of the measures.
+    // Labels are written at the ends and in the middle of each axis, with the names of the measures.
     for (part, anchor, drop) in
         [(0.0, Anchor::Start, 0.0), (0.5, Anchor::Middle, 4.0), (1.0, Anchor::End, 10.0)]
     {
@@ -70,7 +72,7 @@ mod tests {
         });
         assert_eq!(svg.matches("<rect").count(), BINS * BINS);
         assert_eq!((svg.matches("class=\"own\"").count(), svg.matches("5 levels").count()), (2, 1));
-        // An example outside the range is drawn at the edge.
+        // An example outside the range is drawn at the edge of the plot.
         assert!(svg.contains("M178 124") && svg.contains("M298 124"), "{svg}");
         assert_eq!(svg.matches("<g ").count(), svg.matches("</g>").count());
     }

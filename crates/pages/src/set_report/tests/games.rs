@@ -8,7 +8,7 @@ use forge::{JudgeCost, Tally};
 use std::collections::BTreeMap;
 use validators::{Criteria, Criterion, CriterionSet, Effort, Judging, Panel};
 
-/// Some corpus games, which are treated as if they had been generated, with two levels each.
+/// Some corpus games that are treated as generated games, with two levels each.
 const GAMES: [(&str, &str); 3] =
     [("quiet-jars", "Quiet Jars"), ("hailglass", "Hailglass"), ("turnip-heist", "Turnip Heist")];
 
@@ -61,7 +61,7 @@ fn made() -> (GameSetReport, Vec<File>) {
 fn a_report_is_three_files_and_the_page_needs_no_other() {
     let (report, files) = made();
     let page = page(&files, GAMES.len());
-    // A copy of a corpus game is reported.
+    // A copy of a corpus game is reported as close to the corpus.
     let near = report.set.share("novelty", "near_corpus").unwrap();
     assert_eq!(near.count, GAMES.len() as u64);
     assert_eq!(report.games[0].nearest_corpus.as_ref().map(|near| near.name.as_str()), Some("quiet-jars"));

@@ -1,4 +1,5 @@
-//! Linear functions of the effects, which give a calibration's abilities, difficulties and months.
+//! Linear functions of the effects, from which the abilities, difficulties and months of a calibration are
+//! computed.
 
 use super::Model;
 use crate::scale::plays::Dimension;
@@ -13,7 +14,7 @@ pub(in crate::scale) struct Functional {
 }
 
 impl Model<'_> {
-    /// Returns a functional that is zero everywhere.
+    /// Returns a functional whose value is always zero.
     fn nothing(&self) -> Functional {
         Functional {
             constant: 0.0,
@@ -22,14 +23,14 @@ impl Model<'_> {
         }
     }
 
-    /// Returns the functional of a shared parameter.
+    /// Returns the functional whose value is a shared parameter.
     pub(in crate::scale) fn shared_functional(&self, at: usize) -> Functional {
         let mut found = self.nothing();
         found.shared[at] = 1.0;
         found
     }
 
-    /// Returns the functionals of the difficulties of a game's levels.
+    /// Returns the functionals whose values are the difficulties of a game's levels.
     pub(in crate::scale) fn game_functionals(
         &self,
         spreads: &Spreads,
@@ -60,13 +61,13 @@ impl Model<'_> {
         }
     }
 
-    /// Returns all levels, as pairs of game and level.
+    /// Returns all levels, as pairs of game index and level index.
     fn levels(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let layouts = self.layouts.iter().enumerate();
         layouts.flat_map(|(game, layout)| (0..layout.levels).map(move |level| (game, level)))
     }
 
-    /// Returns the functional of the mean difficulty of all levels.
+    /// Returns the functional whose value is the mean difficulty of all levels.
     pub(in crate::scale) fn mean_functional(&self, spreads: &Spreads, dimension: Dimension) -> Functional {
         let mut found = self.nothing();
         let share = 1.0 / self.levels().count() as f64;
@@ -76,8 +77,8 @@ impl Model<'_> {
         found
     }
 
-    /// Returns the functional of the planners' mean logit on all levels, which is the ease of the levels for exactly
-    /// these planners.
+    /// Returns the functional whose value is the planners' mean logit on all levels. The value is the ease of
+    /// the levels for exactly these planners.
     pub(in crate::scale) fn planners_functional(&self, spreads: &Spreads) -> Functional {
         let mut found = self.nothing();
         let planners: Vec<usize> = (0..self.examinees.len())

@@ -1,9 +1,11 @@
-//! The mode and the curvature of the model, given its spreads (Laplace's method). Effects of different games interact
-//! only through the few parameters that all games share, so a step costs the Cholesky factorisation of a small matrix
-//! for each game and of one Schur complement.
+//! The mode and the curvature of the model for given spreads (Laplace's method).
 //!
-//! Effects of games are in units of standard deviations: their prior is standard normal, and the spreads are in the
-//! loadings. The model therefore stays well-defined when a spread goes to zero.
+//! Effects of different games interact only through the few parameters that all games share. Therefore, a
+//! step costs the Cholesky factorisation of a small matrix for each game, and of one Schur complement.
+//!
+//! Effects of games are measured in units of standard deviations, so that their prior is standard normal, and
+//! the spreads are part of the loadings. Therefore, the model stays well-defined when a spread approaches
+//! zero.
 
 mod functional;
 mod slope;
@@ -17,28 +19,32 @@ use super::spreads::Spreads;
 use arrayvec::ArrayVec;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// The precision of the prior of an ability or of a month's shift. The prior is weak, but keeps the fit defined if
-/// nobody wins.
+/// The precision of the prior of an ability, or of a month's shift. The prior is weak, but it keeps the
+/// estimate defined if nobody wins.
 const FIXED_PRECISION: f64 = 1.0 / (5.0 * 5.0);
-/// The maximum number of Newton steps; 6 are typical, or 3 from a nearby mode.
+/// The maximum number of Newton steps. 6 steps are typical, or 3 steps from a nearby mode.
 const STEPS: usize = 100;
 /// The step length below which the mode counts as found. Newton's steps converge quadratically.
 const FOUND: f64 = 1e-5;
-/// The same threshold for a step to expected values, where convergence is only linear.
+/// The step length below which the expected values count as found. Steps to expected values converge only
+/// linearly.
 const FOUND_EXPECTED: f64 = 1e-6;
-/// The maximum number of steps to expected values; 15 to 60 are typical.
+/// The maximum number of steps to expected values. 15 to 60 steps are typical.
 const EXPECTED_STEPS: usize = 200;
-/// The fraction of the change of variances that is applied. Variances follow the means, so full changes can
-/// oscillate.
+/// The fraction of each change of the variances that is applied. Variances follow the means, so applying full
+/// changes can cause oscillation.
 const DAMPING: f64 = 0.7;
-/// The number of steps after which half of that fraction is applied.
+/// The number of steps after which only half of the usual fraction is applied.
 const SETTLING: f64 = 50.0;
-/// The maximum step of an effect, because the likelihood is flat far from its maximum.
+/// The maximum change of an effect in one step. A limit is needed because the likelihood is flat far from its
+/// maximum.
 const LONGEST: f64 = 3.0;
 
-/// The results on some games, and the parameters that all games share. If the abilities are unknown, they are the
-/// shared parameters. Otherwise, the shared parameters are the shift of difficulty for planners and, if readers
-/// played, the additional shift for readers beyond the implied one.
+/// The results on some games, and the parameters that all games share.
+///
+/// If the abilities are unknown, they are the shared parameters. Otherwise, the shared parameter is the shift
+/// of difficulty for planners. If readers played, a second shared parameter is the additional shift for
+/// readers, beyond the implied shift.
 pub(super) struct Model<'a> {
     pub(super) examinees: &'a [Examinee],
     pub(super) games: &'a [GamePlays],
@@ -47,16 +53,16 @@ pub(super) struct Model<'a> {
     has_readers: bool,
 }
 
-/// The positions of a game's effects.
+/// The positions of a game's effects in its vector of effects.
 struct Layout {
     size: usize,
     levels: usize,
-    /// The position of the first effect of readers: the game's effect, followed by those of the levels. Without
-    /// readers, these effects keep their prior distribution.
+    /// The position of the first effect for readers, which is the game's effect. The effects of the levels
+    /// follow. Without readers, these effects keep their prior distribution.
     readers: usize,
     has_readers: bool,
-    /// The match of each examinee's family, and the examinee's own match beyond it. A family with a single member has
-    /// only the former, and a reader has only the latter.
+    /// The positions of two matches for each examinee: the match of its family, and its own match beyond that
+    /// of the family. A family with a single member has only the former, and a reader has only the latter.
     matches: Vec<(Option<usize>, Option<usize>)>,
 }
 
@@ -89,7 +95,7 @@ impl<'a> Model<'a> {
         self.abilities.map_or(self.examinees.len(), |_| 1 + usize::from(self.has_readers))
     }
 
-    /// Returns the shared terms of an examinee's linear predictor, and its fixed part.
+    /// Returns the shared terms and the fixed part of an examinee's linear predictor.
     pub(super) fn shared_terms(&self, spreads: &Spreads, examinee: usize) -> (Terms, f64) {
         let Some(abilities) = self.abilities else { return (Terms::from_iter([(examinee, 1.0)]), 0.0) };
         let shift = self.shift_terms(spreads, self.examinees[examinee].dimension);
@@ -108,7 +114,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns the terms of a level's difficulty within its game.
+    /// Returns the terms of a level's difficulty that belong to its game.
     fn difficulty_terms(&self, spreads: &Spreads, game: usize, level: usize, dimension: Dimension) -> Terms {
         let layout = &self.layouts[game];
         match dimension {
@@ -122,7 +128,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns the terms of the linear predictor of an examinee on a level within its game.
+    /// Returns the terms of an examinee's linear predictor on a level that belong to the level's game.
     pub(super) fn terms(&self, spreads: &Spreads, game: usize, examinee: usize, level: usize) -> Terms {
         let dimension = self.examinees[examinee].dimension;
         let mut terms = self.difficulty_terms(spreads, game, level, dimension);
@@ -141,7 +147,8 @@ impl<'a> Model<'a> {
         terms
     }
 
-    /// Returns the mode and the curvature at the mode; `None` if they cannot be computed. `start` is a nearby mode.
+    /// Returns the mode and the curvature at the mode. `start` is a nearby mode, if one is known. Returns
+    /// `None` if the mode cannot be computed.
     pub(super) fn posterior(&self, spreads: &Spreads, start: Option<&Modes>) -> Option<Posterior> {
         let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
         let mut modes = start.cloned().unwrap_or_else(|| Modes {
@@ -161,11 +168,13 @@ impl<'a> Model<'a> {
         Some(Posterior::new(modes, height - curvature.half_log_determinant(), curvature, &rows, None))
     }
 
-    /// Returns the normal distribution that is nearest to the posterior by relative entropy, given the spreads (J. T.
-    /// Ormerod and M. P. Wand, "Gaussian variational approximate inference for generalized linear mixed models",
-    /// 2012). Its means are those of a skewed distribution, where modes are biased towards the middle. The shared
-    /// parameters solve the equation of the marginal likelihood with expected probabilities. `None` if the
-    /// distribution cannot be computed.
+    /// Returns the normal distribution that is nearest to the posterior by relative entropy, given the
+    /// spreads (J. T. Ormerod and M. P. Wand, "Gaussian variational approximate inference for generalized
+    /// linear mixed models", 2012).
+    ///
+    /// The means of this distribution are those of a skewed distribution, whose modes would be biased towards
+    /// the middle. The shared parameters solve the equation of the marginal likelihood with expected
+    /// probabilities. Returns `None` if the distribution cannot be computed.
     pub(super) fn expected_posterior(&self, spreads: &Spreads) -> Option<Posterior> {
         let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
         let start = self.posterior(spreads, None)?;
@@ -179,8 +188,8 @@ impl<'a> Model<'a> {
             let found = curvature.variances(&rows);
             let pairs = || variances.iter().flatten().zip(found.iter().flatten());
             let apart = pairs().map(|(old, new)| (new - old).abs() / (1.0 + new)).fold(0.0, f64::max);
-            // If the data say almost nothing, the variances are so large that the quadrature is rough, and they do
-            // not converge.
+            // If the data contain almost no information, the variances are so large that the quadrature is
+            // inaccurate, and the variances do not converge.
             if longest.max(apart) < FOUND_EXPECTED || step == EXPECTED_STEPS {
                 return Some(Posterior::new(modes, marginal, curvature, &rows, Some(&variances)));
             }
@@ -192,8 +201,8 @@ impl<'a> Model<'a> {
         None
     }
 
-    /// Takes a step that increases the log density, halving it until it does. Returns the new modes, their log
-    /// density, and an upper bound on the step length.
+    /// Takes a step that increases the log density. The step is halved until the log density increases.
+    /// Returns the new modes, their log density, and an upper bound on the step length.
     fn raised(
         &self,
         rows: &[Vec<Row>],
@@ -208,7 +217,7 @@ impl<'a> Model<'a> {
                 shared: &modes.shared + &shared * length,
                 games: modes.games.iter().zip(&games).map(|(at, step)| at + step * length).collect(),
             };
-            // Near the mode, the sum of thousands of terms is no more exact than this.
+            // Near the mode, the sum of thousands of terms is accurate only to within this tolerance.
             let there = self.height(rows, &next, variances);
             if there >= height - 1e-10 * height.abs() {
                 return Some((next, there, longest * length));
@@ -229,8 +238,8 @@ impl<'a> Model<'a> {
         plays.map(row).collect()
     }
 
-    /// Returns the logarithm of likelihood times prior, up to a constant. If the variances of the linear predictors
-    /// are given, returns its expected value.
+    /// Returns the logarithm of the likelihood times the prior, up to a constant. If the variances of the
+    /// linear predictors are given, returns its expected value instead.
     fn height(&self, rows: &[Vec<Row>], modes: &Modes, variances: Option<&[Vec<f64>]>) -> f64 {
         let mut sum = -0.5 * FIXED_PRECISION * modes.shared.norm_squared();
         for (game, (rows, own)) in rows.iter().zip(&modes.games).enumerate() {
@@ -250,8 +259,8 @@ impl<'a> Model<'a> {
         sum
     }
 
-    /// Returns the curvature at the modes. If the variances of the linear predictors are given, returns the expected
-    /// curvature around the modes.
+    /// Returns the curvature at the modes. If the variances of the linear predictors are given, returns the
+    /// expected curvature around the modes instead.
     fn curvature(
         &self,
         rows: &[Vec<Row>],
@@ -279,7 +288,7 @@ impl<'a> Model<'a> {
                 let (rest, weight) = (row.won - row.of * chance, row.of * spread);
                 for &(i, a) in &row.own {
                     slope[i] += a * rest;
-                    // Only the lower triangle is read.
+                    // Only the lower triangle of the matrix is read.
                     for &(j, b) in row.own.iter().filter(|(j, _)| *j <= i) {
                         within[(i, j)] += weight * a * b;
                     }
@@ -295,7 +304,7 @@ impl<'a> Model<'a> {
                 }
             }
             let within = Cholesky::new(within)?;
-            // Half a solution, with the triangle alone, suffices for the Schur complement.
+            // The solution of the triangular system suffices for the Schur complement.
             let cross = within.l_dirty().solve_lower_triangular(&cross)?;
             let slope = within.l_dirty().solve_lower_triangular(&slope)?;
             schur -= cross.tr_mul(&cross);
@@ -339,7 +348,7 @@ impl Layout {
     }
 }
 
-/// The results of an examinee on a level, with the terms of its linear predictor.
+/// The results of an examinee on a level, and the terms of the linear predictor.
 struct Row {
     examinee: usize,
     level: usize,
@@ -358,7 +367,8 @@ impl Row {
     }
 }
 
-/// Returns the expected probability, and its expected variance, for a normally distributed logit.
+/// Returns the expected probability of winning and the expected variance of a result, for a normally
+/// distributed logit.
 fn expected(mean: f64, variance: f64) -> (f64, f64) {
     let sd = variance.max(0.0).sqrt();
     nodes().fold((0.0, 0.0), |(chances, spreads), (z, weight)| {
@@ -367,15 +377,15 @@ fn expected(mean: f64, variance: f64) -> (f64, f64) {
     })
 }
 
-/// The values of all effects.
+/// The values of all effects and shared parameters.
 #[derive(Clone)]
 pub(super) struct Modes {
     pub(super) shared: DVector<f64>,
     pub(super) games: Vec<DVector<f64>>,
 }
 
-/// The factored negative second derivatives, and the gradient of the shared parameters after the elimination of the
-/// games.
+/// The factored negative second derivatives, and the gradient of the shared parameters. The effects of the
+/// games are eliminated.
 struct Curvature {
     schur: Cholesky<f64, Dyn>,
     gradient: DVector<f64>,
@@ -383,22 +393,22 @@ struct Curvature {
 }
 
 struct GameCurvature {
-    /// The block of the game's own effects.
+    /// The block of second derivatives for the game's own effects, factored.
     within: Cholesky<f64, Dyn>,
-    /// The block of the game's effects with the shared parameters, by column, and the gradient. Both are divided by
-    /// the triangle of `within`.
+    /// The block between the game's effects and the shared parameters, by column. This block and the gradient
+    /// are already divided by the triangle of `within`.
     cross: DMatrix<f64>,
     slope: DVector<f64>,
 }
 
 impl GameCurvature {
-    /// Returns the game's effects from their quotients by the triangle of `within`.
+    /// Divides the effects of a game by the transposed triangle of `within`, which completes a solution.
     fn divided(&self, mut half: DVector<f64>) -> DVector<f64> {
         self.within.l_dirty().tr_solve_lower_triangular_unchecked_mut(&mut half);
         half
     }
 
-    /// Returns the decrease of the game's effects when each shared parameter grows by one.
+    /// Returns the decrease of the game's effects when each shared parameter increases by one.
     fn gain(&self) -> DMatrix<f64> {
         let mut gain = self.cross.clone();
         self.within.l_dirty().tr_solve_lower_triangular_unchecked_mut(&mut gain);
@@ -407,14 +417,14 @@ impl GameCurvature {
 }
 
 impl Curvature {
-    /// Returns the Newton step.
+    /// Returns the Newton step for the shared parameters and for the effects of each game.
     fn step(&self) -> (DVector<f64>, Vec<DVector<f64>>) {
         let shared = self.schur.solve(&self.gradient);
         let games = self.games.iter().map(|game| game.divided(&game.slope - &game.cross * &shared)).collect();
         (shared, games)
     }
 
-    /// Returns the variances of the linear predictors, given the shared parameters.
+    /// Returns the variances of the linear predictors for given shared parameters.
     fn variances(&self, rows: &[Vec<Row>]) -> Vec<Vec<f64>> {
         let of_game = |(game, rows): (&GameCurvature, &Vec<Row>)| {
             let inverse = game.within.inverse();
@@ -427,7 +437,7 @@ impl Curvature {
         self.games.iter().zip(rows).map(of_game).collect()
     }
 
-    /// Returns half of the logarithm of the determinant.
+    /// Returns half of the logarithm of the matrix's determinant.
     fn half_log_determinant(&self) -> f64 {
         let of = |factor: &Cholesky<f64, Dyn>| {
             let factor = factor.l_dirty();
@@ -437,17 +447,17 @@ impl Curvature {
     }
 }
 
-/// The normal distribution around the mode.
+/// The normal distribution that approximates the posterior.
 pub(super) struct Posterior {
     pub(super) modes: Modes,
-    /// The logarithm of the likelihood with all effects integrated out, up to a constant.
+    /// The logarithm of the marginal likelihood, in which all effects are integrated out, up to a constant.
     pub(super) marginal: f64,
     curvature: Curvature,
-    /// The decrease of each game's effects when each shared parameter grows by one.
+    /// The decrease of each game's effects when each shared parameter increases by one.
     gains: Vec<DMatrix<f64>>,
-    /// The covariance of the shared parameters.
+    /// The covariance matrix of the shared parameters.
     pub(super) covariance: DMatrix<f64>,
-    /// The expected weight of each row with its terms, by game; empty at a mode.
+    /// The expected weight of each row with the row's terms, by game. Empty if the distribution is at a mode.
     weights: Vec<Vec<(usize, f64, Terms, Terms)>>,
 }
 
@@ -478,7 +488,8 @@ impl Posterior {
         functional.constant + functional.shared.dot(&self.modes.shared) + games.sum::<f64>()
     }
 
-    /// Returns the gradient of a functional in the shared parameters, where the effects of games follow.
+    /// Returns the gradient of a functional with respect to the shared parameters, which the effects of games
+    /// follow.
     fn slope(&self, functional: &Functional) -> DVector<f64> {
         let mut slope = functional.shared.clone();
         for (gain, terms) in self.gains.iter().zip(&functional.games) {
@@ -487,8 +498,8 @@ impl Posterior {
         slope
     }
 
-    /// Returns the covariance of two functionals, in two parts: through the shared parameters, and through the games
-    /// given the shared parameters.
+    /// Returns two components of the covariance of two functionals. The first component comes from the shared
+    /// parameters, and the second from the games, given the shared parameters.
     pub(super) fn covariance(&self, one: &Functional, other: &Functional) -> (f64, f64) {
         let (left, right) = (self.slope(one), self.slope(other));
         let shared = left.dot(&(&self.covariance * right));
@@ -497,14 +508,14 @@ impl Posterior {
         (shared, within.map(|(game, (left, right))| left.dot(&game.within.solve(right))).sum())
     }
 
-    /// Returns the covariance of a game's functionals, given the shared parameters.
+    /// Returns the covariance matrix of a game's functionals for given shared parameters.
     pub(super) fn within_game(&self, game: usize, functionals: &[Functional]) -> DMatrix<f64> {
         let columns: Vec<DVector<f64>> = functionals.iter().map(|one| one.games[game].clone()).collect();
         let terms = DMatrix::from_columns(&columns);
         terms.tr_mul(&self.curvature.games[game].within.solve(&terms))
     }
 
-    /// Returns the change of a functional when the fixed ability of each examinee grows by one.
+    /// Returns the change of a functional when the fixed ability of each examinee increases by one.
     pub(super) fn sensitivity(&self, functional: &Functional, examinees: usize) -> Vec<f64> {
         let shared = &self.covariance * self.slope(functional);
         let mut moves = vec![0.0; examinees];
@@ -522,8 +533,8 @@ impl Posterior {
 }
 
 impl Model<'_> {
-    /// Returns the mean squared standardised residual of the results on a game: the sum of the squared residuals
-    /// divided by the sum of their variances.
+    /// Returns the misfit of the results on a game, which is the sum of the squared residuals divided by the
+    /// sum of their variances.
     pub(super) fn misfit(&self, spreads: &Spreads, posterior: &Posterior, game: usize) -> f64 {
         let (mut squares, mut variances) = (0.0, 0.0);
         for row in self.rows(spreads, game) {

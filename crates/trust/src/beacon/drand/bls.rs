@@ -2,19 +2,21 @@
 
 use blst::{BLST_ERROR, min_pk, min_sig};
 
-/// The domains of the hashes to the curve.
+/// The domain separation tag for hashes to the group G1.
 pub(super) const ON_G1: &[u8] = b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_";
+/// The domain separation tag for hashes to the group G2.
 pub(super) const ON_G2: &[u8] = b"BLS_SIG_BLS12381G2_XMD:SHA-256_SSWU_RO_NUL_";
 
-/// The sizes of points in the compressed form, the only one in which a point has one encoding: another would have another
-/// hash, and so another value.
+/// The size of a compressed point of the group G1, in bytes. Only the compressed form gives a point a unique
+/// encoding. Otherwise, the same point could have a different hash, and thus a different value.
 const G1_BYTES: usize = 48;
+/// The size of a compressed point of the group G2, in bytes.
 const G2_BYTES: usize = 96;
 
-/// Returns `true` if the signature is the key's on a message.
+/// Returns `true` if `signature` is a valid signature of the message under the key.
 ///
 /// # Errors
-/// The key is none of the scheme.
+/// Returns an error if the key is not a valid key of the scheme.
 pub(super) fn signed(scheme: &str, key: &[u8], message: &[u8], signature: &[u8]) -> Result<bool, String> {
     let no_key = || format!("has a `public_key` that is none of the scheme {scheme}");
     let verdict = if scheme == "bls-unchained-g1-rfc9380" {

@@ -1,8 +1,9 @@
-//! drand networks, whose rounds are signed by a threshold of their members, with BLS signatures on the curve
+//! drand networks. A threshold of a network's members signs each round with BLS signatures on the curve
 //! BLS12-381.
 //!
-//! A network is identified by its chain hash, which covers its public key. Two networks have names here. Any other
-//! network is referred to by its chain hash, so that a commitment to the source fixes the key.
+//! A network is identified by its chain hash, which covers its public key. Two networks have names in this
+//! module. Any other network is referred to by its chain hash, so that a commitment to the source fixes the
+//! key.
 
 #[cfg(feature = "drand")]
 mod bls;
@@ -15,40 +16,41 @@ use bls::signed;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-/// The facts about a network that its chain hash covers, and its signature scheme, in the form that the network
-/// serves under `/info`.
+/// The facts about a network that its chain hash covers, and its signature scheme. The fields are in the form
+/// that the network serves under `/info`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chain {
-    /// The public key, in hexadecimal digits.
+    /// The public key as hexadecimal digits.
     pub public_key: String,
     /// The number of seconds between rounds.
     pub period: u32,
     /// The time of round 1, in seconds since 1970.
     pub genesis_time: i64,
-    /// The network's chain hash.
+    /// The chain hash of the network.
     pub hash: Digest,
-    /// The digest of the group of initial members.
+    /// The digest of the group of the network's initial members.
     #[serde(rename = "groupHash")]
     pub group_hash: Digest,
-    /// The scheme of the signatures.
+    /// The scheme of the network's signatures.
     #[serde(rename = "schemeID")]
     pub scheme: String,
-    /// The network's name among the networks of its members.
+    /// The metadata with the network's name, which distinguishes it from other networks of the same members.
     pub metadata: Metadata,
 }
 
-/// The part of [`Chain`] that holds the name.
+/// The part of [`Chain`] that contains the network's name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Metadata {
-    /// The name, such as `quicknet`.
+    /// The name of the network, such as `quicknet`.
     #[serde(rename = "beaconID")]
     pub beacon_id: String,
 }
 
 impl Chain {
-    /// Computes the chain hash from the other fields; `None` if the key is not hexadecimal digits.
+    /// Computes the chain hash from the other fields. Returns `None` if the key does not consist of
+    /// hexadecimal digits.
     pub fn computed_hash(&self) -> Option<Digest> {
         let mut hasher = Sha256::new()
             .chain_update(self.period.to_be_bytes())
@@ -64,7 +66,7 @@ impl Chain {
     }
 }
 
-/// A network whose key is in the source code.
+/// A network whose key is part of the source code.
 pub(super) struct Known {
     name: &'static str,
     hash: &'static str,
@@ -72,7 +74,7 @@ pub(super) struct Known {
     scheme: &'static str,
 }
 
-/// The networks with names here: those of the League of Entropy that are running today.
+/// The networks that have names in this module, which are the networks that the League of Entropy runs today.
 const KNOWN: [Known; 2] = [
     Known {
         name: "drand quicknet",
@@ -89,18 +91,18 @@ const KNOWN: [Known; 2] = [
     },
 ];
 
-/// The network that a source refers to.
+/// A network to which a source refers.
 pub(super) enum Network {
     /// A network in [`KNOWN`].
     Known(&'static Known),
-    /// A network that is given by its chain hash. The file must state its key.
+    /// A network that is given by its chain hash. The beacon file must state the network's key.
     Hash(Digest),
 }
 
-/// Returns the network that a source refers to; `None` if the source is not a drand network.
+/// Returns the network to which a source refers, or `None` if the source is not a drand network.
 ///
 /// # Errors
-/// Returns an error with the accepted names if the source mentions drand but is not a network's name.
+/// Returns an error with the accepted names if the source mentions drand but is not the name of a network.
 pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     if !source.to_lowercase().contains("drand") {
         return Ok(None);
@@ -121,8 +123,8 @@ pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     })
 }
 
-/// Checks the name of a source in a recipe. A name that mentions drand must refer to one of its networks, as
-/// [`Drawn::check`](super::Drawn::check) requires. Returns whether the source is such a network.
+/// Checks the name of a source in a recipe. Returns `true` if the source is a drand network. A name that
+/// mentions drand must refer to a drand network, as [`Drawn::check`](super::Drawn::check) requires.
 ///
 /// # Errors
 /// Returns an error with the names to use instead.
@@ -181,11 +183,11 @@ impl Network {
     }
 }
 
-/// Tests a signature of a round.
+/// Returns `true` if a signature of a round is valid.
 ///
 /// # Errors
-/// Returns an error if the signature cannot be checked: the scheme is unknown, the previous signature is missing or
-/// superfluous, or the key is invalid.
+/// Returns an error if the signature cannot be checked, because the scheme is unknown, the previous signature
+/// is missing or superfluous, or the key is invalid.
 fn verifies(
     scheme: &str,
     key: &[u8],

@@ -1,4 +1,4 @@
-//! Tests on real rounds, which the pairing verifies, and on rounds of networks that the tests create.
+//! Tests with real rounds, whose signatures are verified, and with rounds of networks that the tests create.
 
 use super::bls::{ON_G1, ON_G2};
 use super::*;
@@ -6,7 +6,7 @@ use crate::Drawn;
 use blst::{min_pk, min_sig};
 use serde_json::{Value, json};
 
-/// Rounds of real networks, as the networks serve them.
+/// Rounds of real networks, in the form that the networks serve.
 const QUICKNET_123: &str =
     "b75c69d0b72a5d906e854e808ba7e2accb1542ac355ae486d591aa9d43765482e26cd02df835d3546d23c4b13e0dfc92";
 const QUICKNET_1000: &str =
@@ -41,7 +41,7 @@ fn check(file: &Value, expect: Option<&str>) {
     }
 }
 
-/// The keys in the source code are the ones that the chain hashes cover.
+/// The chain hashes cover the keys in the source code.
 #[test]
 fn known_keys_have_their_chain_hashes() {
     let facts = [
@@ -92,7 +92,7 @@ fn real_rounds_hold() {
     check(&answer("drand default", 72785, DEFAULT_72785, other), Some("not the one of round 72785"));
 }
 
-/// A publisher who makes up a value has no signature for it.
+/// A publisher who invents a value has no signature for it.
 #[test]
 fn a_round_of_drand_needs_its_signature() {
     let file = json!({ "source": "drand quicknet", "round": 1000, "randomness": value(QUICKNET_1000) });
@@ -101,7 +101,7 @@ fn a_round_of_drand_needs_its_signature() {
     check(&answer("drand quicknet", 1000, &"c0".repeat(48), json!({})), Some("not the one of round 1000"));
 }
 
-/// The same signature in the uncompressed form has a different hash.
+/// The uncompressed form of the same signature has a different hash.
 #[test]
 fn a_point_has_one_encoding() {
     let signature = min_sig::Signature::from_bytes(&hex(QUICKNET_1000).unwrap()).unwrap();
@@ -124,7 +124,7 @@ fn sources_that_mention_drand_name_a_network() {
     assert!(by_hash.contains("is the network `drand quicknet`: write that"), "{by_hash}");
 }
 
-/// For networks without a name here, the source fixes the chain hash, which fixes the key.
+/// For a network without a name, the source fixes the chain hash, and the chain hash fixes the key.
 #[test]
 fn other_networks_are_named_by_their_chain_hash() {
     let ikm = [7; 32];
@@ -198,7 +198,8 @@ fn other_networks_are_named_by_their_chain_hash() {
     }
 }
 
-/// The chain hash also covers the genesis time. With a made-up genesis time, a key could have any number of names.
+/// The chain hash also covers the genesis time. With an invented genesis time, the same key could have any
+/// number of chain hashes.
 #[test]
 fn a_known_key_has_one_name() {
     let mut chain = Chain {
