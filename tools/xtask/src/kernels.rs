@@ -18,7 +18,7 @@ use validators::novelty::{GameForm, NEAR, distance};
 /// fail.
 ///
 /// If a kernel rarely passes, other kernels get its turns, so a release has many games from few kernels. Attempts are
-/// independent, so the games of a kernel may be close to each other. Cost: 1 to 15 seconds of one core per attempt.
+/// independent, so the games of a kernel may be close to each other. Most of the cost of an attempt is the search for boards.
 ///
 /// Example: cargo xtask kernels seeds/2026-12.toml --kernel one-pull
 #[derive(clap::Args)]
