@@ -83,7 +83,7 @@ impl KernelGenome {
         all
     }
 
-    /// Returns the same rules with different numbers, points and sizes.
+    /// Returns the same rules with different numbers and points, and with a different colour of the player.
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
         let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());

@@ -52,7 +52,7 @@ impl Rules for Invention {
     }
 }
 
-/// The boards of generated rules, with what is known about the rules; nothing is known about the rules of kernels.
+/// The boards for generated rules, with known facts about the rules. No facts are known about the rules of kernels.
 #[derive(Default)]
 pub(crate) struct MadeBoards {
     /// The types with opposed uses.
@@ -102,7 +102,7 @@ impl BoardSource for MadeBoards {
     }
 }
 
-/// The result of a quick look at an invented game.
+/// The result of a quick look at a game with generated rules.
 pub(crate) struct QuickLook {
     /// The measures of the best of a few boards; `None` if no board was won.
     board: Option<BoardMeasures>,
@@ -159,7 +159,8 @@ impl MadeBoards {
         BoardBrief { idioms, counts, ..BoardBrief::of_demand(demand) }
     }
 
-    /// Returns `true` if a short search finds a board whose win needs the opposed uses of types.
+    /// Returns `true` if a short search finds a board whose win needs the opposed uses of types. If no opposed uses are
+    /// known, any won board suffices.
     fn can_need_uses(&self, game: &Game, seed: Seed) -> bool {
         let analysis = Analysis::of(game);
         let order = BoardOrder::of(self.brief(&analysis, OPPOSED));
@@ -190,7 +191,7 @@ impl MadeBoards {
     }
 }
 
-/// The boards for one position in an invented game.
+/// The boards for one position in a game with generated rules.
 struct PlaceBoards<'a> {
     source: &'a MadeBoards,
     analysis: Analysis,

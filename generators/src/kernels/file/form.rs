@@ -13,7 +13,7 @@ pub(crate) struct Form {
     /// The sentence that replaces the kernel's dilemma, for a form that lacks types in the kernel's dilemma.
     dilemma: Option<String>,
     goal: String,
-    /// The types that the form lacks. Sentences, levels, variants and rules that mention these types are left out.
+    /// The types that the form lacks. The kernel's sentences, variants and rules that mention these types are left out.
     #[serde(default)]
     without: Vec<String>,
     /// `true` if the form has only the facts that it lists.

@@ -100,7 +100,7 @@ pub(crate) struct File {
     pub(crate) titles: Vec<String>,
     pub(crate) placed: Vec<String>,
     pub(crate) rules: String,
-    /// The rules of the kernel itself, in the file of a form. Maps use the numbers that these rules introduce.
+    /// The rules of the kernel itself, in the file of a form. The form can use the numbers that these rules introduce.
     #[serde(skip)]
     pub(crate) whole_rules: String,
     pub(crate) roles: BTreeMap<String, Casting>,

@@ -106,7 +106,7 @@ fn every_kernel_builds_in_every_scene() {
     }
 }
 
-/// For each demand, some draw composes a board, and every type that levels may place has an idiom on it or is floor.
+/// For each demand, some draw composes a board.
 #[test]
 fn every_form_has_boards() {
     for (kernel, form) in forms() {
