@@ -68,6 +68,7 @@ pub(crate) fn search_boards(
         && best.calls < budget.total
         && !best.is_complete()
         && !best.is_stale(budget)
+        && !best.is_hopeless(budget)
     {
         let Some(level) = search.ask(1).pop() else { break };
         let judged = judge.judge(&level, best.quality());
@@ -103,6 +104,11 @@ impl Best {
         !self.boards.is_empty()
             && self.stale >= budget.patience
             && self.evaluations >= budget.compositions + budget.patience
+    }
+
+    /// Returns `true` if many boards were searched, and none was won as ordered.
+    fn is_hopeless(&self, budget: &BoardBudget) -> bool {
+        self.boards.is_empty() && self.searched >= budget.hopeless
     }
 
     fn is_complete(&self) -> bool {

@@ -43,6 +43,8 @@ base::with_defaults! {
         pub evaluations: usize = 60,
         /// The number of boards without an improvement after which the search ends, once a board is won.
         pub patience: usize = 24,
+        /// The number of boards for which a win is searched without success after which the search ends.
+        pub hopeless: usize = 32,
         /// The maximum number of forward-model calls of a search for the shortest win.
         pub calls: u64 = 40_000,
         /// The maximum number of forward-model calls of a search for a win without one of the interactions, or after a

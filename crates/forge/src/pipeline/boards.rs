@@ -22,6 +22,9 @@ const OPPOSED: u8 = 2;
 const LOOK_DEMAND: u8 = 1;
 /// The number of boards of a quick look.
 const LOOKS: usize = 24;
+/// The number of boards of a quick look after which a game without a won board is rejected. Good rules have a win on every
+/// fifth composition or more often.
+const HOPELESS: usize = 12;
 /// The number of forward-model calls for all boards of a quick look.
 const LOOK_CALLS: u64 = 1_500_000;
 /// The forward-model calls of the search for a board whose win needs the opposed uses.
@@ -74,7 +77,11 @@ impl BoardSource for MadeBoards {
         if let Some(obstacle) = self.look_quickly(game, seed).obstacle() {
             return Err(obstacle);
         }
-        if self.can_need_uses(game, seed.child("uses", 0)) { Ok(()) } else { Err(USELESS) }
+        if self.joint.is_empty() || self.can_need_uses(game, seed.child("uses", 0)) {
+            Ok(())
+        } else {
+            Err(USELESS)
+        }
     }
 
     fn joint_types(&self) -> &[JointType] {
@@ -181,6 +188,7 @@ impl MadeBoards {
         let budget = BoardBudget {
             compositions: LOOKS,
             evaluations: LOOKS,
+            hopeless: HOPELESS,
             total: LOOK_CALLS,
             scrutiny: 1,
             ..BoardBudget::default()
