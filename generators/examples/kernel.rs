@@ -1,13 +1,10 @@
-//! Writes the game of a kernel file, in a scene or with the kernel's type names, and a composed board for each demand.
-//! Nobody has won these boards yet:
+//! Writes the game of a kernel file and levels of its course, in a scene or with the kernel's type names:
 //! `cargo run -p infinite-arcade-generators --example kernel -- FILE.toml FOLDER [SEED] [--variants] [--form=NAME]
 //! [--scene=NAME]`.
 
 use base::Seed;
-use engine::{Analysis, Game};
-use infinite_arcade_generators::Variation;
-use infinite_arcade_generators::boards::{BoardBrief, BoardVariation};
-use infinite_arcade_generators::kernels::preview;
+use engine::Game;
+use infinite_arcade_generators::kernels::{Slot, preview};
 use std::error::Error;
 use std::fs;
 use std::path::Path;
@@ -25,21 +22,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     let text = fs::read_to_string(file)?;
     let name = Path::new(file).file_stem().and_then(|name| name.to_str()).unwrap_or("kernel");
     let seed = Seed::from_text(rest.first().map_or("preview", |seed| seed.as_str()));
-    let source = preview(name, &text, form, scene, variants, seed)?;
+    let (source, course) = preview(name, &text, form, scene, variants, seed)?;
     let game = Game::from_source(&source).map_err(|problems| problems.to_string())?;
     let folder = Path::new(folder.as_str());
     fs::create_dir_all(folder)?;
     fs::write(folder.join("game.vgdl"), &source)?;
-    let analysis = Analysis::of(&game);
-    for demand in 0..=4 {
-        let variation = BoardVariation::new(&analysis, &BoardBrief::of_demand(demand))?;
-        match variation.create(seed.child("board", demand.into())) {
-            Some(board) => {
-                let text = board.to_string();
-                println!("{text}");
-                fs::write(folder.join(format!("lvl{demand}.txt")), text)?;
+    for (number, slot) in Slot::ALL.into_iter().enumerate() {
+        let made = course.level(slot, seed.child("level", number as u64));
+        let path = folder.join(format!("lvl{number}.txt"));
+        match made {
+            Ok(level) => {
+                if let Err(problems) = game.level(&level.text) {
+                    println!("{slot:?}: {problems}");
+                }
+                println!("{slot:?}: {}\n{}", level.asks, level.text);
+                fs::write(path, level.text)?;
             }
-            None => println!("no board for demand {demand}"),
+            Err(error) => println!("{slot:?}: {error}"),
         }
     }
     Ok(())

@@ -50,7 +50,7 @@ def section(card, picture, gates):
     patterns = card["origin"]["patterns"]
     lines = [f"## {card['title']}", "", f"*{sentences[1].rstrip('.')}.* {card['goal']}", "",
              f"Made of {', '.join(f'`{pattern}`' for pattern in patterns)}.", "", f"![wins of its levels]({picture})", ""]
-    lines += [f"{number + 1}. Won in {level['witness_ticks']} ticks."
+    lines += [f"{number + 1}. {level['asks']} (Won in {level['witness_ticks']} ticks.)"
               for number, level in enumerate(card["levels"])]
     return lines + ["", gates, ""]
 

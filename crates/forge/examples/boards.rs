@@ -1,8 +1,7 @@
 //! Prints boards of a game, either drawn or found by a search: `boards KERNEL|PATH.vgdl SEED [SLOT] [COUNT] [DIR]`.
 //!
-//! `SLOT` is the demand of the boards, from 0 to 4. Without a demand, prints compositions as they are drawn, and the
-//! number of similar pairs. With a demand, searches for boards, each unlike all earlier boards. Writes these boards as
-//! level files to the folder, if a folder is given.
+//! Without a slot, prints compositions as they are drawn, and a table of their similarity. With a slot, searches for
+//! boards, each unlike all earlier boards, and writes them as level files to the folder, if a folder is given.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
@@ -41,7 +40,7 @@ fn load(name: &str, seed: Seed) -> Game {
         return Game::from_source(&source).expect("the game compiles");
     }
     let genome = KernelGenome::of_kernel(name, |_| true, &BTreeSet::new(), seed).expect("a kernel");
-    let game = genome.build().expect("the kernel builds").rules;
+    let game = genome.build().expect("the kernel builds").game.rules;
     println!("{}", engine::syntax::print(game.description()));
     game
 }

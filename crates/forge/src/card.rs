@@ -76,7 +76,7 @@ pub struct LevelCard {
     pub rows: usize,
     /// The name of the generator that made the level.
     pub generator: String,
-    /// The level's question to the player as one sentence. Only levels from before GENERATION 16 have questions.
+    /// The level's question to the player as one sentence, if it is a level of a course.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub asks: Option<String>,
     /// The difficulty that was requested, from 0 to 1.

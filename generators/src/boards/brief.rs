@@ -3,14 +3,14 @@
 use super::idiom::Idiom;
 use engine::SpriteType;
 
-/// The maximum demand, for the last level of a course.
+/// The demand of the last slot of a course.
 pub(crate) const MAX_DEMAND: u8 = 4;
 
 /// The request for a board: its demand on the player, and its contents.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BoardBrief {
-    /// The demand on the player, from 0 for an introduction to 4 for an exam. The demand determines the size of the
-    /// board and the numbers of things.
+    /// The slot of the course, from 0 to 4: introduce, confirm, combine, twist, exam. The slot determines the size of
+    /// the board and the numbers of things.
     pub demand: u8,
     /// The minimum and maximum numbers of sprites of some types. All other numbers follow from the rules and the
     /// demand.
@@ -24,7 +24,7 @@ pub struct BoardBrief {
 }
 
 impl BoardBrief {
-    /// Creates a request with the usual contents for a demand from 0 to 4.
+    /// Creates a request with the usual contents for a slot from 0 to 4.
     pub fn of_demand(demand: u8) -> BoardBrief {
         BoardBrief { demand: demand.min(MAX_DEMAND), ..BoardBrief::default() }
     }

@@ -1,10 +1,11 @@
 //! The composition of a game's rules and words from a kernel, the kernel's numbers and a scene.
 
-use super::habits::Habits;
+use super::course::{self, Board, Space, Traits};
+use super::habits::{Edge, Habits};
 use super::ways;
 use crate::GenerateError;
 use crate::games::{english, palette};
-use crate::kernels::file::kernel::{Casting, Kernel};
+use crate::kernels::file::kernel::{Casting, Kernel, Slot};
 use crate::kernels::file::template;
 use crate::kernels::words::dressing::{Palette, picture_lines};
 use crate::kernels::words::naming;
@@ -30,13 +31,69 @@ pub(crate) struct Choices<'a> {
     pub(crate) time: Option<u32>,
 }
 
-/// A game without levels: its rules and words.
+/// A game without levels: its rules, nouns and words, and the building blocks of its levels.
 #[derive(Clone, Debug)]
 pub(crate) struct Composed {
     pub(crate) description: Description,
     pub(crate) title: String,
     pub(crate) summary: String,
     pub(crate) goal: String,
+    pub(crate) course: Course,
+}
+
+/// The maps of the levels of a game, and the characters to write them with.
+#[derive(Clone, Debug)]
+pub struct Course {
+    kernel: &'static Kernel,
+    values: Vec<u32>,
+    traits: Traits,
+    space: Space,
+    edge: Edge,
+    nouns: Nouns,
+    /// The characters of the types, by their names in the kernel.
+    symbols: BTreeMap<String, char>,
+}
+
+/// A level of a course, before anybody has played it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CourseLevel {
+    /// The level in the characters of the game.
+    pub text: String,
+    /// The level's slot in the course.
+    pub slot: Slot,
+    /// The level's question to the player, as one sentence.
+    pub asks: String,
+}
+
+impl Course {
+    /// Builds a level for a slot: draws one of the slot's maps, lays it out and furnishes it. Cost: about a
+    /// millisecond.
+    ///
+    /// # Errors
+    /// Returns an error if no layout of the map has room for everything.
+    pub fn level(&self, slot: Slot, seed: Seed) -> Result<CourseLevel, GenerateError> {
+        let plans: Vec<_> = self.kernel.levels.iter().filter(|level| level.slot == slot).collect();
+        let plan = *seed.child("plan", 0).sampler().choose(&plans);
+        let is_present = |stype: &str| stype == "wall" || self.traits.present.contains(stype);
+        let map = plan.map(&self.values).map_err(GenerateError::Unsuitable)?.without_bare_ends(is_present);
+        let board = course::lay_out(&map, self.kernel, &self.traits, self.space, seed).ok_or_else(|| {
+            GenerateError::Unlucky(format!("no layout has room for a map of slot {slot:?}"))
+        })?;
+        let board = match self.edge {
+            Edge::Walls => board,
+            Edge::Screen => board.without_ring(),
+        };
+        let asks = phrase::fill(&plan.asks, &self.nouns).map_err(GenerateError::Unsuitable)?;
+        Ok(CourseLevel { text: self.text(&board), slot, asks: phrase::sentence(&asks) })
+    }
+
+    fn text(&self, board: &Board) -> String {
+        let row = |y: usize| -> String {
+            let symbol = |x: usize| board.at((x, y)).map_or('.', |stype| self.symbols[stype]);
+            (0..board.columns).map(symbol).collect()
+        };
+        (0..board.rows).map(|y| row(y) + "\n").collect()
+    }
 }
 
 impl Choices<'_> {
@@ -52,16 +109,17 @@ impl Choices<'_> {
             return Err(GenerateError::Unsuitable(message));
         }
         let mut description = without_lone_groups(description);
-        self.habits.apply(&mut description);
+        let edge = self.habits.apply(&mut description);
         ways::set_obstacles(&mut description);
         let mut sampler = self.nouns.sampler();
         let nouns = self.cast(&mut sampler)?;
+        let traits = traits(&description);
         self.color(&mut description.sprites, &nouns);
         self.picture(&mut description.sprites, &nouns);
         let declared = description.sprite_lines().iter().map(|(_, line)| line.name.text.clone()).collect();
         let sampler_of_names = &mut self.nouns.child("names", 0).sampler();
         let names = naming::names(&nouns, self.roles(), declared, sampler_of_names);
-        self.map_symbols(&mut description, &names);
+        let symbols = self.map_symbols(&mut description, &names);
         if let Some(line) = description.sprites.iter_mut().find(|line| line.name.text == "wall") {
             line.params.push(Param::new("img", format!("wall/{}", nouns["wall"])));
             line.params.push(Param::new("color", &self.scene.wall_color));
@@ -83,6 +141,15 @@ impl Choices<'_> {
             title,
             summary: summary.join(" "),
             goal: sentence(&self.fill_numbers(&self.kernel.goal))?,
+            course: Course {
+                kernel: self.kernel,
+                values: self.values.to_vec(),
+                traits,
+                space: self.habits.space,
+                edge,
+                nouns: nouns.clone(),
+                symbols,
+            },
             description,
         })
     }
@@ -168,7 +235,17 @@ impl Choices<'_> {
     }
 
     /// Writes the LevelMapping: floor, walls, the hero, then all other types that levels place.
-    fn map_symbols(&self, description: &mut Description, names: &BTreeMap<String, String>) {
+    fn map_symbols(
+        &self,
+        description: &mut Description,
+        names: &BTreeMap<String, String>,
+    ) -> BTreeMap<String, char> {
+        let maps = self.kernel.levels.iter().filter_map(|level| level.map(self.values).ok());
+        let placed: BTreeSet<String> = maps
+            .flat_map(|map| map.types().map(str::to_owned).collect::<Vec<_>>())
+            .chain(self.kernel.legend.values().cloned())
+            .chain(self.kernel.divider.clone())
+            .collect();
         let own: Vec<String> =
             description.sprite_lines().into_iter().map(|(_, line)| line.name.text.clone()).collect();
         let interactions = description.interactions.clone();
@@ -182,6 +259,7 @@ impl Choices<'_> {
             name if name != "avatar" && own.iter().all(|own| own != "avatar") => palette::symbol(name, &[]),
             _ => 'A',
         };
+        let mut symbols = BTreeMap::from([("wall".to_owned(), 'w'), ("hero".to_owned(), hero)]);
         let mut taken = vec!['.', 'w', hero];
         description.mapping.clear();
         let mut line = |symbol, names: &[&str]| {
@@ -191,7 +269,11 @@ impl Choices<'_> {
         line('.', &["floor"]);
         line('w', &["wall"]);
         line(hero, &["floor", "hero"]);
-        for stype in own.iter().filter(|stype| self.kernel.placed.contains(stype)) {
+        for stype in own
+            .iter()
+            .filter(|stype| placed.contains(*stype) && !symbols.contains_key(*stype))
+            .collect::<Vec<_>>()
+        {
             let symbol = palette::symbol(&names[stype], &taken);
             taken.push(symbol);
             // A type that no rule moves or removes always covers its floor, so it is placed without floor.
@@ -199,7 +281,9 @@ impl Choices<'_> {
                 true => line(symbol, &["floor", stype]),
                 false => line(symbol, &[stype]),
             }
+            symbols.insert(stype.clone(), symbol);
         }
+        symbols
     }
 }
 
@@ -231,6 +315,34 @@ fn without_lone_groups(mut description: Description) -> Description {
 /// Returns `true` if a rule sets a tick limit after which the game is lost.
 fn is_limit(line: &str) -> bool {
     line.contains("Timeout") && line.contains("win=False")
+}
+
+/// Reads the traits that level builders need from the rules.
+fn traits(description: &Description) -> Traits {
+    let mut traits = Traits::default();
+    for (_, line) in description.sprite_lines() {
+        traits.present.insert(line.name.text.clone());
+        let param = |key: &str| {
+            line.params.iter().find(|param| param.key.text == key).map(|param| param.value.text.as_str())
+        };
+        if line.class.as_ref().is_some_and(|class| class.text == "Missile") {
+            let upright = matches!(param("orientation"), Some("UP" | "DOWN"));
+            traits.lanes.insert(line.name.text.clone(), upright);
+        }
+    }
+    for line in &description.interactions {
+        let hero = |name: &str| matches!(name, "hero" | "avatar");
+        let partners = line.second.iter().map(|word| word.text.clone());
+        match line.effect.text.as_str() {
+            "stepBack" | "undoAll" if hero(&line.first.text) => traits.solid.extend(partners),
+            "bounceForward" if line.second.iter().any(|word| hero(&word.text)) => {
+                traits.solid.insert(line.first.text.clone());
+            }
+            "killSprite" | "killBoth" if hero(&line.first.text) => traits.deadly.extend(partners),
+            _ => {}
+        }
+    }
+    traits
 }
 
 #[cfg(test)]

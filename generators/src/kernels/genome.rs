@@ -1,6 +1,6 @@
 //! Genomes of games: the choices from which a game of a kernel is made.
 
-use super::compose::Choices;
+use super::compose::{Choices, Course};
 use super::habits::{Habits, STILL};
 use super::turns::Turns;
 use crate::GenerateError;
@@ -17,6 +17,15 @@ const LONG: u32 = 400;
 /// The weight of a different form relative to the kernel itself. It is greater than 1 because forms were written to
 /// vary the endings of similar kernels.
 const OTHER_FORM: u32 = 2;
+
+/// A game and the maps of its levels.
+#[derive(Clone, Debug)]
+pub struct KernelGame {
+    /// The game, whose patterns are the kernel, the variants and the scene.
+    pub game: GeneratedGame,
+    /// The maps of the game's levels.
+    pub course: Course,
+}
 
 /// A game as a list of choices: a kernel with its variants and numbers, and a scene with its nouns.
 ///
@@ -83,11 +92,12 @@ impl KernelGenome {
         all
     }
 
-    /// Returns the same rules with different numbers and points, and with a different colour of the player.
+    /// Returns the same rules with different numbers, points and sizes.
     #[must_use]
     pub fn redrawn(&self, seed: Seed) -> KernelGenome {
         let values = self.kernel.numbers.draw(&mut seed.child("genome", 0).sampler());
-        let habits = Habits { has_clock: self.habits.has_clock, ..Habits::draw(seed) };
+        let Habits { edge, has_clock, .. } = self.habits;
+        let habits = Habits { edge, has_clock, ..Habits::draw(seed) };
         KernelGenome { values, habits, ..self.clone() }
     }
 
@@ -171,12 +181,12 @@ impl KernelGenome {
         KernelGenome { time: ticks, ..self.clone() }
     }
 
-    /// Builds the game. Its patterns are the kernel, the variants and the scene. Cost: well under a millisecond.
+    /// Builds the game. Cost: well under a millisecond.
     ///
     /// # Errors
-    /// Returns an error if the rules do not compile, or if the compiler or the analysis warns about them, for example
-    /// that the game cannot be won.
-    pub fn build(&self) -> Result<GeneratedGame, GenerateError> {
+    /// Returns an error if the rules do not compile, or if the compiler or the analysis warns about them. For example,
+    /// the analysis may warn that the game cannot be won.
+    pub fn build(&self) -> Result<KernelGame, GenerateError> {
         let composed = self.choices().compose()?;
         let rules = Game::from_source(&syntax::print(&composed.description)).map_err(|problems| {
             GenerateError::Unlucky(format!(
@@ -193,7 +203,7 @@ impl KernelGenome {
         let form = self.kernel.form.iter().map(|form| format!("form/{form}"));
         let kernel = [format!("kernel/{}", self.kernel.name)].into_iter().chain(form);
         let patterns = kernel.chain(variants);
-        Ok(GeneratedGame {
+        let game = GeneratedGame {
             real_time: has_movers(&composed.description),
             rules,
             title: composed.title,
@@ -201,7 +211,8 @@ impl KernelGenome {
             goal: composed.goal,
             kind: self.kernel.kind,
             patterns: patterns.chain([format!("scene/{}", self.scene.name)]).collect(),
-        })
+        };
+        Ok(KernelGame { game, course: composed.course })
     }
 
     fn choices(&self) -> Choices<'_> {
@@ -237,7 +248,7 @@ pub fn preview(
     scene: Option<&str>,
     variants: bool,
     seed: Seed,
-) -> Result<String, GenerateError> {
+) -> Result<(String, Course), GenerateError> {
     let kernel = Kernel::read(name, text).map_err(|fault| GenerateError::Unsuitable(fault.to_string()))?;
     let kernel: &'static Kernel = Box::leak(Box::new(kernel));
     let kernel = kernel.in_all_forms().find(|kernel| kernel.form.as_deref() == form).ok_or_else(|| {
@@ -265,10 +276,10 @@ pub fn preview(
         habits: Habits::draw(seed),
         time: Some(LONG),
     };
-    let game = genome.build()?;
+    let KernelGame { game, course } = genome.build()?;
     let mut description = game.rules.description().clone();
     description.header.trivia.above.extend([game.title, game.summary, game.goal]);
-    Ok(syntax::print(&description))
+    Ok((syntax::print(&description), course))
 }
 
 /// Returns `true` if anything moves, appears or ends by itself.

@@ -1,34 +1,55 @@
-//! The habits of a game's author: points, colours and clocks, which a kernel leaves open.
+//! The habits of a game's author: points, edges, sizes and clocks, which a kernel leaves open.
 
+use super::course::Space;
 use base::Seed;
 use engine::Description;
-use engine::syntax::{InteractionLine, Param};
+use engine::syntax::{InteractionLine, Param, SpriteLine};
+use std::collections::BTreeMap;
 
 /// The habits of a game's author. They change how the game looks and counts points, but not its dilemma.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Habits {
     /// The factor by which all points are multiplied.
     pub(crate) unit: u32,
-    /// The player's colour, unless the floor or the walls have the same one.
+    pub(crate) edge: Edge,
+    pub(crate) space: Space,
+    /// The player's colour, unless the floor or the walls have the same colour.
     pub(crate) hero: &'static str,
     /// `true` if the game always has a tick limit, and not only if it would not end without a limit.
     pub(crate) has_clock: bool,
+}
+
+/// The border of the board.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Edge {
+    /// A ring of walls.
+    Walls,
+    /// Only the edge of the screen, if the rules allow it.
+    Screen,
 }
 
 /// The colours of players.
 const HEROES: [&str; 8] = ["BLUE", "BLUE", "BLUE", "GREEN", "GREEN", "YELLOW", "WHITE", "PINK"];
 /// The classes of types that stay where they are.
 pub(super) const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
+/// The effects of walls that return a sprite to the screen or remove it.
+const ENDING: [&str; 2] = ["stepBack", "killSprite"];
+/// The effects of walls that may precede an effect in `ENDING`, and that need no partner.
+const TURNING: [&str; 1] = ["reverseDirection"];
+/// The effects that move or create a sprite other than the mover, which may leave that sprite off the screen.
+const ASTRAY: [&str; 6] = ["bounceForward", "undoAll", "spawnAbove", "spawnBelow", "spawnLeft", "spawnRight"];
+
 impl Habits {
     pub(crate) fn draw(seed: Seed) -> Habits {
         let of = |name| seed.child(name, 0).sampler();
         let unit = *of("unit").choose(&[1, 1, 1, 2, 5, 10]);
+        let edge = if of("edge").ratio(1, 4) { Edge::Screen } else { Edge::Walls };
         let hero = of("hero").choose(&HEROES);
-        Habits { unit, hero, has_clock: of("clock").ratio(1, 4) }
+        Habits { unit, edge, space: Space::draw(&mut of("space")), hero, has_clock: of("clock").ratio(1, 4) }
     }
 
-    /// Applies the habits to a game's rules.
-    pub(crate) fn apply(&self, description: &mut Description) {
+    /// Applies the habits to a game's rules. Returns the edge that its levels have.
+    pub(crate) fn apply(&self, description: &mut Description) -> Edge {
         for line in &mut description.interactions {
             drop_penalty_of_death(line);
             for param in line.params.iter_mut().filter(|param| param.key.text == "scoreChange") {
@@ -36,6 +57,10 @@ impl Habits {
                     param.value = (points * i64::from(self.unit)).to_string().as_str().into();
                 }
             }
+        }
+        match self.edge {
+            Edge::Screen if stop_at_edge(description).is_some() => Edge::Screen,
+            _ => Edge::Walls,
         }
     }
 }
@@ -49,6 +74,65 @@ fn drop_penalty_of_death(line: &mut InteractionLine) {
     }
 }
 
+/// Gives the edge of the screen the effects of walls. Returns `None` and changes nothing if a sprite could then leave
+/// the screen.
+///
+/// If a type has several rules for the edge, they apply one after the other, and repeat once per rule, while the
+/// sprite is beyond the edge (spec page 03, section 4.4). So only the last rule may return the sprite to the screen.
+fn stop_at_edge(description: &mut Description) -> Option<()> {
+    if description.interactions.iter().any(|line| ASTRAY.contains(&line.effect.text.as_str())) {
+        return None;
+    }
+    let mut stopped = BTreeMap::new();
+    let mut interactions = Vec::new();
+    for line in &description.interactions {
+        interactions.push(line.clone());
+        if line.second.iter().any(|word| word.text == "wall") {
+            let effect = line.effect.text.as_str();
+            let ends = ENDING.contains(&effect);
+            let is_known = line.params.is_empty() && (ends || TURNING.contains(&effect));
+            if !is_known || stopped.insert(line.first.text.clone(), ends) == Some(true) {
+                return None;
+            }
+            let at_edge = InteractionLine { second: vec!["EOS".into()], ..line.clone() };
+            interactions.push(InteractionLine { trivia: Default::default(), ..at_edge });
+        }
+    }
+    let all_stop = stopped.values().all(|&ends| ends)
+        && description.sprites.iter().all(|line| all_stop(line, None, false, &stopped));
+    // A sprite that the hero creates at the edge appears beyond it, and has no position to step back to.
+    let dies = |stype: &str| {
+        let of_edge = |line: &&InteractionLine| line.first.text == stype && line.second[0].text == "EOS";
+        let mut effects = interactions.iter().filter(of_edge).map(|line| line.effect.text.as_str());
+        effects.next() == Some("killSprite") && effects.next().is_none()
+    };
+    let all_stop = all_stop && made_by_hero(description).all(dies);
+    all_stop.then(|| description.interactions = interactions)
+}
+
+/// Returns the types that avatars create, such as shots or things that avatars put down.
+fn made_by_hero(description: &Description) -> impl Iterator<Item = &str> {
+    let is_avatar =
+        |line: &&SpriteLine| line.class.as_ref().is_some_and(|class| class.text.ends_with("Avatar"));
+    let avatars = description.sprite_lines().into_iter().map(|(_, line)| line).filter(is_avatar);
+    let params = avatars.flat_map(|line| &line.params).filter(|param| param.key.text == "stype");
+    params.map(|param| param.value.text.as_str())
+}
+
+/// Returns `true` if every type that moves has rules for the edge, either its own or those of one type above it.
+fn all_stop(line: &SpriteLine, class: Option<&str>, above: bool, stopped: &BTreeMap<String, bool>) -> bool {
+    let class = line.class.as_ref().map(|class| class.text.as_str()).or(class);
+    let own = stopped.contains_key(&line.name.text);
+    if own && above {
+        return false;
+    }
+    let stops = own || above;
+    if line.children.is_empty() {
+        return stops || class.is_some_and(|class| STILL.contains(&class) || class == "SpawnPoint");
+    }
+    line.children.iter().all(|child| all_stop(child, class, stops, stopped))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,23 +140,60 @@ mod tests {
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    floor > Immovable\n    plum > Immovable\n    foe >\n      cat > Chaser stype=hero\n      dog > Chaser stype=plum\n    hero > ShootAvatar stype=shot\n    shot > Missile\n  LevelMapping\n    p > plum\n  InteractionSet\n    hero wall cat > stepBack\n    foe wall > stepBack\n    shot wall > killSprite\n    plum hero > killSprite scoreChange=2\n    hero foe > killSprite scoreChange=-1\n  TerminationSet\n    SpriteCounter stype=plum win=True\n";
 
-    fn applied(source: &str, unit: u32) -> String {
+    fn habits(unit: u32, edge: Edge) -> Habits {
+        Habits { unit, edge, space: Space::default(), hero: HEROES[0], has_clock: true }
+    }
+
+    fn applied(source: &str, habits: Habits) -> (String, Edge) {
         let mut description = parse(source).0;
-        Habits { unit, hero: HEROES[0], has_clock: true }.apply(&mut description);
-        print_bare(&description)
+        let edge = habits.apply(&mut description);
+        (print_bare(&description), edge)
+    }
+
+    #[test]
+    fn everything_that_moves_stops_at_the_edge_of_the_screen() {
+        let (text, edge) = applied(GAME, habits(1, Edge::Screen));
+        assert_eq!(edge, Edge::Screen);
+        for rule in ["hero EOS > stepBack", "foe EOS > stepBack", "shot EOS > killSprite"] {
+            assert!(text.contains(rule), "{text}");
+        }
+        assert_eq!(text.matches("EOS").count(), 3, "{text}");
+        let turned =
+            GAME.replace("foe wall > stepBack", "foe wall > reverseDirection\n    foe wall > stepBack");
+        let (text, edge) = applied(&turned, habits(1, Edge::Screen));
+        assert_eq!((edge, text.matches("foe EOS").count()), (Edge::Screen, 2), "{text}");
+    }
+
+    #[test]
+    fn rules_by_which_something_could_leave_the_screen_keep_their_walls() {
+        let pushed = GAME.replace("plum hero > killSprite", "plum hero > bounceForward");
+        let loose = GAME.replace("    shot wall > killSprite\n", "");
+        let twice = GAME.replace("    foe wall", "    cat wall > stepBack\n    foe wall");
+        let turned = GAME.replace("foe wall > stepBack", "foe wall > reverseDirection");
+        let late = GAME.replace(
+            "    foe wall > stepBack\n",
+            "    foe wall > stepBack\n    foe wall > reverseDirection\n",
+        );
+        let kept = GAME.replace("shot wall > killSprite", "shot wall > stepBack");
+        let priced = GAME.replace("shot wall > killSprite", "shot wall > killSprite scoreChange=-1");
+        for source in [pushed, loose, twice, turned, late, kept, priced] {
+            let (text, edge) = applied(&source, habits(1, Edge::Screen));
+            assert_eq!(edge, Edge::Walls, "{text}");
+            assert!(!text.contains("EOS"), "{text}");
+        }
     }
 
     #[test]
     fn points_have_a_unit_and_a_death_costs_none() {
-        let points = |unit| {
-            let text = applied(GAME, unit);
+        let points = |habits| {
+            let text = applied(GAME, habits).0;
             let values = text.split("scoreChange=").skip(1).map(|rest| rest.lines().next().unwrap());
             values.map(str::to_owned).collect::<Vec<_>>()
         };
-        assert_eq!(points(10), ["20"]);
+        assert_eq!(points(habits(10, Edge::Walls)), ["20"]);
         let priced =
             GAME.replace("plum hero > killSprite scoreChange=2", "plum hero > stepBack scoreChange=-2");
-        let text = applied(&priced, 1);
+        let text = applied(&priced, habits(1, Edge::Walls)).0;
         assert!(text.contains("plum hero > stepBack scoreChange=-2"), "{text}");
     }
 }

@@ -1,10 +1,11 @@
-//! Games composed around a dilemma: kernels in scenes.
+//! Games composed around a dilemma: kernels in scenes, with levels that form a course.
 //!
-//! A kernel (`file/kernel.rs`, the files of `generators/kernels/`) has the rules for one dilemma. A scene
-//! (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both, and `compose.rs`
-//! makes the rules and the words.
+//! A kernel (`file/kernel.rs`, the files of `generators/kernels/`) has the rules for one dilemma and the maps of its
+//! levels. A scene (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both,
+//! `compose.rs` makes the rules and the words, and `course/` builds levels from maps.
 
 mod compose;
+mod course;
 pub(crate) mod file;
 mod genome;
 mod habits;
@@ -12,7 +13,9 @@ mod turns;
 pub(crate) mod ways;
 pub(crate) mod words;
 
+pub use compose::{Course, CourseLevel};
+pub use file::kernel::Slot;
 pub(crate) use genome::has_movers;
-pub use genome::{KernelGenome, preview};
+pub use genome::{KernelGame, KernelGenome, preview};
 pub use turns::{Turns, kinds};
 pub use words::wording::Wording;

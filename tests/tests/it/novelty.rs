@@ -73,7 +73,7 @@ fn generated_isomorphic_games_have_equal_forms() {
 fn twins_are_the_same_game() {
     let generated = (0..20).map(|number| {
         let seed = Seed::from_text("twins").child("game", number);
-        let made = KernelGenome::draw(Kind::ALL, seed).unwrap().build().unwrap();
+        let made = KernelGenome::draw(Kind::ALL, seed).unwrap().build().unwrap().game;
         (made.title, made.rules)
     });
     for (name, game) in all().into_iter().chain(generated) {

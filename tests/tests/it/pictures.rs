@@ -71,7 +71,7 @@ fn in_games_of_kernels_no_two_types_look_alike() {
     let mut kernels = BTreeSet::new();
     for seed in (0..400).map(|number| Seed::from_text("kernel looks").child("game", number)) {
         let genome = KernelGenome::draw(Kind::ALL, seed).unwrap();
-        let game = genome.build().unwrap();
+        let game = genome.build().unwrap().game;
         let name = game.patterns.join(" ");
         kernels.insert(game.patterns[0].clone());
         assert!(syntax::print(game.rules.description()).contains("img=hero/"), "{name}");

@@ -2,11 +2,9 @@
 
 use anyhow::Context;
 use base::Seed;
-use engine::Analysis;
 use forge::games::GameOrder;
-use generators::Variation;
-use generators::boards::{BoardBrief, BoardVariation};
-use generators::kernels::KernelGenome;
+use generators::games::GeneratedGame;
+use generators::kernels::{KernelGame, KernelGenome, Slot};
 use rayon::prelude::*;
 use report::{Share, Table, TableCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,10 +28,7 @@ pub(crate) struct Args {
     seed: String,
 }
 
-/// The number of demands of boards, from introduction to exam.
-const DEMANDS: usize = 5;
-
-/// The result of one method of judging.
+/// The result of judging a level with one of the methods.
 struct Answer {
     /// The criterion that the level fails, or `None` if the level passes all criteria.
     obstacle: Option<Criterion>,
@@ -61,8 +56,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         .into_par_iter()
         .filter_map(|number| {
             let kernel = kernels[number as usize % kernels.len()];
-            let demand = (number as usize / kernels.len() % DEMANDS) as u8;
-            judges.compare(kernel, demand, seed.child("candidate", number))
+            let slot = Slot::ALL[number as usize / kernels.len() % Slot::ALL.len()];
+            judges.compare(kernel, slot, seed.child("candidate", number))
         })
         .collect();
     print(&compared);
@@ -83,13 +78,12 @@ impl Judges {
         })
     }
 
-    /// Judges a level of a kernel's game with both methods. Returns `None` if no level could be drawn or no win is found.
-    fn compare(&self, kernel: &str, demand: u8, seed: Seed) -> Option<Compared> {
+    /// Judges a level of a kernel's game with both methods. Returns `None` if no level can be drawn or no win
+    /// is found.
+    fn compare(&self, kernel: &str, slot: Slot, seed: Seed) -> Option<Compared> {
         let genome = KernelGenome::of_kernel(kernel, |_| true, &BTreeSet::new(), seed.child("rules", 0))?;
-        let game = genome.build().ok()?.rules;
-        let analysis = Analysis::of(&game);
-        let boards = BoardVariation::new(&analysis, &BoardBrief::of_demand(demand)).ok()?;
-        let level = boards.create(seed.child("layout", 0))?;
+        let KernelGame { game: GeneratedGame { rules: game, .. }, course } = genome.build().ok()?;
+        let level = game.level(&course.level(slot, seed.child("layout", 0)).ok()?.text).ok()?;
         let seed = seed.child("judges", 0);
         let judging = || Judging::level(&game, &level, seed).until_failure();
         let witness = self.search.judge(judging()).witness?;

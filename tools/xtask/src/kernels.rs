@@ -17,8 +17,9 @@ use validators::novelty::{GameForm, NEAR, distance};
 /// Attempts games of each kernel under the criteria of a recipe. Counts the accepted games, and the reasons
 /// why the other games fail.
 ///
-/// If a kernel rarely passes, other kernels get its turns, so a release has many games from few kernels. Attempts are
-/// independent, so the games of a kernel may be close to each other. Most of the cost of an attempt is the search for boards.
+/// If a kernel rarely passes, other kernels take its turns, so that a release has many games from few
+/// kernels. Attempts are independent, so the games of a kernel may be similar to each other. Cost: 1 to 15
+/// seconds of one core per attempt.
 ///
 /// Example: cargo xtask kernels seeds/2026-12.toml --kernel one-pull
 #[derive(clap::Args)]
@@ -111,9 +112,9 @@ fn distances(kernel: &str) -> Table {
     let forms: Vec<(String, GameForm)> = built
         .map(|built| {
             let of_rules = |name: &&String| name.starts_with("form/") || name.starts_with("variant/");
-            let parts = built.patterns.iter().filter(of_rules).join(", ");
+            let parts = built.game.patterns.iter().filter(of_rules).join(", ");
             let name = if parts.is_empty() { PLAIN.to_owned() } else { parts };
-            (name, GameForm::of(&built.rules))
+            (name, GameForm::of(&built.game.rules))
         })
         .collect();
     let note = format!("Rules nearer than {NEAR} count as the same.");

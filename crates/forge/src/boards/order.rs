@@ -4,7 +4,7 @@ use engine::{Episode, Level};
 use generators::boards::BoardBrief;
 use validators::CheckedCriteria;
 
-/// The minimum and maximum length of a shortest win by demand, in ticks.
+/// The minimum and maximum length of a shortest win by slot, in ticks.
 const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
 
 /// An order for a board.
@@ -26,7 +26,7 @@ pub struct BoardOrder {
 }
 
 impl BoardOrder {
-    /// Creates an order with the usual contents and length for the brief's demand.
+    /// Creates an order with the usual contents and length for the brief's slot.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
         BoardOrder { brief, uses: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }

@@ -65,7 +65,8 @@ impl KeptGame {
             Some(FoundLevel {
                 level: game.level(text).ok()?,
                 report: Report { judgements: Vec::new(), witness: Some(witness.clone()) },
-                generator: "board maker",
+                generator: "course",
+                asks: card.asks.clone(),
                 difficulty: card.difficulty,
                 candidate: card.candidate,
                 seed: Seed::from_text("kept").into(),

@@ -21,6 +21,8 @@ pub struct FoundLevel {
     pub report: Report,
     /// The generator that made the level.
     pub generator: &'static str,
+    /// The level's question to the player, if the level belongs to a course.
+    pub asks: Option<String>,
     /// The difficulty requested from the generator, from 0 to 1.
     pub difficulty: f64,
     /// The level's index among the candidates for its position, from 0.
@@ -104,6 +106,7 @@ impl Levels<'_> {
             level,
             report,
             generator: self.source.name(),
+            asks: None,
             difficulty,
             candidate,
             seed,
@@ -137,7 +140,7 @@ impl FoundLevel {
             columns: self.level.columns(),
             rows: self.level.rows(),
             generator: self.generator.to_owned(),
-            asks: None,
+            asks: self.asks.clone(),
             difficulty: self.difficulty,
             candidate: self.candidate,
             witness_ticks: witness.actions.len(),

@@ -117,6 +117,7 @@ impl Levels<'_> {
             found.report.judgements.iter().position(|before| before.criterion == judgement.criterion)
         };
         again.report.judgements.sort_by_key(place_of);
+        again.asks.clone_from(&found.asks);
         Some(again)
     }
 }

@@ -246,7 +246,7 @@ pub(crate) mod tests {
             panic!("{:?}", made.card.origin)
         };
         assert!(generator == "constructive" && patterns[0].starts_with("kernel/"), "{patterns:?}");
-        assert!(made.card.levels.iter().all(|level| level.generator == "board maker"));
+        assert!(made.card.levels.iter().all(|level| level.generator == "course"));
     }
 
     /// Kernels of this kind leave the time limit to the gate.
@@ -368,6 +368,6 @@ pub(crate) mod tests {
     }
 
     fn genome_game(genome: &KernelGenome) -> Game {
-        genome.build().unwrap().rules
+        genome.build().unwrap().game.rules
     }
 }

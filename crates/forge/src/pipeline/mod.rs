@@ -8,11 +8,11 @@
 //! The stages do not depend on the source of a candidate: `sources.rs` has the traits for sources of rules and of
 //! boards.
 
-mod boards;
 mod clock;
 mod course;
 mod game;
 mod gates;
+mod invented;
 mod joint;
 mod ladder;
 mod level;

@@ -70,14 +70,14 @@ impl Place<'_> {
     fn judge_candidate(&self, boards: &dyn Boards, candidate: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let places = self.levels.seed.child("level", u64::from(self.number));
         let seed = places.child("candidate", u64::from(candidate));
-        let Ok(Board { level, known }) = boards.generate(&seed) else {
+        let Ok(Board { level, asks, known }) = boards.generate(&seed) else {
             tally.no_level("level generator");
             return None;
         };
         let drawn = Drawn { level, difficulty: self.difficulty(), candidate, seed, win: None };
         let mut trial = LevelTrial::new(self, drawn, known);
         match walk(&LevelTrial::STAGES, &mut trial, tally) {
-            Ok(()) => trial.found,
+            Ok(()) => trial.found.map(|found| FoundLevel { asks, ..found }),
             Err(Refusal::Because(why)) => {
                 if trial.found.is_some() {
                     tally.level_taken_back(&why);

@@ -1,7 +1,7 @@
 //! Stages about the rules of a game, which check whether they are new, and whether enough happens.
 
-use super::boards::USELESS;
 use super::game::Trial;
+use super::invented::USELESS;
 use super::stage::{Passage, Refusal, Stage};
 use crate::games::FoundLevel;
 use crate::tally::Tally;
@@ -42,8 +42,8 @@ impl Trial<'_> {
 
     pub(super) const QUICK_LOOK: Stage<Self> = Stage {
         name: "quick look",
-        purpose: "composes a few boards, and requires that one is won by choices that cost and, in an invented game, one by a win that needs \
-                  the opposed uses",
+        purpose: "of an invented game: composes a few boards, and requires that one is won by choices that cost and one by a win that needs the \
+                  opposed uses",
         cost: "up to 3.5 million forward-model calls",
         reasons: &[
             "no board was won",

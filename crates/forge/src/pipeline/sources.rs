@@ -1,6 +1,5 @@
 //! The sources of candidates. To add a source, implement [`Rules`] for its rules, or [`BoardSource`] for its boards.
 
-use super::boards::MadeBoards;
 use crate::games::FoundLevel;
 use crate::games::PuzzleLevels;
 use crate::games::judges_seed;
@@ -10,7 +9,7 @@ use base::{Seed, SeedPath};
 use engine::{Action, Game, Level};
 use generators::games::GeneratedGame;
 use generators::invention::JointType;
-use generators::kernels::KernelGenome;
+use generators::kernels::{Course, CourseLevel, KernelGame, KernelGenome, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
 use validators::{CheckedCriteria, Criterion, Tier};
@@ -32,10 +31,11 @@ pub(crate) trait Rules: Sized {
 }
 
 impl Rules for KernelGenome {
-    type Boards = MadeBoards;
+    type Boards = Course;
 
-    fn build(&self) -> Option<(GeneratedGame, MadeBoards)> {
-        Some((KernelGenome::build(self).ok()?, MadeBoards::default()))
+    fn build(&self) -> Option<(GeneratedGame, Course)> {
+        let KernelGame { game, course } = KernelGenome::build(self).ok()?;
+        Some((game, course))
     }
 
     fn has_clock(&self) -> bool {
@@ -115,7 +115,9 @@ pub trait Boards {
 pub struct Board {
     /// The level on the board.
     pub level: Level,
-    /// Actions that win the level, if known.
+    /// The level's question to the player, if the level belongs to a course.
+    pub asks: Option<String>,
+    /// Actions that win the level; `None` if no such actions are known.
     pub known: Option<Vec<Action>>,
 }
 
@@ -152,7 +154,48 @@ impl BoardSource for LevelConfig {
 impl Boards for ConstructiveLevels<'_> {
     fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError> {
         let level = Generator::generate(self, layout(candidate))?;
-        Ok(Board { level, known: None })
+        Ok(Board { level, asks: None, known: None })
+    }
+}
+
+/// Uses the maps of a kernel. Each position has a slot.
+impl BoardSource for Course {
+    fn name(&self) -> &'static str {
+        "course"
+    }
+
+    fn is_course(&self) -> bool {
+        true
+    }
+
+    fn is_ordered(&self) -> bool {
+        true
+    }
+
+    fn boards<'a>(
+        &'a self,
+        game: &'a Game,
+        place: &PlaceBrief<'a>,
+    ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
+        let last = Slot::ALL.len() - 1;
+        let slot = Slot::ALL[(place.difficulty * last as f64).round() as usize];
+        Ok(Box::new(SlotBoards { game, course: self, slot }))
+    }
+}
+
+/// The boards for a slot of a course.
+struct SlotBoards<'a> {
+    game: &'a Game,
+    course: &'a Course,
+    slot: Slot,
+}
+
+impl Boards for SlotBoards<'_> {
+    fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError> {
+        let CourseLevel { text, asks, .. } = self.course.level(self.slot, layout(candidate))?;
+        let level =
+            self.game.level(&text).map_err(|problems| GenerateError::Unlucky(problems.to_string()))?;
+        Ok(Board { level, asks: Some(asks), known: None })
     }
 }
 
@@ -191,6 +234,6 @@ impl Boards for PuzzleBoards<'_> {
         let solved = self.generator.create_solved(self.game, layout(candidate), win);
         let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
         let (level, known) = solved.ok_or_else(far)?;
-        Ok(Board { level, known: Some(known) })
+        Ok(Board { level, asks: None, known: Some(known) })
     }
 }

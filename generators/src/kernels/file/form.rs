@@ -1,6 +1,6 @@
 //! The forms of a kernel: the same dilemma with a different ending, a different cast, or different movers.
 
-use super::kernel::{Casting, File, VariantFile};
+use super::kernel::{Casting, File, LevelFile, VariantFile};
 use crate::kernels::words::phrase;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -13,9 +13,12 @@ pub(crate) struct Form {
     /// The sentence that replaces the kernel's dilemma, for a form that lacks types in the kernel's dilemma.
     dilemma: Option<String>,
     goal: String,
-    /// The types that the form lacks. The kernel's sentences, variants and rules that mention these types are left out.
+    /// The types that the form lacks. Sentences, levels, variants and rules that mention these types are left out.
     #[serde(default)]
     without: Vec<String>,
+    /// `true` if the form has only the levels that specify it.
+    #[serde(default)]
+    own_levels: bool,
     /// `true` if the form has only the facts that it lists.
     #[serde(default)]
     own_facts: bool,
@@ -45,6 +48,10 @@ impl Form {
     pub(crate) fn applied(&self, file: &File) -> File {
         let tells = |text: &str| self.without.iter().any(|stype| phrase::tells_of(text, stype));
         let said = |texts: &[String]| texts.iter().filter(|text| !tells(text)).cloned().collect::<Vec<_>>();
+        let is_for = |level: &&LevelFile| match &level.form {
+            Some(form) => *form == self.name,
+            None => !self.own_levels,
+        };
         let names = |rules: &str| rules.split([' ', '\n', '=', ',']).any(|word| self.lacks(word));
         let fits = |variant: &&VariantFile| {
             !tells(&variant.fact)
@@ -63,10 +70,16 @@ impl Form {
             rules: self.rules(&file.rules),
             whole_rules: file.rules.clone(),
             roles,
+            level: file.level.iter().filter(is_for).filter(|level| !tells(&level.asks)).cloned().collect(),
             variant: file.variant.iter().filter(fits).cloned().collect(),
             form: Vec::new(),
             ..file.clone()
         }
+    }
+
+    /// Returns the types that the form lacks, although its levels may name them. They are left out of the levels.
+    pub(crate) fn absent(&self) -> &[String] {
+        &self.without
     }
 
     fn lacks(&self, word: &str) -> bool {

@@ -1,9 +1,11 @@
-//! A kernel: a small set of coupled rules around one dilemma.
+//! A kernel: a small set of coupled rules around one dilemma, with the maps of its levels.
 //!
 //! A kernel is a file in `generators/kernels/`. It contains VGDL rules with names that do not depend on a scene, and
-//! the role of every type. `docs/reference/kernels.md` is the manual.
+//! the role of every type. For each of five slots, it also contains the maps that pose the dilemma.
+//! `docs/reference/kernels.md` is the manual.
 
 use super::form::Form;
+use super::map::Map;
 use super::template::{Numbers, Template};
 use crate::games::Kind;
 use itertools::Itertools;
@@ -26,13 +28,18 @@ pub(crate) struct Kernel {
     pub(crate) goal: String,
     pub(crate) facts: Vec<String>,
     pub(crate) titles: Vec<String>,
-    /// The types that levels may place, in addition to the hero and walls.
-    pub(crate) placed: Vec<String>,
+    /// The type that divides rooms instead of walls.
+    pub(crate) divider: Option<String>,
     pub(crate) rules: Sections,
     pub(crate) roles: BTreeMap<String, Casting>,
+    pub(crate) pieces: BTreeMap<String, Vec<String>>,
+    pub(crate) legend: BTreeMap<char, String>,
+    pub(crate) levels: Vec<LevelPlan>,
     pub(crate) variants: Vec<Variant>,
     pub(crate) numbers: Numbers,
-    /// The kernel's other forms, each as a kernel of its own.
+    /// The types that maps may name although this form lacks them.
+    absent: Vec<String>,
+    /// The kernel's other forms, each as a separate kernel.
     forms: Vec<Kernel>,
 }
 
@@ -68,6 +75,30 @@ impl Casting {
     }
 }
 
+base::named_enum! {
+    /// The purpose of a level in a course of five levels, in the order of the course.
+    pub enum Slot {
+        /// The level shows the trick in a small and safe form.
+        Introduce = "introduce",
+        /// The level repeats the trick in a setting where a mistake has a cost.
+        Confirm = "confirm",
+        /// The level combines the trick with a second mechanic.
+        Combine = "combine",
+        /// The level turns the familiar trick around.
+        Twist = "twist",
+        /// The level demands everything, with little slack.
+        Exam = "exam",
+    }
+}
+
+/// The map of a level, and its question to the player.
+#[derive(Debug)]
+pub(crate) struct LevelPlan {
+    pub(crate) slot: Slot,
+    pub(crate) asks: String,
+    map: Template,
+}
+
 /// Rules that deepen the dilemma of some games.
 #[derive(Debug)]
 pub(crate) struct Variant {
@@ -98,16 +129,31 @@ pub(crate) struct File {
     #[serde(default)]
     pub(crate) facts: Vec<String>,
     pub(crate) titles: Vec<String>,
-    pub(crate) placed: Vec<String>,
+    pub(crate) divider: Option<String>,
     pub(crate) rules: String,
-    /// The rules of the kernel itself, in the file of a form. The form can use the numbers that these rules introduce.
+    /// The rules of the kernel itself, in the file of a form. Maps use the numbers that these rules introduce.
     #[serde(skip)]
     pub(crate) whole_rules: String,
     pub(crate) roles: BTreeMap<String, Casting>,
     #[serde(default)]
+    pub(crate) pieces: BTreeMap<String, String>,
+    #[serde(default)]
+    pub(crate) legend: BTreeMap<char, String>,
+    pub(crate) level: Vec<LevelFile>,
+    #[serde(default)]
     pub(crate) variant: Vec<VariantFile>,
     #[serde(default)]
     pub(crate) form: Vec<Form>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LevelFile {
+    slot: Slot,
+    pub(crate) asks: String,
+    /// The only form that has the level; `None` for all forms.
+    pub(crate) form: Option<String>,
+    map: String,
 }
 
 #[derive(Clone, Deserialize)]
@@ -149,7 +195,7 @@ impl Kernel {
     /// Reads a kernel file.
     ///
     /// # Errors
-    /// Returns the first error, such as an error in the format, in a number, or in the types that levels place.
+    /// Returns the first error, such as an error in the format, in a number or in a map, or a slot without a level.
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
         let file: File = toml::from_str(text)
             .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
@@ -161,7 +207,21 @@ impl Kernel {
         }
         let forms = file.form.iter().map(|form| Kernel::of_file(name, form.applied(&file), Some(form)));
         let forms = forms.collect::<Result<_, _>>()?;
-        Ok(Kernel { forms, ..Kernel::of_file(name, file, None)? })
+        let of_no_form = |level: &LevelFile| level.form.is_none();
+        if let Some(stray) = file
+            .level
+            .iter()
+            .filter_map(|level| level.form.as_ref())
+            .find(|name| file.form.iter().all(|form| form.name != **name))
+        {
+            return Err(KernelError {
+                kernel: name.to_owned(),
+                message: format!("a level is for form `{stray}`, which is none"),
+            });
+        }
+        let mut own = file;
+        own.level.retain(of_no_form);
+        Ok(Kernel { forms, ..Kernel::of_file(name, own, None)? })
     }
 
     /// Reads the texts of a file, or of one of the file's forms.
@@ -193,9 +253,19 @@ impl Kernel {
             })
         });
         let variants = variants.collect::<Result<_, _>>()?;
+        let levels = file
+            .level
+            .into_iter()
+            .map(|level| Ok(LevelPlan { slot: level.slot, asks: level.asks, map: template(&level.map)? }));
+        let levels: Vec<LevelPlan> = levels.collect::<Result<_, _>>()?;
         let mut roles = file.roles;
         roles.remove("avatar");
         roles.entry("hero".to_owned()).or_insert_with(|| Casting::Role("hero".to_owned()));
+        let rows = |(name, piece): (String, String)| {
+            let rows: Vec<String> =
+                piece.lines().filter(|row| !row.trim().is_empty()).map(str::to_owned).collect();
+            (name, rows)
+        };
         let kernel = Kernel {
             name: name.to_owned(),
             form: form_name,
@@ -205,24 +275,59 @@ impl Kernel {
             goal: file.goal,
             facts: file.facts,
             titles: file.titles,
-            placed: file.placed,
+            divider: file.divider,
             rules,
             roles,
+            pieces: file.pieces.into_iter().map(rows).collect(),
+            legend: file.legend,
+            levels,
             variants,
             numbers,
+            absent: form.map_or_else(Vec::new, |form| form.absent().to_vec()),
             forms: Vec::new(),
         };
         kernel.check().map_err(fail)?;
         Ok(kernel)
     }
 
-    /// Checks that levels place types of the kernel only. A form may lack some of these types.
+    /// Checks that every slot has a level, and that maps and pieces can be drawn.
     fn check(&self) -> Result<(), String> {
-        let is_own = |stype: &&String| self.form.is_some() || self.knows(stype);
-        match self.placed.iter().find(|stype| !is_own(stype)) {
-            Some(stype) => Err(format!("`placed` contains `{stype}`, which has no role")),
-            None => Ok(()),
+        for slot in Slot::ALL {
+            if !self.levels.iter().any(|level| level.slot == slot) {
+                return Err(format!("no level of slot {slot:?}"));
+            }
         }
+        for (name, rows) in &self.pieces {
+            let width = rows.first().map_or(0, |row| row.chars().count());
+            if width == 0 || rows.iter().any(|row| row.chars().count() != width) {
+                return Err(format!("the rows of piece `{name}` differ in length"));
+            }
+            let unknown = rows
+                .iter()
+                .flat_map(|row| row.chars())
+                .find(|&symbol| symbol != '.' && symbol != '#' && !self.legend.contains_key(&symbol));
+            if let Some(symbol) = unknown {
+                return Err(format!("`{symbol}` of piece `{name}` is not in the legend"));
+            }
+        }
+        let least: Vec<u32> = self.numbers.0.iter().map(|number| number.least).collect();
+        for level in &self.levels {
+            let map = level.map(&least)?;
+            for room in &map.rooms {
+                if let Some(piece) =
+                    room.piece.as_ref().filter(|piece| !self.pieces.contains_key(&piece.name))
+                {
+                    return Err(format!("there is no piece `{}`", piece.name));
+                }
+            }
+            if let Some(stype) = map.types().find(|stype| !self.knows(stype)) {
+                return Err(format!("a map of slot {:?} places `{stype}`, which is no type", level.slot));
+            }
+        }
+        if let Some(stype) = self.legend.values().find(|stype| !self.knows(stype)) {
+            return Err(format!("the legend names `{stype}`, which is no type"));
+        }
+        Ok(())
     }
 
     /// Returns the kernel itself and then its other forms.
@@ -251,10 +356,20 @@ impl Kernel {
         text
     }
 
-    /// Returns `true` if the kernel or one of its variants has the type.
-    fn knows(&self, stype: &str) -> bool {
-        self.roles.contains_key(stype)
+    /// Returns `true` if the kernel or one of its variants has the type, or may name the type although this form lacks
+    /// it.
+    pub(crate) fn knows(&self, stype: &str) -> bool {
+        stype == "wall"
+            || self.absent.iter().any(|absent| absent == stype)
+            || self.roles.contains_key(stype)
             || self.variants.iter().any(|variant| variant.roles.contains_key(stype))
+    }
+}
+
+impl LevelPlan {
+    /// Returns the map with the given numbers.
+    pub(crate) fn map(&self, values: &[u32]) -> Result<Map, String> {
+        Map::read(&self.map.fill(values)).map_err(|fault| format!("slot {:?}: {fault}", self.slot))
     }
 }
 

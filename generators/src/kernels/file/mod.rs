@@ -3,4 +3,5 @@
 pub(crate) mod content;
 pub(crate) mod form;
 pub(crate) mod kernel;
+pub(crate) mod map;
 pub(crate) mod template;

@@ -6,11 +6,9 @@ mod rethemed;
 
 use crate::corpora;
 use base::Seed;
-use engine::{Analysis, Description, Game};
-use generators::Variation;
-use generators::boards::{BoardBrief, BoardVariation};
+use engine::{Description, Game};
 use generators::games::Kind;
-use generators::kernels::KernelGenome;
+use generators::kernels::{KernelGame, KernelGenome, Slot};
 
 /// Returns the name, text and levels of every corpus game.
 fn corpus() -> Vec<(String, String, Vec<String>)> {
@@ -23,14 +21,12 @@ fn corpus() -> Vec<(String, String, Vec<String>)> {
     games
 }
 
-/// Returns kernel games with their titles, rules and at most one board each.
+/// Returns kernel games with their titles, rules and one level each.
 fn generated() -> impl Iterator<Item = (String, Description, Vec<String>)> {
     (0..40).map(|number| {
         let seed = Seed::from_text("checks").child("game", number);
-        let game = KernelGenome::draw(Kind::ALL, seed).unwrap().build().unwrap();
-        let analysis = Analysis::of(&game.rules);
-        let boards = BoardVariation::new(&analysis, &BoardBrief::of_demand(4)).unwrap();
-        let level = boards.create(seed).map(|level| level.to_string());
+        let KernelGame { game, course } = KernelGenome::draw(Kind::ALL, seed).unwrap().build().unwrap();
+        let level = course.level(Slot::Exam, seed).map(|level| level.text).ok();
         (game.title, game.rules.description().clone(), level.into_iter().collect())
     })
 }

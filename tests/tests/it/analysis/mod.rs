@@ -3,9 +3,7 @@
 use base::{Sampler, Seed};
 use engine::analysis::{Attainable, Reach};
 use engine::{Action, Analysis, Game, Level, Outcome, Rect, SpriteType, State};
-use generators::Variation;
-use generators::boards::{BoardBrief, BoardVariation};
-use generators::kernels::KernelGenome;
+use generators::kernels::{KernelGame, KernelGenome, Slot};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -56,7 +54,7 @@ fn all_games() -> Vec<Case> {
     cases
 }
 
-/// Returns a game for every form of every kernel, with one composed board per demand.
+/// Returns a game for every form of every kernel, with one level per slot.
 fn kernels() -> impl Iterator<Item = Case> {
     let genomes = KernelGenome::kernels().flat_map(KernelGenome::all_of);
     let mut seen = BTreeSet::new();
@@ -64,14 +62,12 @@ fn kernels() -> impl Iterator<Item = Case> {
         seen.insert((genome.kernel().to_owned(), genome.form().map(ToOwned::to_owned)))
     });
     forms.filter_map(|genome| {
-        let game = genome.build().ok()?.rules;
+        let KernelGame { game, course } = genome.build().ok()?;
         let name = format!("kernel {} {}", genome.kernel(), genome.form().unwrap_or_default());
         let seed = Seed::from_text(&name);
-        let analysis = Analysis::of(&game);
-        let level =
-            |demand| BoardVariation::new(&analysis, &BoardBrief::of_demand(demand)).ok()?.create(seed);
-        let levels = (0..=4).filter_map(level).collect();
-        Some(Case { name, game, levels })
+        let level = |slot: &Slot| game.rules.level(&course.level(*slot, seed).ok()?.text).ok();
+        let levels = Slot::ALL.iter().filter_map(level).collect();
+        Some(Case { name, game: game.rules, levels })
     })
 }
 

@@ -31,7 +31,8 @@ use validators::{Criteria, Effort, GameForm, Judging, Panel};
 /// Makes new games: invented rules, names for their things, and levels from introduction to exam. The same flags give the
 /// same bytes, on any number of threads.
 ///
-/// A game takes some minutes of one core. With --kind, the rules are drawn from hand-written kernels instead.
+/// A game takes some minutes of one core. With --kind, the rules are drawn from hand-written kernels instead, in half a
+/// minute each.
 ///
 /// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random players win, that
 /// the game passes all gates (`arcade docs gates`), and that it is not close to any corpus game or any other game of the set. The

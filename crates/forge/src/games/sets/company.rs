@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
 
 /// The games of a set so far. No two games are near each other or share a title or a cast, no kernel and no kind is
-/// crowded, and levels of games of the same kernel have different walls.
+/// crowded, and games of the same kernel have different maps.
 #[derive(Default)]
 pub(crate) struct Company {
     forms: Vec<GameForm>,
@@ -21,7 +21,7 @@ pub(crate) struct Company {
     casts: Vec<Cast>,
     /// The patterns of each game.
     patterns: Vec<Vec<String>>,
-    /// The walls of the levels of all games, by family and position.
+    /// The walls of the levels of all games, by family and slot.
     walls: BTreeSet<(String, usize, Vec<String>)>,
     /// The scenes of the games.
     pub(crate) scenes: BTreeSet<String>,

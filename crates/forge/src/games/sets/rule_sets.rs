@@ -57,7 +57,7 @@ struct Draws {
 
 /// Returns the rules of a game and its title; `None` if the rules do not compile.
 fn built(genome: &KernelGenome) -> Option<(Game, String)> {
-    let GeneratedGame { rules, title, .. } = genome.build().ok()?;
+    let GeneratedGame { rules, title, .. } = genome.build().ok()?.game;
     Some((rules, title))
 }
 

@@ -1,4 +1,4 @@
-//! Boards that a search finds for generated rules, and invented games as a source of such rules.
+//! Invented games as a source of candidates: their rules, and boards that a search finds for them.
 
 use super::level::LATER_SHARE;
 use super::sources::{Board, BoardSource, Boards, PlaceBrief, Rules};
@@ -39,11 +39,11 @@ const LEAST_TRAPS: f64 = 0.1;
 const NEARLY: f64 = 0.999;
 
 impl Rules for Invention {
-    type Boards = MadeBoards;
+    type Boards = InventedBoards;
 
-    fn build(&self) -> Option<(GeneratedGame, MadeBoards)> {
+    fn build(&self) -> Option<(GeneratedGame, InventedBoards)> {
         let Invented { game, joint, idioms, own_types } = Invention::build(self).ok()?;
-        Some((game, MadeBoards { joint, idioms, own_types }))
+        Some((game, InventedBoards { joint, idioms, own_types }))
     }
 
     fn has_clock(&self) -> bool {
@@ -55,16 +55,14 @@ impl Rules for Invention {
     }
 }
 
-/// The boards for generated rules, with known facts about the rules. No facts are known about the rules of kernels.
-#[derive(Default)]
-pub(crate) struct MadeBoards {
-    /// The types with opposed uses.
+/// The boards of an invented game.
+pub(crate) struct InventedBoards {
     joint: Vec<JointType>,
     idioms: Vec<(String, Idiom)>,
     own_types: Vec<Vec<String>>,
 }
 
-impl BoardSource for MadeBoards {
+impl BoardSource for InventedBoards {
     fn name(&self) -> &'static str {
         "board maker"
     }
@@ -77,11 +75,7 @@ impl BoardSource for MadeBoards {
         if let Some(obstacle) = self.look_quickly(game, seed).obstacle() {
             return Err(obstacle);
         }
-        if self.joint.is_empty() || self.can_need_uses(game, seed.child("uses", 0)) {
-            Ok(())
-        } else {
-            Err(USELESS)
-        }
+        if self.can_need_uses(game, seed.child("uses", 0)) { Ok(()) } else { Err(USELESS) }
     }
 
     fn joint_types(&self) -> &[JointType] {
@@ -109,7 +103,7 @@ impl BoardSource for MadeBoards {
     }
 }
 
-/// The result of a quick look at a game with generated rules.
+/// The result of a quick look at an invented game.
 pub(crate) struct QuickLook {
     /// The measures of the best of a few boards; `None` if no board was won.
     board: Option<BoardMeasures>,
@@ -151,7 +145,7 @@ impl QuickLook {
     }
 }
 
-impl MadeBoards {
+impl InventedBoards {
     /// Returns a brief for boards. Exits, and types whose idiom does not follow from the rules alone, get the
     /// invention's idiom.
     fn brief(&self, analysis: &Analysis, demand: u8) -> BoardBrief {
@@ -166,8 +160,7 @@ impl MadeBoards {
         BoardBrief { idioms, counts, ..BoardBrief::of_demand(demand) }
     }
 
-    /// Returns `true` if a short search finds a board whose win needs the opposed uses of types. If no opposed uses are
-    /// known, any won board suffices.
+    /// Returns `true` if a short search finds a board whose win needs the opposed uses of types.
     fn can_need_uses(&self, game: &Game, seed: Seed) -> bool {
         let analysis = Analysis::of(game);
         let order = BoardOrder::of(self.brief(&analysis, OPPOSED));
@@ -199,9 +192,9 @@ impl MadeBoards {
     }
 }
 
-/// The boards for one position in a game with generated rules.
+/// The boards for one position in an invented game.
 struct PlaceBoards<'a> {
-    source: &'a MadeBoards,
+    source: &'a InventedBoards,
     analysis: Analysis,
     number: u32,
     demand: u8,
@@ -270,6 +263,6 @@ impl Boards for PlaceBoards<'_> {
         let made = make_board(&self.analysis, &self.order(candidate), seed, &BoardBudget::default());
         let none = || GenerateError::Unlucky("no board was won as the place asks".to_owned());
         let made = made.ok_or_else(none)?;
-        Ok(Board { level: made.level, known: Some(made.win.actions) })
+        Ok(Board { level: made.level, asks: None, known: Some(made.win.actions) })
     }
 }
