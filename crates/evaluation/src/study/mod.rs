@@ -44,7 +44,6 @@ pub use matrix::{Matrix, MatrixColumn, MatrixRow, Measure, Scope};
 pub use player::{CONTEXTUAL, Player, ZERO_SHOT};
 pub use power::{PowerRow, power, table as power_table};
 pub use predictions::PredictionRow;
-pub use read::PlayedLogs;
 pub(crate) use read::persons;
 pub use scores::{Estimate, Scores, StudyEpisode};
 pub use sweep::{Sweep, SweepRow};

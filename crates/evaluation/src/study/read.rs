@@ -14,9 +14,6 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The logs of episodes, each with its game.
-pub type PlayedLogs<'a> = Vec<(&'a Subject, Vec<Event>)>;
-
 impl Study {
     /// Reads a study from results folders. Every episode is replayed from its log. Folders of the same person (name,
     /// mode, aids, prompts, decoding, served version) are merged. Games with the same ID are one game if they have
@@ -97,30 +94,6 @@ impl Study {
             );
         }
         Ok(study)
-    }
-
-    /// Builds a study from episodes in memory: the players, each with its logs and their games.
-    ///
-    /// # Errors
-    /// Returns an error if a replay differs from its log.
-    pub fn of_logs(results: Vec<(Player, PlayedLogs<'_>)>) -> Result<Study, EvaluationError> {
-        let mut games: Vec<StudyGame> = Vec::new();
-        let mut measured = Vec::new();
-        for (player, logs) in results {
-            let mut episodes = Vec::new();
-            for (subject, log) in &logs {
-                if games.iter().all(|game| game.id != subject.id) {
-                    games.push(StudyGame::from(*subject));
-                }
-                let metrics = EpisodeMetrics::of(subject, log);
-                episodes.push(
-                    metrics
-                        .map_err(|error| EvaluationError::Malformed(format!("{}: {error}", subject.id)))?,
-                );
-            }
-            measured.push((player, episodes));
-        }
-        Ok(Study::new(measured, games))
     }
 }
 

@@ -4,7 +4,6 @@ use super::attempt::Attempted;
 use super::candidate::{Candidate, MadeGame};
 use super::kept::Kept;
 use super::order::{GameEffort, GameOrder};
-use crate::games::sets::company::{CROWDED, Company};
 use crate::games::sets::rule_sets::RuleSets;
 use crate::levels::Method;
 use crate::pipeline::{GameGate, Rules};
@@ -22,17 +21,6 @@ pub struct GameSet {
     pub games: Vec<MadeGame>,
     /// The candidates that were tried, and the reasons why some failed.
     pub tally: Tally,
-    /// The reason why there are fewer games than ordered.
-    pub shortfall: Option<Shortfall>,
-}
-
-/// A reason why there are fewer games than ordered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shortfall {
-    /// All attempts have been used.
-    Attempts,
-    /// Every kernel has its maximum number of games or belongs to a kind that has: more games would be too similar.
-    Room,
 }
 
 /// The errors of making games.
@@ -49,7 +37,7 @@ pub enum GamesError {
 }
 
 /// Makes the games of an order, of kernels; no two of them, and none of them and a `known` game, are nearer than
-/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, each kernel has one game before any has two, and three of twenty are of one kind. `canary` marks their files. Cost: 20 to 30 seconds of one core a game, on all threads
+/// [`NEAR`](validators::novelty::NEAR), no two have a title or most of their names in common, and kernels take turns. `canary` marks their files. Cost: 20 to 30 seconds of one core a game, on all threads
 /// of the current rayon pool. The same order, known games and seed give the same games on any number of threads.
 ///
 /// Games that could not be made are missing from the set.
@@ -116,16 +104,6 @@ impl GameSet {
         match self.games.is_empty() && order.count > 0 {
             true => Err(GamesError::NoneAccepted { tally: Box::new(self.tally) }),
             false => Ok(self),
-        }
-    }
-
-    /// Completes the set: if there are fewer games than wanted, removes games of crowded kinds.
-    pub(super) fn end(&mut self, company: &Company, wanted: usize, shortfall: Shortfall) {
-        if self.games.len() < wanted {
-            self.shortfall = Some(shortfall);
-            for _ in 0..company.thin(&mut self.games) {
-                self.tally.taken_back(CROWDED);
-            }
         }
     }
 }

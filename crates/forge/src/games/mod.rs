@@ -26,7 +26,7 @@ pub use kept::{Kept, KeptGame};
 pub(crate) use levels::{Drawn, judges_seed};
 pub use levels::{FoundLevel, FoundLevels, Levels};
 pub(crate) use likeness::are_one_board;
-pub use make::{GameSet, GamesError, NO_RULES, Shortfall, attempt_kernel, make_games, make_one};
+pub use make::{GameSet, GamesError, NO_RULES, attempt_kernel, make_games, make_one};
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{PuzzleLevels, PuzzleRules};
 pub use sets::cast::Cast;

@@ -12,7 +12,7 @@ use engine::{Game, Level};
 use forge::Progress;
 use forge::card::Card;
 use forge::games::report::{GameSetReport, GamesSample};
-use forge::games::{GameOrder, GameSet, Kept, MadeGame, Shortfall, invent_games, make_games};
+use forge::games::{GameOrder, GameSet, Kept, MadeGame, invent_games, make_games};
 use forge::levels::Method;
 use forge::survey::SurveyedGame;
 use generators::games::Kind;
@@ -312,13 +312,10 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     }
     let missing = asked as usize - made;
     if missing > 0 {
-        let why = match set.shortfall {
-            Some(Shortfall::Room) => {
-                "every kernel has already reached its maximum number of games: request fewer"
-            }
-            _ => "all attempts are used up: request fewer, other kinds, or use a different seed",
-        };
-        let _ = writeln!(text, "{missing} could not be made: {why}");
+        let _ = writeln!(
+            text,
+            "{missing} could not be made: all attempts are used up: request fewer, other kinds, or use a different seed"
+        );
     }
     let out = args.out.in_message();
     if let Some(first) = set.games.first() {
