@@ -30,7 +30,7 @@ impl Estimate {
     ///
     /// Identical episodes of a player on a level are one observation: the rate counts all of them, but the interval
     /// does not.
-    pub(super) fn rate(ended: &[&StudyEpisode]) -> Option<Estimate> {
+    pub(in crate::study) fn rate(ended: &[&StudyEpisode]) -> Option<Estimate> {
         let mut games: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
         for episode in ended {
             let game = games.entry(episode.game).or_default();

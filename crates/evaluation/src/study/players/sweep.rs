@@ -1,7 +1,7 @@
 //! The results of a player by game, and their totals: the sweep of the paper (`spec/06` §4 and §5.2).
 
 use crate::study::Study;
-use crate::study::scores::{Estimate, Scores, levels_of};
+use crate::study::episodes::scores::{Estimate, Scores, levels_of};
 use report::{Table, TableCell};
 use serde::Serialize;
 

@@ -5,7 +5,7 @@ use engine::syntax::SpriteLine;
 use engine::{Description, Direction, Game};
 
 /// Returns `true` if the rules of one game are those of the other with left and right exchanged, under any names.
-pub(super) fn is_image(one: &Game, other: &Game) -> bool {
+pub(in crate::study) fn is_image(one: &Game, other: &Game) -> bool {
     let facing = |game: &Game| -> Vec<Direction> {
         let concrete = game.sprite_types().filter(|&stype| game.class(stype).is_some());
         concrete.map(|stype| game.orientation(stype)).collect()
@@ -16,7 +16,7 @@ pub(super) fn is_image(one: &Game, other: &Game) -> bool {
 }
 
 /// Returns the canonical text of a level with left and right exchanged.
-pub(super) fn level(text: &str) -> String {
+pub(in crate::study) fn level(text: &str) -> String {
     text.lines().map(|row| row.chars().rev().chain(['\n']).collect::<String>()).collect()
 }
 

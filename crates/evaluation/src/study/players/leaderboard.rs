@@ -2,7 +2,7 @@
 
 use crate::metrics::{Choices, Spending};
 use crate::study::Study;
-use crate::study::scores::{Estimate, Scores};
+use crate::study::episodes::scores::{Estimate, Scores};
 use report::{Table, TableCell};
 use serde::Serialize;
 use std::collections::BTreeMap;

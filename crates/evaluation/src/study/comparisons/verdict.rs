@@ -2,8 +2,8 @@
 //! player fails.
 
 use crate::metrics::{EndingKind, GoalDistance};
-use crate::study::endings::nearest;
-use crate::study::leaderboard::LeaderRow;
+use crate::study::episodes::endings::nearest;
+use crate::study::players::leaderboard::LeaderRow;
 use crate::study::{OverallComparison, Study, TaxonomyRow};
 use itertools::Itertools;
 use std::cmp::Reverse;

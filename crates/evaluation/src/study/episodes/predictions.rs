@@ -1,6 +1,6 @@
 //! The predictions of players about the rules after the last level of a series.
 
-use crate::study::scores::mean;
+use crate::study::episodes::scores::mean;
 use crate::study::{Player, Study};
 use report::{Table, TableCell};
 use serde::Serialize;
@@ -21,7 +21,7 @@ pub struct PredictionRow {
 }
 
 /// Returns one row for each player that has made predictions, highest insight first.
-pub(super) fn rows(study: &Study) -> Vec<PredictionRow> {
+pub(in crate::study) fn rows(study: &Study) -> Vec<PredictionRow> {
     let row = |(number, player): (usize, &Player)| {
         let ended = study.on(number, None, None).iter().filter(|episode| episode.metrics.counts());
         let grades: Vec<_> = ended.filter_map(|episode| episode.metrics.predictions.as_ref()).collect();
@@ -40,7 +40,7 @@ pub(super) fn rows(study: &Study) -> Vec<PredictionRow> {
 }
 
 /// Returns the table of predictions; `None` without any.
-pub(super) fn table(study: &Study) -> Option<Table> {
+pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     (!study.predictions.is_empty()).then(|| {
         Table::of(
             "predictions",

@@ -1,7 +1,7 @@
 //! Comparisons of two players: different models, a model in both modes, and a model with and without an aid.
 
-use crate::study::player::{CONTEXTUAL, ZERO_SHOT};
-use crate::study::scores::{Estimate, StudyEpisode, observations};
+use crate::study::episodes::scores::{Estimate, StudyEpisode, observations};
+use crate::study::players::player::{CONTEXTUAL, ZERO_SHOT};
 use crate::study::{LEVEL, Study};
 use itertools::Itertools;
 use report::{Table, TableCell};
@@ -157,8 +157,8 @@ impl Contrasts {
 
     /// Compares the two modes of the same model, zero-shot first and contextual second.
     pub(crate) fn modes(study: &Study) -> Contrasts {
-        let partner = |(a, ours): (usize, &super::Player)| {
-            let is_partner = |theirs: &super::Player| {
+        let partner = |(a, ours): (usize, &crate::study::Player)| {
+            let is_partner = |theirs: &crate::study::Player| {
                 (&theirs.name, &theirs.aids, &theirs.conditions) == (&ours.name, &ours.aids, &ours.conditions)
                     && theirs.mode.as_deref() == Some(CONTEXTUAL)
             };
@@ -173,7 +173,7 @@ impl Contrasts {
     pub(crate) fn aids(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.clone().cartesian_product(players).filter(|((_, without), (_, with))| {
-            let of = |player: &super::Player| {
+            let of = |player: &crate::study::Player| {
                 (player.name.clone(), player.mode.clone(), player.conditions.clone())
             };
             // A track is not an aid, so its results stay separate.

@@ -1,7 +1,7 @@
 //! The reference results of a release beside the players of a study, on the same levels.
 
 use crate::commitment::Commitment;
-use crate::study::scores::Estimate;
+use crate::study::episodes::scores::Estimate;
 use crate::study::{LEVEL, Player, Study};
 use report::{Table, TableCell};
 use serde::Serialize;
@@ -34,7 +34,7 @@ pub struct MarkRow {
 type Counts = BTreeMap<(usize, usize), (u64, u64)>;
 
 /// Returns the rows, sorted by tier, commitment and win rate.
-pub(super) fn rows(study: &Study) -> Vec<MarkRow> {
+pub(in crate::study) fn rows(study: &Study) -> Vec<MarkRow> {
     let mut found: BTreeMap<(u8, Commitment, bool, String), Counts> = BTreeMap::new();
     let mut tiers: BTreeMap<(usize, usize), u8> = BTreeMap::new();
     let played: BTreeSet<(usize, usize)> =
@@ -95,7 +95,7 @@ fn row(tier: u8, commit: Commitment, player: String, is_mark: bool, counts: &Cou
 }
 
 /// Returns the table of reference results; `None` without any.
-pub(super) fn table(study: &Study) -> Option<Table> {
+pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     if study.marks.is_empty() {
         return None;
     }

@@ -2,7 +2,7 @@
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
-use crate::study::scores::{StudyEpisode, mean};
+use crate::study::episodes::scores::{StudyEpisode, mean};
 use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;

@@ -1,6 +1,6 @@
 //! Results by kind of game: by the kind that a release states, and by the taxonomy that is derived from the rules.
 
-use crate::study::scores::{Estimate, Scores};
+use crate::study::episodes::scores::{Estimate, Scores};
 use crate::study::{Study, StudyGame};
 use itertools::Itertools;
 use report::{Table, TableCell};

@@ -1,8 +1,8 @@
 //! Heat maps as data: one value for each player on each game or level.
 
 use crate::study::Study;
-use crate::study::player::Player;
-use crate::study::scores::{Estimate, Scores, StudyEpisode};
+use crate::study::episodes::scores::{Estimate, Scores, StudyEpisode};
+use crate::study::players::player::Player;
 use report::{Table, TableCell};
 use serde::Serialize;
 use std::collections::BTreeMap;

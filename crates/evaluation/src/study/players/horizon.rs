@@ -1,6 +1,6 @@
 //! The horizon of players, which is the commitment at which they still win half of their episodes.
 
-use crate::study::scores::Estimate;
+use crate::study::episodes::scores::Estimate;
 use crate::study::{Player, Study, StudyEpisode};
 use itertools::Itertools;
 use report::{Table, TableCell};
@@ -91,7 +91,7 @@ impl HorizonRow {
 
 /// Returns one row for each player with several commitments and each kind of game that it played, furthest horizon
 /// first.
-pub(super) fn horizons(study: &Study) -> Vec<HorizonRow> {
+pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
     let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
         let mut player = study.players[episode.player].clone();
@@ -162,7 +162,7 @@ fn row(
     let groups: Vec<Vec<Vec<DoseTrials>>> =
         trials.into_values().map(|levels| levels.into_values().collect()).collect();
     let seed = blake3::hash(format!("horizon {} {}", player.label(), games.name()).as_bytes());
-    let found = half_point(&groups, RESAMPLES, super::LEVEL, *seed.as_bytes());
+    let found = half_point(&groups, RESAMPLES, crate::study::LEVEL, *seed.as_bytes());
     let doses = || groups.iter().flatten().flatten().map(|trials| trials.dose);
     // No player looks more often than before every action.
     let range = [(doses().fold(f64::INFINITY, f64::min) / 4.0).max(1.0), doses().fold(0.0, f64::max) * 4.0];
@@ -185,7 +185,7 @@ fn row(
 }
 
 /// Returns the table of horizons; `None` without commitments.
-pub(super) fn table(study: &Study) -> Option<Table> {
+pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     if study.horizons.is_empty() {
         return None;
     }

@@ -1,7 +1,7 @@
 //! The difficulty of games and levels for their players (`spec/06` §2.6).
 
 use crate::study::Study;
-use crate::study::scores::{Scores, mean};
+use crate::study::episodes::scores::{Scores, mean};
 use report::{Table, TableCell};
 use serde::Serialize;
 
@@ -78,7 +78,7 @@ impl DifficultyRow {
 
 /// Returns all games, each followed by its levels.
 pub(crate) fn difficulties(study: &Study) -> Vec<DifficultyRow> {
-    let of_game = |(game, facts): (usize, &super::StudyGame)| {
+    let of_game = |(game, facts): (usize, &crate::study::StudyGame)| {
         let levels = facts.levels.iter().map(|level| Some(level.number));
         let rows = [None].into_iter().chain(levels).map(|level| DifficultyRow::of(study, game, level));
         rows.collect::<Vec<_>>()
