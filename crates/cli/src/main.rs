@@ -8,23 +8,16 @@
 #[macro_use]
 mod failure;
 
-#[cfg(test)]
-mod command_page;
+mod book;
 mod console;
 mod diagnostics;
-mod embedded;
-mod episodes;
+mod flags;
 mod input;
 mod interrupt;
-mod manual;
 mod marks;
-mod memory;
-mod numbers;
 mod paths;
 mod protected;
 mod shell;
-mod threads;
-mod trusted;
 mod usage;
 mod verbs;
 mod version;
@@ -52,7 +45,7 @@ struct Cli {
     #[arg(short, long, global = true)]
     quiet: bool,
     #[command(flatten)]
-    limits: threads::Limits,
+    limits: flags::threads::Limits,
 }
 
 /// Declares the subcommands, in the groups and the order of the help: the variant, and the module with its `Args` and `run`. The

@@ -1,8 +1,9 @@
 //! `arcade describe`: the rules of a game in plain English, its kind, and the provable properties of a level.
 
 use crate::console::Console;
+use crate::diagnostics::Named;
 use crate::failure::{Answer, Failure};
-use crate::input::{self, Named};
+use crate::input;
 use base::Digest;
 use engine::Analysis;
 use engine::describe::{self, Guide};

@@ -2,8 +2,8 @@
 
 use crate::console::Console;
 use crate::failure::Answer;
+use crate::input::trusted::{TrustArgs, refuse};
 use crate::shell;
-use crate::trusted::{TrustArgs, refuse};
 use crate::verbs::export::unsound;
 use crate::verbs::verify::remark_unreplayed;
 use base::count;

@@ -1,8 +1,8 @@
 //! `arcade docs`: the manual.
 
+use crate::book::manual::{self, Page, Section};
 use crate::console::Console;
 use crate::failure::Answer;
-use crate::manual::{self, Page, Section};
 use crate::shell;
 use itertools::Itertools;
 use serde_json::json;

@@ -2,10 +2,10 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::input::trusted::{OriginArgs, SIGNATURES, refuse, signatures_of};
 use crate::paths;
 use crate::protected;
 use crate::shell;
-use crate::trusted::{OriginArgs, SIGNATURES, refuse, signatures_of};
 use crate::verbs::verify;
 use base::MessagePath;
 use base::count;

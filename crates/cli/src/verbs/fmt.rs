@@ -1,8 +1,11 @@
 //! `arcade fmt`: the canonical form of a game.
 
 use crate::console::Console;
+use crate::diagnostics::Named;
 use crate::failure::{Answer, Failure};
-use crate::input::{self, GameInput, Named, read_text};
+use crate::input;
+use crate::input::game_input::GameInput;
+use crate::input::text::read_text;
 use crate::{diagnostics, paths, protected, shell};
 use base::MessagePath;
 use clap::ValueEnum;

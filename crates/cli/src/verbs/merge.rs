@@ -1,10 +1,10 @@
 //! `arcade merge`: joins the shards of a release.
 
 use crate::console::Console;
-use crate::embedded;
 use crate::failure::Answer;
+use crate::input::embedded;
+use crate::input::trusted::warn_of_readers;
 use crate::protected;
-use crate::trusted::warn_of_readers;
 use crate::verbs::release::{read_secret_file, report, tools};
 use snapshots::mint::Shards;
 use std::path::PathBuf;

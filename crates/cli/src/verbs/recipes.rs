@@ -1,8 +1,8 @@
 //! `arcade recipes`: the recipes embedded in the binary.
 
 use crate::console::Console;
-use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::input::embedded;
 use crate::paths;
 use crate::{protected, shell};
 use base::MessagePath;

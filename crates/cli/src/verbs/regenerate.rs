@@ -1,13 +1,13 @@
 //! `arcade regenerate`: checks that the recipe reproduces a snapshot.
 
 use crate::console::Console;
-use crate::embedded;
 use crate::failure::Answer;
+use crate::flags::threads;
+use crate::input::embedded;
 use crate::interrupt;
 use crate::marks;
 use crate::protected;
 use crate::shell;
-use crate::threads;
 use crate::verbs::release::{LONG, ProgressBars, forecast, forecast_words};
 use base::MessagePath;
 use base::count;

@@ -2,7 +2,8 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::{episodes, input, paths, whole_file};
+use crate::input::episodes;
+use crate::{input, paths, whole_file};
 use agents::{Budget, Limits, PLANNERS, PlannerSpec, play};
 use base::MessagePath;
 use base::Seed;

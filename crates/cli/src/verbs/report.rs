@@ -2,9 +2,9 @@
 
 use crate::console::Console;
 use crate::failure::Answer;
+use crate::input::trusted::{digest, refuse};
 use crate::paths;
 use crate::protected;
-use crate::trusted::{digest, refuse};
 use base::Digest;
 use base::MessagePath;
 use evaluation::study::Study;

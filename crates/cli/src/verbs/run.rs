@@ -2,7 +2,8 @@
 
 use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
-use crate::input::{self, GameInput};
+use crate::input;
+use crate::input::game_input::GameInput;
 use crate::shell;
 use crate::whole_file;
 use agents::{Budget, Limits, PlannerSpec, play};

@@ -4,7 +4,7 @@ mod leftover;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::input::sorted_entries;
+use crate::input::text::sorted_entries;
 use crate::paths;
 use base::MessagePath;
 use leftover::{Leftover, LeftoverKind};

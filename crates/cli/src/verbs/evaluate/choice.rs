@@ -4,7 +4,7 @@ use super::Args;
 use super::player::RequestedPlayer;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::numbers::number;
+use crate::flags::numbers::number;
 use crate::whole_file;
 use base::Digest;
 use base::MessagePath;

@@ -11,12 +11,12 @@ mod track;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::flags::threads;
+use crate::input::trusted::{OriginArgs, refuse};
 use crate::interrupt;
 use crate::paths;
 use crate::protected;
 use crate::shell;
-use crate::threads;
-use crate::trusted::{OriginArgs, refuse};
 use crate::whole_file;
 use agents::Budget;
 use base::MessagePath;

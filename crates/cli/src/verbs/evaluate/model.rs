@@ -2,8 +2,8 @@
 
 use super::Args;
 use crate::failure::Failure;
-use crate::input::read_text;
-use crate::numbers::number;
+use crate::flags::numbers::number;
+use crate::input::text::read_text;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use evaluation::client::{self, Batch, Decoding, Estimate, Limits, ModelOptions, ModelSettings, Usd};
 use evaluation::prompt::{Mode, PromptSettings, PromptStyle, Prompter, Rules};

@@ -6,7 +6,7 @@ use super::model::{self, ConnectedModel};
 use super::{Args, BUDGET};
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::threads;
+use crate::flags::threads;
 use crate::verbs::player_guard;
 use agents::{Budget, PlannerSpec};
 use evaluation::player::mailbox::Mailbox;
@@ -253,7 +253,7 @@ pub(super) fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> 
         );
     };
     if let Some(file) = player.strip_prefix("replay:") {
-        let episode = crate::episodes::read(Path::new(file))?;
+        let episode = crate::input::episodes::read(Path::new(file))?;
         return Ok(RequestedPlayer::Replay(Replay::of(&episode)));
     }
     if player == Touching::NAME {

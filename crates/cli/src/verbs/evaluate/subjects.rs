@@ -1,9 +1,12 @@
 //! The subjects of an evaluation: the games of a snapshot, or games that the user specifies.
 
 use crate::diagnostics;
-use crate::embedded;
+use crate::diagnostics::Named;
 use crate::failure::Failure;
-use crate::input::{self, GameInput, Named, read_text};
+use crate::input;
+use crate::input::embedded;
+use crate::input::game_input::GameInput;
+use crate::input::text::read_text;
 use crate::marks;
 use crate::paths;
 use base::Digest;

@@ -2,8 +2,8 @@
 
 use super::pretty;
 use crate::console::{Console, Stopwatch};
-use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::input::embedded;
 use crate::interrupt;
 use crate::protected;
 use base::MessagePath;

@@ -3,7 +3,8 @@
 use super::pretty;
 use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
-use crate::input::{self, GameInput};
+use crate::input;
+use crate::input::game_input::GameInput;
 use crate::protected;
 use base::MessagePath;
 use base::Seed;

@@ -3,7 +3,8 @@
 use super::{Args, MAX_PACE};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::{episodes, input, paths};
+use crate::input::episodes;
+use crate::{input, paths};
 use agents::{Budget, PlannerSpec};
 use base::{MessagePath, Seed};
 use engine::Analysis;

@@ -8,15 +8,15 @@ mod sealed;
 mod summary;
 
 use crate::console::Console;
-use crate::embedded;
 use crate::failure::{Answer, Failure};
+use crate::flags::threads;
 use crate::input;
+use crate::input::embedded;
+use crate::input::trusted::warn_of_readers;
 use crate::marks;
 use crate::paths;
 use crate::protected;
 use crate::shell;
-use crate::threads;
-use crate::trusted::warn_of_readers;
 use base::MessagePath;
 pub(crate) use cost::{LONG, forecast, words as forecast_words};
 pub(crate) use progress::{ProgressBars, Remarks, Reporter};
@@ -261,7 +261,7 @@ pub(crate) fn find_recipe(
 ) -> Result<Recipe, Failure> {
     let name = path.to_string_lossy();
     let (shown, text) = if is_file(path) {
-        (name.clone().into_owned(), input::read_text(path, MAX_RECIPE)?)
+        (name.clone().into_owned(), input::text::read_text(path, MAX_RECIPE)?)
     } else if let Some(text) = embedded::recipe(&name) {
         (format!("seeds/{name}.toml"), text.to_owned())
     } else {

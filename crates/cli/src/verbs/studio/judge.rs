@@ -3,8 +3,10 @@
 use super::open;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::input::{self, GameInput};
-use crate::{embedded, whole_file};
+use crate::input;
+use crate::input::embedded;
+use crate::input::game_input::GameInput;
+use crate::whole_file;
 use engine::{Game, Level};
 use snapshots::released::Released;
 use std::path::Path;

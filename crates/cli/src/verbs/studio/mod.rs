@@ -4,10 +4,11 @@ mod browser;
 mod judge;
 pub(super) mod open;
 
+use crate::book::manual;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
-use crate::trusted::{self, TrustArgs};
-use crate::{manual, version};
+use crate::input::trusted::{self, TrustArgs};
+use crate::version;
 use serde_json::json;
 use std::path::PathBuf;
 use studio::judging::MOST_PAIRS;

@@ -1,8 +1,11 @@
 //! The places that the studio can open: the corpus, the user's games, a release, and results.
 
 use crate::failure::Failure;
-use crate::input::{self, GameInput};
-use crate::{console, embedded, episodes, paths, protected};
+use crate::input;
+use crate::input::embedded;
+use crate::input::episodes;
+use crate::input::game_input::GameInput;
+use crate::{console, paths, protected};
 use base::MessagePath;
 use evaluation::Evaluation;
 use serde_json::json;
@@ -78,7 +81,7 @@ fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     if Evaluation::is_begun(path) {
         return Ok(vec![path.to_owned()]);
     }
-    let mut folders = input::sorted_entries(path)?;
+    let mut folders = input::text::sorted_entries(path)?;
     folders.retain(|folder| folder.is_dir() && Evaluation::is_begun(folder));
     Ok(folders)
 }
@@ -90,7 +93,7 @@ pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
         return Ok(path.join(MANIFEST_FILE).is_file());
     }
     let start = disk::read_start(path, 4).map_err(|error| Failure::read(path, error))?;
-    Ok(start == input::ZSTD)
+    Ok(start == input::text::ZSTD)
 }
 
 /// Returns the entry of a user's game, which can be edited unless the game lies in a release.
@@ -138,7 +141,7 @@ fn entry(input: &GameInput) -> Result<GameEntry, Failure> {
 /// Returns the card beside a game, if there is a readable one.
 pub(super) fn card(input: &GameInput) -> Option<serde_json::Value> {
     let folder = input.path.as_ref()?.parent()?;
-    let read = |name: &str| input::read_text(&folder.join(name), MAX_CARD).ok();
+    let read = |name: &str| input::text::read_text(&folder.join(name), MAX_CARD).ok();
     let of_toml = || serde_json::to_value(read("CARD.toml")?.parse::<toml::Table>().ok()?).ok();
     let of_json = || serde_json::from_str(&read("card.json")?).ok();
     of_toml().or_else(of_json)

@@ -1,9 +1,9 @@
 //! `arcade study well`: the games that a chain of months can still invent.
 
 use crate::console::Console;
-use crate::embedded;
 use crate::failure::{Answer, Failure};
-use crate::numbers::number;
+use crate::flags::numbers::number;
+use crate::input::embedded;
 use crate::verbs::release::find_recipe;
 use base::MessagePath;
 use base::Seed;

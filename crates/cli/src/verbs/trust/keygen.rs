@@ -2,8 +2,8 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::input::trusted::{open_secret, password};
 use crate::protected;
-use crate::trusted::{open_secret, password};
 use base::MessagePath;
 use disk::Access;
 use serde_json::json;

@@ -2,8 +2,8 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::input::trusted::{SecretArgs, warn_of_readers};
 use crate::protected;
-use crate::trusted::{SecretArgs, warn_of_readers};
 use base::MessagePath;
 use disk::Disk;
 use serde_json::json;

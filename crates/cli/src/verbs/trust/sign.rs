@@ -2,8 +2,8 @@
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::input::trusted::{SecretArgs, anchor, signatures_of, warn_of_readers};
 use crate::protected;
-use crate::trusted::{SecretArgs, anchor, signatures_of, warn_of_readers};
 use base::MessagePath;
 use disk::{Access, Disk};
 use serde_json::json;
@@ -94,7 +94,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }))?;
     console.say(format_args!("{}: root {}\n{place}/{file}", manifest.name, manifest.root));
     match signed.problems.as_slice() {
-        [] => console.say(crate::trusted::sentence(&signed)),
+        [] => console.say(crate::input::trusted::sentence(&signed)),
         problems => {
             problems.iter().for_each(|problem| console.say(problem));
             console.say("more keys must sign: pass the folder on, and run the same command with their keys");

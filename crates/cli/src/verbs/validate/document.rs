@@ -1,7 +1,7 @@
 //! The answer for programs, whose schema is `docs/reference/validate.md`.
 
-use crate::diagnostics::Placed;
-use crate::input::Named;
+use crate::diagnostics::Named;
+use crate::failure::Placed;
 use base::Digest;
 use engine::{Episode, line_and_column};
 use serde::Serialize;

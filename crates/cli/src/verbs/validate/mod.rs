@@ -4,9 +4,12 @@ mod document;
 mod text;
 
 use crate::console::Console;
+use crate::diagnostics::Named;
 use crate::failure::{Answer, Failure};
-use crate::input::{self, GameInput, Named};
-use crate::{diagnostics, episodes, shell};
+use crate::input;
+use crate::input::episodes;
+use crate::input::game_input::GameInput;
+use crate::{diagnostics, shell};
 use base::MessagePath;
 use base::Seed;
 use document::{Document, LevelDocument};

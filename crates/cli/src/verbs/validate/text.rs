@@ -1,7 +1,7 @@
 //! The answer for people: the verdict first, then the reasons.
 
 use super::document::{Document, LevelDocument};
-use crate::input::Named;
+use crate::diagnostics::Named;
 use std::fmt::Write;
 use validators::{Criterion, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
 

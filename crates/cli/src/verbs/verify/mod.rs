@@ -4,8 +4,8 @@ mod item;
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::input::trusted::{self, TrustArgs, digest};
 use crate::protected;
-use crate::trusted::{self, TrustArgs, digest};
 use base::Digest;
 use base::MessagePath;
 use base::count;

@@ -3,9 +3,9 @@
 use super::{counted, line, row, rules};
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
+use crate::input::trusted::{open_secret, signatures_of, warn_of_readers};
 use crate::paths;
 use crate::shell;
-use crate::trusted::{open_secret, signatures_of, warn_of_readers};
 use crate::verbs::release::{check_beacon, find_recipe, read_secret_file, secret_file, sign_command};
 use base::Digest;
 use base::MessagePath;
@@ -165,7 +165,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 const MAX_SCALE: u64 = 1 << 28;
 
 fn keys(file: &Path) -> Result<Entry, Failure> {
-    match crate::trusted::anchor(file)? {
+    match crate::input::trusted::anchor(file)? {
         Anchor::Set(set) => {
             followed(&set, file)?;
             Ok(Entry::Keys { version: set.version, digest: set.digest()?, previous: set.previous })

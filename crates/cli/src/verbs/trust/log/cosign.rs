@@ -3,7 +3,7 @@
 use super::{checkpoint, counted, open, public_key};
 use crate::console::Console;
 use crate::failure::Answer;
-use crate::trusted::{open_secret, warn_of_readers};
+use crate::input::trusted::{open_secret, warn_of_readers};
 use base::MessagePath;
 use disk::Disk;
 use serde_json::json;

@@ -81,7 +81,7 @@ fn absent(folder: &Path) -> Failure {
 
 /// Reads a public key.
 fn public_key(file: &Path) -> Result<PublicKey, Failure> {
-    match crate::trusted::anchor(file)? {
+    match crate::input::trusted::anchor(file)? {
         Anchor::Key(key) => Ok(key),
         Anchor::Set(_) => {
             Err(malformed!("`{}` is a set of keys: a log is signed by one key, NAME.pub", file.in_message()))

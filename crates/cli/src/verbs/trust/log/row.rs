@@ -1,7 +1,7 @@
 //! Rows of the leaderboard, computed from the logs of their episodes.
 
 use crate::failure::Failure;
-use crate::input::sorted_entries;
+use crate::input::text::sorted_entries;
 use base::Digest;
 use base::MessagePath;
 use evaluation::Evaluation;

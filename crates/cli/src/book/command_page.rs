@@ -88,8 +88,8 @@ fn the_commands_of_the_book_exist() {
     let mut root = crate::usage::command();
     root.build();
     let (mut count, mut problems) = (0, Vec::new());
-    let readme = include_str!("../../../README.md");
-    let pages = crate::manual::pages();
+    let readme = include_str!("../../../../README.md");
+    let pages = crate::book::manual::pages();
     let texts = pages.iter().map(|page| (page.name.as_str(), page.text)).chain([("README.md", readme)]);
     for (name, text) in texts.filter(|(name, _)| *name != "commands") {
         for line in commands(text) {

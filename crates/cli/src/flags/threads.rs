@@ -2,7 +2,7 @@
 
 use crate::console;
 use crate::failure::Failure;
-use crate::memory::Bytes;
+use crate::flags::memory::Bytes;
 use agents::search::bound_memory;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use std::ffi::OsString;

@@ -1,8 +1,10 @@
 //! Recorded episodes that the user specifies: the files that `arcade validate --witness` and `arcade play --record` write, and
 //! the witnesses of a snapshot.
 
+use crate::diagnostics::Named;
 use crate::failure::Failure;
-use crate::input::{GameInput, Named, read_text};
+use crate::input::game_input::GameInput;
+use crate::input::text::read_text;
 use crate::whole_file;
 use base::MessagePath;
 use engine::{Episode, Game, Level};

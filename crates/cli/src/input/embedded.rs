@@ -8,7 +8,7 @@ use snapshots::{Corpus, CorpusGame};
 
 static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/corpora");
 static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/seeds");
-static LOCKFILE: &[u8] = include_bytes!("../workspace.lock");
+static LOCKFILE: &[u8] = include_bytes!("../../workspace.lock");
 
 /// Returns the corpus games with their names.
 pub(crate) fn corpus() -> Result<Corpus, Failure> {
