@@ -6,7 +6,9 @@ use crate::failure::{Answer, Failure};
 use crate::input::trusted::{open_secret, signatures_of, warn_of_readers};
 use crate::paths;
 use crate::shell;
-use crate::verbs::release::{check_beacon, find_recipe, read_secret_file, secret_file, sign_command};
+use crate::verbs::releases::release::{
+    check_beacon, find_recipe, read_secret_file, secret_file, sign_command,
+};
 use base::Digest;
 use base::MessagePath;
 use disk::Disk;

@@ -4,7 +4,7 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::flags::numbers::number;
 use crate::input::embedded;
-use crate::verbs::release::find_recipe;
+use crate::verbs::releases::release::find_recipe;
 use base::MessagePath;
 use base::Seed;
 use engine::Game;

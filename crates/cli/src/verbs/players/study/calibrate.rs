@@ -4,7 +4,7 @@ use super::scale::left_out;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::paths;
-use crate::verbs::evaluate::subjects::{self, Subjects, Wanted};
+use crate::verbs::players::evaluate::subjects::{self, Subjects, Wanted};
 use crate::{interrupt, protected, whole_file};
 use base::MessagePath;
 use base::count;

@@ -7,7 +7,7 @@ use super::{Args, BUDGET};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::flags::threads;
-use crate::verbs::player_guard;
+use crate::verbs::players::player_guard;
 use agents::{Budget, PlannerSpec};
 use evaluation::player::mailbox::Mailbox;
 use evaluation::player::process::{PROTOCOL, Process, ProcessConfig};

@@ -8,7 +8,7 @@ use crate::interrupt;
 use crate::marks;
 use crate::protected;
 use crate::shell;
-use crate::verbs::release::{LONG, ProgressBars, forecast, forecast_words};
+use crate::verbs::releases::release::{LONG, ProgressBars, forecast, forecast_words};
 use base::MessagePath;
 use base::count;
 use serde_json::json;

@@ -2,7 +2,7 @@
 
 mod browser;
 mod judge;
-pub(super) mod open;
+pub(crate) mod open;
 
 use crate::book::manual;
 use crate::console::Console;

@@ -3,7 +3,7 @@
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::shell;
-use crate::verbs::export;
+use crate::verbs::releases::export;
 use base::MessagePath;
 use base::count;
 use evaluation::contamination::{

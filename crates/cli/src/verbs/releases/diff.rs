@@ -4,8 +4,8 @@ use crate::console::Console;
 use crate::failure::Answer;
 use crate::input::trusted::{TrustArgs, refuse};
 use crate::shell;
-use crate::verbs::export::unsound;
-use crate::verbs::verify::remark_unreplayed;
+use crate::verbs::releases::export::unsound;
+use crate::verbs::releases::verify::remark_unreplayed;
 use base::count;
 use report::Quantiles;
 use snapshots::diff::{

@@ -6,7 +6,7 @@ use crate::input::trusted::{OriginArgs, SIGNATURES, refuse, signatures_of};
 use crate::paths;
 use crate::protected;
 use crate::shell;
-use crate::verbs::verify;
+use crate::verbs::releases::verify;
 use base::MessagePath;
 use base::count;
 use serde_json::json;

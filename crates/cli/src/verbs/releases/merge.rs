@@ -5,7 +5,7 @@ use crate::failure::Answer;
 use crate::input::embedded;
 use crate::input::trusted::warn_of_readers;
 use crate::protected;
-use crate::verbs::release::{read_secret_file, report, tools};
+use crate::verbs::releases::release::{read_secret_file, report, tools};
 use snapshots::mint::Shards;
 use std::path::PathBuf;
 

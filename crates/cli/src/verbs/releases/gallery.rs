@@ -1,10 +1,10 @@
 //! `arcade gallery`: a release as a page of static files.
 
 use super::export::unsound;
-use super::studio::open;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::paths;
+use crate::verbs::games::studio::open;
 use crate::{protected, version};
 use base::MessagePath;
 use rayon::prelude::*;
