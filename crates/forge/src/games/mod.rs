@@ -7,10 +7,10 @@
 mod apart;
 mod attempt;
 mod candidate;
+mod found_level;
 mod inventing;
 mod kept;
 mod levels;
-mod likeness;
 mod make;
 mod order;
 pub(crate) mod puzzles;
@@ -21,11 +21,12 @@ pub mod report;
 
 pub(crate) use apart::FarInventions;
 pub use candidate::{Candidate, MadeGame, marked, slug};
+pub use found_level::FoundLevel;
+pub(crate) use found_level::judges_seed;
 pub use inventing::{invent_games, invent_one};
 pub use kept::{Kept, KeptGame};
-pub(crate) use levels::{Drawn, judges_seed};
-pub use levels::{FoundLevel, FoundLevels, Levels};
-pub(crate) use likeness::are_one_board;
+pub(crate) use levels::Drawn;
+pub use levels::{FoundLevels, Levels};
 pub use make::{GameSet, GamesError, NO_RULES, attempt_kernel, make_games, make_one};
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{PuzzleLevels, PuzzleRules};

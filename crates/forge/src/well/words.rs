@@ -1,6 +1,6 @@
 //! The words that games of a year have in common.
 
-use super::{Again, Sketch};
+use super::month::{Again, Sketch};
 use crate::games::Cast;
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! The prices of tokens. If the price of a model is unknown, so is its cost, which is different from a cost of zero.
 
-use super::chat::Usage;
-use super::provider::Provider;
+use crate::client::chat::Usage;
+use crate::client::provider::Provider;
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ impl Usd {
     }
 
     /// Subtracts an amount, saturating at 0.
-    pub(super) fn minus(self, other: Usd) -> Usd {
+    pub(in crate::client) fn minus(self, other: Usd) -> Usd {
         Usd(self.0.saturating_sub(other.0))
     }
 }

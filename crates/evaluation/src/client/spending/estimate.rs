@@ -1,7 +1,7 @@
 //! Estimates of the tokens and costs of requests before they are sent.
 
-use super::chat::{ChatMessage, ChatRequest, Usage};
 use super::prices::{Price, Usd};
+use crate::client::chat::{ChatMessage, ChatRequest, Usage};
 use crate::tokens;
 
 /// The number of tokens counted for an image whose size cannot be read.
@@ -9,7 +9,7 @@ const PICTURE: u64 = 1000;
 
 /// Estimates the number of tokens in a request's prompt with a local count, because the vocabularies of models
 /// differ.
-pub(super) fn prompt_tokens(request: &ChatRequest) -> u64 {
+pub(in crate::client) fn prompt_tokens(request: &ChatRequest) -> u64 {
     let picture =
         |png: &Vec<u8>| size(png).map_or(PICTURE, |(width, height)| tokens::of_picture(width, height));
     let message = |message: &ChatMessage| {

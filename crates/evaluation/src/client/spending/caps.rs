@@ -1,8 +1,8 @@
 //! Caps on the spending of an evaluation, shared by all its threads.
 
-use super::chat::Usage;
 use super::estimate::Estimate;
 use super::prices::{Price, Usd};
+use crate::client::chat::Usage;
 use crate::log::Event;
 use crate::tokens;
 use std::sync::{Mutex, MutexGuard};
@@ -81,7 +81,7 @@ impl Caps {
     ///
     /// # Errors
     /// Returns a message with the limit that forbids the request.
-    pub(super) fn reserve(&self, prompt: u64) -> Result<Reservation<'_>, String> {
+    pub(in crate::client) fn reserve(&self, prompt: u64) -> Result<Reservation<'_>, String> {
         let usage = Usage { input_tokens: Some(prompt), output_tokens: Some(0), ..Usage::default() };
         let cost = self.price.as_ref().and_then(|price| price.cost(&usage)).unwrap_or_default();
         let amount = Spent { requests: 1, tokens: prompt, cost };
@@ -159,14 +159,14 @@ impl Spent {
 /// A request in flight. It costs nothing if it is dropped without a charge.
 #[derive(Debug)]
 #[must_use]
-pub(super) struct Reservation<'a> {
+pub(in crate::client) struct Reservation<'a> {
     caps: &'a Caps,
     amount: Spent,
     prompt: u64,
 }
 
 impl Reservation<'_> {
-    pub(super) fn settle(mut self, usage: &Usage, text: &str, reasoning: Option<&str>) {
+    pub(in crate::client) fn settle(mut self, usage: &Usage, text: &str, reasoning: Option<&str>) {
         let charge = self.caps.charge(usage, self.prompt, text, reasoning);
         // Both happen in one step, so that the request is never counted both as in flight and as paid.
         let amount = std::mem::take(&mut self.amount);
