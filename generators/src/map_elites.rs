@@ -106,11 +106,6 @@ impl<'a, V: Variation> MapElites<'a, V> {
         self.archive.demote(cell, feasibility);
     }
 
-    /// Ends the search and returns the archive.
-    pub fn into_archive(self) -> Archive<V::Candidate> {
-        self.archive
-    }
-
     fn propose(&mut self) -> Option<V::Candidate> {
         let mut sampler = self.breeding.next_sampler();
         let is_fresh = sampler.unit() < self.config.fresh;

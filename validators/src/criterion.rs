@@ -148,11 +148,6 @@ impl Criterion {
     pub fn of_game(self) -> bool {
         !self.of_level()
     }
-
-    /// Returns `true` for a gate, which is a criterion of a game that measures what people observe in play.
-    pub fn is_gate(self) -> bool {
-        CriterionSet::GATES.contains(self)
-    }
 }
 
 impl fmt::Display for Criterion {
@@ -301,7 +296,6 @@ mod tests {
         let count =
             |is: fn(Criterion) -> bool| Criterion::ALL.iter().filter(|&&criterion| is(criterion)).count();
         assert_eq!(count(Criterion::of_level) + count(Criterion::of_game), Criterion::ALL.len());
-        assert_eq!(CriterionSet::GATES.iter().count(), count(Criterion::is_gate));
         assert!(CriterionSet::GATES.iter().all(Criterion::of_game));
     }
 

@@ -1,29 +1,23 @@
 //! Diagnostics for people and programs.
 
-use crate::failure::Failure;
-use crate::input::Named;
+use crate::failure::{Failure, Placed, Problems};
 use editor::Source;
-use engine::{Diagnostic, line_and_column};
-use serde::Serialize;
-use std::fmt;
+use engine::{Diagnostic, Game, Level, line_and_column};
 use std::io::IsTerminal;
 
-/// The problems in a file, as an error.
-#[derive(Debug)]
-pub(crate) struct Problems {
-    /// The line that states the number of problems.
-    pub(crate) summary: String,
-    pub(crate) placed: Vec<Placed>,
-    text: String,
+/// A text and the name that messages use for it.
+#[derive(Clone, Debug)]
+pub(crate) struct Named {
+    pub(crate) name: String,
+    pub(crate) text: String,
 }
 
-impl fmt::Display for Problems {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.text)
+impl Named {
+    /// Parses the text as a level of a game.
+    pub(crate) fn level(&self, game: &Game) -> Result<Level, Failure> {
+        game.level(&self.text).map_err(|problems| failure(self, &problems.0))
     }
 }
-
-impl std::error::Error for Problems {}
 
 /// Returns a summary line and every problem with its position, for people.
 pub(crate) fn in_words(source: &Named, problems: &[Diagnostic]) -> String {
@@ -44,15 +38,6 @@ pub(crate) fn failure(source: &Named, problems: &[Diagnostic]) -> Failure {
     let text = in_words(source, problems);
     let summary = text.lines().next().unwrap_or_default().to_owned();
     Failure::Malformed(Problems { summary, placed: placed(source, problems), text }.into())
-}
-
-#[derive(Debug, Serialize)]
-pub(crate) struct Placed {
-    file: String,
-    line: usize,
-    column: usize,
-    #[serde(flatten)]
-    problem: Diagnostic,
 }
 
 /// Returns the problems in a file with their lines and columns.

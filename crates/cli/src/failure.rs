@@ -1,8 +1,9 @@
 //! The failures of a subcommand and their exit statuses.
 
-use crate::diagnostics::Problems;
 use base::MessagePath;
+use engine::Diagnostic;
 use pages::PageError;
+use serde::Serialize;
 use serde_json::{Value, json};
 use snapshots::mint::{MergeError, MintError};
 use snapshots::proof::ProofError;
@@ -27,6 +28,33 @@ pub(crate) enum Failure {
     Malformed(anyhow::Error),
     /// A failure of I/O, of the network, or a full disk.
     Environment(anyhow::Error),
+}
+
+/// The problems in a file, as an error.
+#[derive(Debug)]
+pub(crate) struct Problems {
+    /// The line that states the number of problems.
+    pub(crate) summary: String,
+    pub(crate) placed: Vec<Placed>,
+    pub(crate) text: String,
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl std::error::Error for Problems {}
+
+/// A problem with its position in a file.
+#[derive(Debug, Serialize)]
+pub(crate) struct Placed {
+    pub(crate) file: String,
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+    #[serde(flatten)]
+    pub(crate) problem: Diagnostic,
 }
 
 /// Creates the failure of a malformed question, with a message formatted as by `format!`.

@@ -8,23 +8,16 @@
 #[macro_use]
 mod failure;
 
-#[cfg(test)]
-mod command_page;
+mod book;
 mod console;
 mod diagnostics;
-mod embedded;
-mod episodes;
+mod flags;
 mod input;
 mod interrupt;
-mod manual;
 mod marks;
-mod memory;
-mod numbers;
 mod paths;
 mod protected;
 mod shell;
-mod threads;
-mod trusted;
 mod usage;
 mod verbs;
 mod version;
@@ -52,18 +45,18 @@ struct Cli {
     #[arg(short, long, global = true)]
     quiet: bool,
     #[command(flatten)]
-    limits: threads::Limits,
+    limits: flags::threads::Limits,
 }
 
 /// Declares the subcommands, in the groups and the order of the help. Each entry has the variant, and the module with
 /// its `Args` and `run`. The short help only lists the names of the subcommands after `more`.
 macro_rules! verbs {
-    ($($group:literal {
+    ($($group:literal in $folder:ident {
         $($verb:ident: $module:ident),* $(,)?; more $($(#[$attribute:meta])* $rare:ident: $other:ident),* $(,)?
     })*) => {
         #[derive(Subcommand)]
         enum Verb {
-            $($($verb(Box<verbs::$module::Args>),)* $($(#[$attribute])* $rare(Box<verbs::$other::Args>),)*)*
+            $($($verb(Box<verbs::$folder::$module::Args>),)* $($(#[$attribute])* $rare(Box<verbs::$folder::$other::Args>),)*)*
         }
 
         /// The groups of the help. Each group has a title, the number of subcommands that the short help describes, and
@@ -77,15 +70,15 @@ macro_rules! verbs {
                 limits.apply()?;
             }
             match verb {
-                $($(Verb::$verb(args) => verbs::$module::run(args, console),)*)*
-                $($(Verb::$rare(args) => verbs::$other::run(args, console),)*)*
+                $($(Verb::$verb(args) => verbs::$folder::$module::run(args, console),)*)*
+                $($(Verb::$rare(args) => verbs::$folder::$other::run(args, console),)*)*
             }
         }
     };
 }
 
 verbs! {
-    "Make games" {
+    "Make games" in games {
         New: new,
         Play: play,
         Validate: validate,
@@ -97,7 +90,7 @@ verbs! {
         Fmt: fmt,
         Lsp: lsp,
     }
-    "Publish benchmarks" {
+    "Publish benchmarks" in releases {
         Recipes: recipes,
         Release: release,
         Verify: verify,
@@ -109,7 +102,7 @@ verbs! {
         Export: export,
         Gallery: gallery,
     }
-    "Evaluate players" {
+    "Evaluate players" in players {
         Evaluate: evaluate,
         Report: report,
         Study: study;
@@ -120,7 +113,7 @@ verbs! {
         #[command(hide = true)]
         PlayerGuard: player_guard,
     }
-    "This program" {
+    "This program" in program {
         Docs: docs;
         more
         Clean: clean,

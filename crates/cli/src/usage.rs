@@ -273,7 +273,7 @@ fn developers_task(error: &clap::Error) -> Option<String> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::manual;
+    use crate::book::manual;
 
     /// Calls `look` with the path of every subcommand, such as `arcade recipes show`, and the subcommand itself.
     pub(crate) fn for_each_verb(look: &mut dyn FnMut(&str, &Command)) {

@@ -25,8 +25,7 @@ fn far_more_is_illuminated_than_by_random_sampling() {
         for (candidate, evaluation) in sample(&Slopes, Slopes::judge, seed, judged.len()) {
             random.add(candidate, evaluation);
         }
-        let archive = search.into_archive();
-        let figures = [&archive, &random].map(|archive| (archive.coverage(), archive.qd_score()));
+        let figures = [search.archive(), &random].map(|archive| (archive.coverage(), archive.qd_score()));
         let [(coverage, score), (random_coverage, random_score)] = figures;
         assert!(coverage > 0.9 && coverage > 1.3 * random_coverage, "{figures:?}");
         assert!(score > 1.5 * random_score, "{figures:?}");

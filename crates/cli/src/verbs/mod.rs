@@ -1,31 +1,6 @@
-//! The subcommands, each in its own file or folder: flags, behaviour and output.
+//! The subcommands, each in its own file or folder: flags, behaviour and output. The folders are the groups of the help.
 
-pub(crate) mod clean;
-pub(crate) mod completions;
-pub(crate) mod describe;
-pub(crate) mod diff;
-pub(crate) mod docs;
-pub(crate) mod evaluate;
-pub(crate) mod export;
-pub(crate) mod fmt;
-pub(crate) mod gallery;
-pub(crate) mod generate;
-pub(crate) mod lsp;
-pub(crate) mod mailbox;
-pub(crate) mod man;
-pub(crate) mod merge;
-pub(crate) mod new;
-pub(crate) mod play;
-pub(crate) mod player_guard;
-pub(crate) mod recipes;
-pub(crate) mod regenerate;
-pub(crate) mod release;
-pub(crate) mod render;
-pub(crate) mod report;
-pub(crate) mod run;
-pub(crate) mod serve_player;
-pub(crate) mod studio;
-pub(crate) mod study;
-pub(crate) mod trust;
-pub(crate) mod validate;
-pub(crate) mod verify;
+pub(crate) mod games;
+pub(crate) mod players;
+pub(crate) mod program;
+pub(crate) mod releases;

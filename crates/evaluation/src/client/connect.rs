@@ -1,70 +1,21 @@
 //! Connects to a model with the user's options.
 
 use super::cache::Cache;
-use super::caps::{Caps, Limits};
 use super::chat::{Decoding, Model};
 use super::clock::{Clock, SystemClock};
 use super::key::{Key, environment};
+use super::options::ModelOptions;
 use super::pace::Pace;
-use super::prices::{Price, Prices};
 use super::provider::Provider;
 use super::remote::Remote;
 use super::spec::ModelSpec;
+use super::spending::caps::Caps;
+use super::spending::prices::{Price, Prices};
 use super::wire::Wire;
 use crate::error::EvaluationError;
 use base::Digest;
 use serde::{Deserialize, Serialize};
-use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
-use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Duration;
-
-base::with_defaults! {
-    /// The user's options for a model. The options contain no API key, because keys are read from the
-    /// environment.
-    #[derive(Clone, Debug)]
-    pub struct ModelOptions {
-        /// The model ID: `openai:…`, `anthropic:…`, `gemini:…`, or any name with a base URL.
-        pub model: String = String::new(),
-        /// The server's base URL, if it differs from the provider's own URL.
-        pub base_url: Option<String> = None,
-        /// The name of the environment variable that holds the key, if it differs from the provider's
-        /// default.
-        pub key_variable: Option<String> = None,
-        /// The sampling settings for answers.
-        pub decoding: Decoding = Decoding::default(),
-        /// The caps on spending.
-        pub limits: Limits = Limits::default(),
-        /// The path of a price table that takes precedence over the embedded table.
-        pub prices: Option<PathBuf> = None,
-        /// The folder of the response cache, if enabled.
-        pub cache: Option<PathBuf> = None,
-        /// The maximum number of concurrent requests.
-        pub concurrency: NonZeroUsize = NonZeroUsize::new(4).expect("not zero"),
-        /// The maximum number of requests started per minute.
-        pub requests_per_minute: Option<NonZeroU64> = None,
-        /// The maximum number of tokens per minute, in requests and replies.
-        pub tokens_per_minute: Option<NonZeroU64> = None,
-        /// The maximum number of tries per request.
-        pub tries: NonZeroU32 = NonZeroU32::new(8).expect("not zero"),
-        /// The time limit for one try, up to the last byte of the reply.
-        pub timeout: Duration = Duration::from_secs(600),
-        /// The time limit for opening a connection.
-        pub connect_timeout: Duration = Duration::from_secs(10),
-        /// The maximum size of a reply, in bytes.
-        pub reply_limit: u64 = 4 << 20,
-    }
-}
-
-impl ModelOptions {
-    /// Creates the options for a model, with default values for everything else.
-    ///
-    /// The defaults are four concurrent requests, eight tries, ten minutes per try, ten seconds per
-    /// connection, replies of up to 4 MiB, no caps, and no cache.
-    pub fn new(model: &str) -> ModelOptions {
-        ModelOptions { model: model.to_owned(), ..ModelOptions::default() }
-    }
-}
 
 /// A model that is ready to answer.
 pub struct Connection {
@@ -244,7 +195,7 @@ mod tests {
         let named = ModelOptions { key_variable: Some("MINE".to_owned()), ..ModelOptions::new("gemini:m") };
         assert!(problem(&named, &all_keys).contains("MINE is not set"));
         let mut capped = ModelOptions::new("openai:gpt-99");
-        capped.limits.cost = super::super::prices::Usd::from_dollars(1.0);
+        capped.limits.cost = super::super::spending::prices::Usd::from_dollars(1.0);
         assert!(problem(&capped, &all_keys).contains("name = \"gpt-99\""));
         for pasted in ["sk-ZEBRA123", "zebra", "", "1ZEBRA"] {
             let named =

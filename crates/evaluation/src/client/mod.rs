@@ -6,29 +6,29 @@
 //! describes how each kind of failure is counted.
 
 mod cache;
-mod caps;
 mod chat;
 mod clock;
 mod connect;
-mod estimate;
 mod fault;
 mod key;
+mod options;
 mod pace;
-mod prices;
 mod provider;
 mod remote;
 mod spec;
+mod spending;
 mod wire;
 
-pub use caps::{Caps, Limits, Spent};
 pub use chat::{
     ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Failure, Finish, Model, Role,
     Usage,
 };
 pub use clock::{Clock, SystemClock};
-pub use connect::{Connection, ModelOptions, ModelSettings, connect, connect_with, price, settings};
-pub use estimate::{Batch, Estimate};
-pub use prices::{Price, Prices, Usd};
+pub use connect::{Connection, ModelSettings, connect, connect_with, price, settings};
+pub use options::ModelOptions;
 pub(crate) use provider::Content;
 pub use provider::Provider;
 pub use spec::{ModelSpec, Server};
+pub use spending::caps::{Caps, Limits, Spent};
+pub use spending::estimate::{Batch, Estimate};
+pub use spending::prices::{Price, Prices, Usd};

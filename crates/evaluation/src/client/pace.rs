@@ -1,7 +1,7 @@
 //! Limits on concurrent requests, and on requests and tokens per minute.
 
 use super::clock::Clock;
-use super::connect::ModelOptions;
+use super::options::ModelOptions;
 use std::num::NonZeroU64;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::Duration;

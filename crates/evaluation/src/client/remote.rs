@@ -1,14 +1,14 @@
 //! A model on a server. Its client handles retries after transient failures, caps, rates and the cache.
 
 use super::cache::{self, Cache};
-use super::caps::Caps;
 use super::chat::{ChatError, ChatErrorKind, ChatReply, ChatRequest, Failure, Model};
 use super::clock::Clock;
-use super::estimate::prompt_tokens;
 use super::fault::{Fault, classify, shorten};
 use super::key::Key;
 use super::pace::Pace;
 use super::spec::ModelSpec;
+use super::spending::caps::Caps;
+use super::spending::estimate::prompt_tokens;
 use super::wire::Wire;
 use base::{Digest, Sampler};
 use std::num::NonZeroU32;

@@ -1,6 +1,6 @@
 //! A single HTTP exchange, with a time limit and a size limit for the reply.
 
-use super::connect::ModelOptions;
+use super::options::ModelOptions;
 use super::spec::Server;
 use std::io::Read;
 use std::time::Duration;

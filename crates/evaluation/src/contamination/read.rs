@@ -5,7 +5,7 @@ use crate::log::Event;
 use crate::metrics::EpisodeMetrics;
 use crate::run::{Evaluation, Task};
 use crate::study::Player;
-use crate::study::person::{PersonResults, told_apart};
+use crate::study::players::person::{PersonResults, told_apart};
 use base::Digest;
 use engine::Action;
 use rayon::prelude::*;

@@ -12,45 +12,29 @@
 //! }
 //! ```
 
-mod contrast;
-mod correlations;
-mod difficulty;
-mod endings;
-mod failures;
-mod horizon;
-mod leaderboard;
-mod marks;
-mod matrix;
-mod mirror;
-pub(crate) mod person;
-mod player;
-mod power;
-mod predictions;
+mod comparisons;
+mod episodes;
+mod games;
+pub(crate) mod players;
 mod read;
-mod scores;
-mod sweep;
-mod taxonomy;
-mod times;
-mod verdict;
 
-pub use contrast::{Comparison, Contrasts, OverallComparison, WithinLevels};
-pub use correlations::{CORRELATED, Correlation, Correlations, Test};
-pub use difficulty::{DifficultyLabel, DifficultyRow};
-pub use endings::{EndingRow, EndingSummary};
-pub use failures::{FailureMeasure, FailureMode, OscillationRow, WelchTest};
-pub use horizon::{CommitmentRate, Foresight, HorizonRow};
-pub use leaderboard::LeaderRow;
-pub use marks::MarkRow;
-pub use matrix::{Matrix, MatrixColumn, MatrixRow, Measure, Scope};
-pub use player::{CONTEXTUAL, Player, ZERO_SHOT};
-pub use power::{PowerRow, power, table as power_table};
-pub use predictions::PredictionRow;
-pub use read::PlayedLogs;
+pub use comparisons::contrast::{Comparison, Contrasts, OverallComparison, WithinLevels};
+pub use comparisons::correlations::{CORRELATED, Correlation, Correlations, Test};
+pub use comparisons::matrix::{Matrix, MatrixColumn, MatrixRow, Measure, Scope};
+pub use comparisons::power::{PowerRow, power, table as power_table};
+pub use episodes::endings::{EndingRow, EndingSummary};
+pub use episodes::failures::{FailureMeasure, FailureMode, OscillationRow, WelchTest};
+pub use episodes::predictions::PredictionRow;
+pub use episodes::scores::{Estimate, Scores, StudyEpisode};
+pub use games::difficulty::{DifficultyLabel, DifficultyRow};
+pub use games::marks::MarkRow;
+pub use games::taxonomy::TaxonomyRow;
+pub use players::horizon::{CommitmentRate, Foresight, HorizonRow};
+pub use players::leaderboard::LeaderRow;
+pub use players::player::{CONTEXTUAL, Player, ZERO_SHOT};
+pub use players::sweep::{Sweep, SweepRow};
+pub use players::times::TimeRow;
 pub(crate) use read::persons;
-pub use scores::{Estimate, Scores, StudyEpisode};
-pub use sweep::{Sweep, SweepRow};
-pub use taxonomy::TaxonomyRow;
-pub use times::TimeRow;
 
 use crate::metrics::EpisodeMetrics;
 use crate::subject::{LevelMark, Subject};
@@ -194,10 +178,10 @@ impl Study {
             ));
         }
         study.episodes.sort_by_key(|episode| (place(episode), episode.metrics.run));
-        scores::normalise(&mut study.episodes);
+        episodes::scores::normalise(&mut study.episodes);
         study.note();
         let players = 0..study.players.len();
-        study.leaderboard = leaderboard::leaderboard(&study);
+        study.leaderboard = players::leaderboard::leaderboard(&study);
         for scope in study.scopes() {
             study.by_game.push(Matrix::of(&study, scope, false));
             study.by_level.push(Matrix::of(&study, scope, true));
@@ -206,19 +190,19 @@ impl Study {
         study.modes = Contrasts::modes(&study);
         study.aids = Contrasts::aids(&study);
         study.correlations = Correlations::of(&study);
-        study.failures = failures::failures(&study);
-        study.oscillations = failures::oscillations(&study);
+        study.failures = episodes::failures::failures(&study);
+        study.oscillations = episodes::failures::oscillations(&study);
         study.sweeps = players.clone().map(|player| Sweep::of(&study, player)).collect();
-        study.difficulties = difficulty::difficulties(&study);
+        study.difficulties = games::difficulty::difficulties(&study);
         study.times = players.map(|player| TimeRow::of(&study, player)).collect();
-        study.endings = endings::endings(&study);
-        study.ending_summaries = endings::summaries(&study);
-        study.kinds = taxonomy::kinds(&study);
-        study.taxonomy = taxonomy::taxonomy(&study);
-        study.horizons = horizon::horizons(&study);
-        study.marks = marks::rows(&study);
-        study.predictions = predictions::rows(&study);
-        study.power = power::of_study(&study);
+        study.endings = episodes::endings::endings(&study);
+        study.ending_summaries = episodes::endings::summaries(&study);
+        study.kinds = games::taxonomy::kinds(&study);
+        study.taxonomy = games::taxonomy::taxonomy(&study);
+        study.horizons = players::horizon::horizons(&study);
+        study.marks = games::marks::rows(&study);
+        study.predictions = episodes::predictions::rows(&study);
+        study.power = comparisons::power::of_study(&study);
         study
     }
 
@@ -332,11 +316,11 @@ impl Study {
 
     /// Returns all tables of a report in order.
     pub fn tables(&self) -> Vec<Table> {
-        let mut tables = leaderboard::tables(self);
-        tables.extend(horizon::table(self));
-        tables.extend(marks::table(self));
-        tables.extend(predictions::table(self));
-        tables.extend(endings::tables(self));
+        let mut tables = players::leaderboard::tables(self);
+        tables.extend(players::horizon::table(self));
+        tables.extend(games::marks::table(self));
+        tables.extend(episodes::predictions::table(self));
+        tables.extend(episodes::endings::tables(self));
         for (matrices, grain) in [(&self.by_game, "game"), (&self.by_level, "level")] {
             for measure in Measure::ALL {
                 tables.extend(matrices.iter().map(|matrix| matrix.table(measure, grain)));
@@ -346,12 +330,12 @@ impl Study {
         tables.extend(self.modes.tables(self, "modes", "Zero-shot against contextual", MAX_COMPARISONS));
         tables.extend(self.aids.tables(self, "aids", "Without and with an aid", MAX_COMPARISONS));
         tables.push(self.correlations.table());
-        tables.extend(failures::tables(self));
-        tables.extend(sweep::tables(self));
-        tables.push(difficulty::table(self));
-        tables.push(times::table(self));
-        tables.extend(taxonomy::tables(self));
-        tables.push(power::table(&self.power));
+        tables.extend(episodes::failures::tables(self));
+        tables.extend(players::sweep::tables(self));
+        tables.push(games::difficulty::table(self));
+        tables.push(players::times::table(self));
+        tables.extend(games::taxonomy::tables(self));
+        tables.push(comparisons::power::table(&self.power));
         tables
     }
 }

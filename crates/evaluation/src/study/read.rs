@@ -5,17 +5,15 @@ use crate::log::Event;
 use crate::mask;
 use crate::metrics::EpisodeMetrics;
 use crate::run::{Evaluation, Settings, Task};
-use crate::study::person::{PersonResults, told_apart};
-use crate::study::{Player, Study, StudyGame, mirror};
+use crate::study::games::mirror;
+use crate::study::players::person::{PersonResults, told_apart};
+use crate::study::{Player, Study, StudyGame};
 use crate::subject::{Subject, SubjectLevel};
 use base::MessagePath;
 use engine::{Game, StateHash};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-
-/// The logs of a player's episodes, each with its game.
-pub type PlayedLogs<'a> = Vec<(&'a Subject, Vec<Event>)>;
 
 impl Study {
     /// Reads a study from results folders. Every episode is replayed from its log.
@@ -102,30 +100,6 @@ impl Study {
             );
         }
         Ok(study)
-    }
-
-    /// Builds a study from episodes in memory. Each player is given with its logs and the games of the logs.
-    ///
-    /// # Errors
-    /// Returns an error if a replay differs from its log.
-    pub fn of_logs(results: Vec<(Player, PlayedLogs<'_>)>) -> Result<Study, EvaluationError> {
-        let mut games: Vec<StudyGame> = Vec::new();
-        let mut measured = Vec::new();
-        for (player, logs) in results {
-            let mut episodes = Vec::new();
-            for (subject, log) in &logs {
-                if games.iter().all(|game| game.id != subject.id) {
-                    games.push(StudyGame::from(*subject));
-                }
-                let metrics = EpisodeMetrics::of(subject, log);
-                episodes.push(
-                    metrics
-                        .map_err(|error| EvaluationError::Malformed(format!("{}: {error}", subject.id)))?,
-                );
-            }
-            measured.push((player, episodes));
-        }
-        Ok(Study::new(measured, games))
     }
 }
 

@@ -2,11 +2,11 @@
 //! quality.
 
 use super::deviations::deviate;
+use super::likeness::are_one_board;
 use super::necessity::Ablations;
 use super::order::{BoardBudget, BoardMeasures, BoardOrder};
 use super::replay::{Events, events, is_guard};
 use super::shortest::{Limits, shortest_win};
-use crate::games::are_one_board;
 use agents::search::{Answer, Pushes, SearchLimits, best_first};
 use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};

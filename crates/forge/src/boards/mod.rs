@@ -3,6 +3,7 @@
 
 mod deviations;
 mod judge;
+pub(crate) mod likeness;
 mod make;
 mod necessity;
 mod order;

@@ -1,6 +1,7 @@
 //! A candidate game without levels, and a finished game with levels, a card and a winning episode for each level.
 
-use super::levels::{FoundLevel, FoundLevels};
+use super::found_level::FoundLevel;
+use super::levels::FoundLevels;
 use crate::card::{Card, Origin};
 use base::SeedPath;
 use engine::{Analysis, Description, Episode, Game, syntax};

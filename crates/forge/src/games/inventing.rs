@@ -3,7 +3,7 @@
 use super::apart::FarInventions;
 use super::attempt::Attempted;
 use super::candidate::MadeGame;
-use super::make::{GameSet, GamesError, Maker, Shortfall};
+use super::make::{GameSet, GamesError, Maker};
 use super::order::{GameEffort, GameOrder};
 use super::searched::REFUSED;
 use super::sets::company::Company;
@@ -89,7 +89,6 @@ pub fn invent_games(
             set.tally.add(&attempted.tally);
         }
     }
-    set.end(&company, wanted, Shortfall::Attempts);
     set.unless_empty(order)
 }
 

@@ -2,7 +2,7 @@
 
 use super::attempt::Attempted;
 use super::candidate::MadeGame;
-use super::levels::FoundLevel;
+use super::found_level::FoundLevel;
 use crate::card::Card;
 use crate::tally::Tally;
 use base::Seed;

@@ -1,6 +1,7 @@
 //! The levels of a game, and the request for them.
 
 use crate::card::LevelCard;
+use crate::games::found_level::{FoundLevel, judges_seed};
 use crate::pipeline::BoardSource;
 use crate::tally::Tally;
 use base::SeedPath;
@@ -9,31 +10,10 @@ use std::collections::BTreeSet;
 use validators::measures::Guards;
 use validators::{
     CheckedCriteria, Criterion, CriterionSet, Demand, Effort, Finding, Judgement, Judging, Panel, Rate,
-    Report, used_rules,
+    used_rules,
 };
 
-/// A level that its judges accepted.
-#[derive(Clone, Debug)]
-pub struct FoundLevel {
-    /// The accepted level.
-    pub level: Level,
-    /// The findings of the level's judges, whose witness wins the level.
-    pub report: Report,
-    /// The generator that made the level.
-    pub generator: &'static str,
-    /// The level's question to the player, if the level belongs to a course.
-    pub asks: Option<String>,
-    /// The difficulty requested from the generator, from 0 to 1.
-    pub difficulty: f64,
-    /// The level's index among the candidates for its position, from 0.
-    pub candidate: u32,
-    /// The seed of the candidate.
-    pub seed: SeedPath,
-    /// The level's demands on a player, if it was made to a tier.
-    pub demand: Option<Demand>,
-}
-
-/// A candidate for a position in the game, before it is judged.
+/// A candidate for a place, before it is judged.
 #[derive(Clone)]
 pub(crate) struct Drawn {
     pub(crate) level: Level,
@@ -76,11 +56,6 @@ pub struct Levels<'a> {
     pub panel: &'a Panel,
     /// The seed of candidates and judges.
     pub seed: &'a SeedPath,
-}
-
-/// Returns the seed for the judges of a candidate.
-pub(crate) fn judges_seed(candidate: &SeedPath) -> SeedPath {
-    candidate.child("judges", 0)
 }
 
 impl Levels<'_> {

@@ -4,7 +4,6 @@ use super::attempt::Attempted;
 use super::candidate::{Candidate, MadeGame};
 use super::kept::Kept;
 use super::order::{GameEffort, GameOrder};
-use crate::games::sets::company::{CROWDED, Company};
 use crate::games::sets::rule_sets::RuleSets;
 use crate::levels::Method;
 use crate::pipeline::{GameGate, Rules};
@@ -22,18 +21,6 @@ pub struct GameSet {
     pub games: Vec<MadeGame>,
     /// The numbers of candidates tried, and the reasons why some failed.
     pub tally: Tally,
-    /// The reason why there are fewer games than ordered.
-    pub shortfall: Option<Shortfall>,
-}
-
-/// A reason why there are fewer games than ordered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shortfall {
-    /// All attempts have been used.
-    Attempts,
-    /// Every kernel has its maximum number of games, or belongs to a kind that has its maximum. More games would be too
-    /// similar.
-    Room,
 }
 
 /// The errors of making games.
@@ -124,16 +111,6 @@ impl GameSet {
         match self.games.is_empty() && order.count > 0 {
             true => Err(GamesError::NoneAccepted { tally: Box::new(self.tally) }),
             false => Ok(self),
-        }
-    }
-
-    /// Completes the set. If there are fewer games than wanted, removes games of crowded kinds.
-    pub(super) fn end(&mut self, company: &Company, wanted: usize, shortfall: Shortfall) {
-        if self.games.len() < wanted {
-            self.shortfall = Some(shortfall);
-            for _ in 0..company.thin(&mut self.games) {
-                self.tally.taken_back(CROWDED);
-            }
         }
     }
 }

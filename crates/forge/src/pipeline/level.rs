@@ -2,7 +2,8 @@
 
 use super::sources::seed_of_win;
 use super::stage::{Passage, Refusal, Stage};
-use crate::games::{Drawn, FoundLevel, Levels, are_one_board, puzzles};
+use crate::boards::likeness::are_one_board;
+use crate::games::{Drawn, FoundLevel, Levels, puzzles};
 use crate::tally::Tally;
 use engine::{Action, Analysis, Episode, Game};
 use std::slice;

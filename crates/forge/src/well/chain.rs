@@ -1,9 +1,9 @@
 //! The simulated draws of a chain of months.
 
 use super::clusters::Clusters;
+use super::month::{Again, Nearest, Sketch, WellMonth, WellOrder};
 use super::species::Species;
 use super::words::Words;
-use super::{Again, Nearest, Sketch, WellMonth, WellOrder};
 use base::Seed;
 use generators::invention::{Census, share_idea};
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! Counts of the parts of games, each counted once per game: the unseen mass, and the most frequent part.
 
-use super::Top;
+use super::month::Top;
 use std::collections::BTreeMap;
 
 /// The number of games that have each part.

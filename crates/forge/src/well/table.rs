@@ -1,6 +1,6 @@
 //! The months of a chain as tables.
 
-use super::{Nearest, Top, Well, WellMonth};
+use super::month::{Nearest, Top, Well, WellMonth};
 use report::{Column, Table, TableCell};
 
 impl Well {

@@ -1,6 +1,6 @@
 //! The words that the games of a year share.
 
-use super::{Again, Sketch};
+use super::month::{Again, Sketch};
 use crate::games::Cast;
 use std::collections::BTreeMap;
 

@@ -8,8 +8,8 @@ use super::report;
 const READERS: &[(&str, &str)] = &[
     ("crates/agents/benches/batch.rs", "a benchmark"),
     ("crates/cli/src/console.rs", "seconds in remarks"),
-    ("crates/cli/src/verbs/clean/leftover.rs", "the age of leftover files"),
-    ("crates/cli/src/verbs/release/probe.rs", "the estimate of a dry run"),
+    ("crates/cli/src/verbs/program/clean/leftover.rs", "the age of leftover files"),
+    ("crates/cli/src/verbs/releases/release/probe.rs", "the estimate of a dry run"),
     ("crates/evaluation/src/client/clock.rs", "waits between requests, and their latency"),
     ("crates/evaluation/src/run/clock.rs", "times in logs, and the time limits of programs that play"),
     ("crates/terminal/src/screen.rs", "the pace of play in a terminal"),

@@ -73,16 +73,6 @@ fn folders_are_read_together() {
         assert_eq!(time.decisions, steps);
     }
     assert!(study.times[1].median_calls.is_some_and(|calls| calls > 0.0));
-    // Building the study from logs in memory gives the same result.
-    let evaluation = Evaluation::open(&folders[0]).unwrap();
-    let tasks = evaluation.tasks();
-    let logs = tasks.iter().map(|task| (task.subject, evaluation.events(task).unwrap())).collect();
-    let again = Study::of_logs(vec![(Player::reference("random"), logs)]).unwrap();
-    let measured = |study: &Study| -> Vec<EpisodeMetrics> {
-        let metrics = study.on(0, None, None).iter().map(|episode| episode.metrics.clone());
-        metrics.map(|metrics| EpisodeMetrics { folder: None, ..metrics }).collect()
-    };
-    assert_eq!(measured(&again), measured(&study));
 }
 
 #[test]

@@ -1,10 +1,9 @@
 //! Sets of games that are made one by one in short rounds. Each round knows the games of all earlier rounds.
 
-use super::company::{Company, Room};
+use super::company::{Company, Families};
 use crate::games::attempt::Attempted;
 use crate::games::candidate::Candidate;
-use crate::games::make::{GameSet, Maker, Shortfall};
-use generators::games::Kind;
+use crate::games::make::{GameSet, Maker};
 use generators::kernels::{KernelGenome, Turns};
 use rayon::prelude::*;
 use std::slice;
@@ -19,7 +18,6 @@ const TRIES_PER_GAME: u32 = 16;
 /// A kernel and its record.
 struct Fared {
     kernel: &'static str,
-    kind: Kind,
     /// The number of attempts since the kernel's last admitted game.
     tries: u32,
 }
@@ -39,33 +37,28 @@ impl Ledger {
     /// Plans a round. Kernels with the fewest games and attempts come first, no kernel occurs twice while others are
     /// left, and each game has a different scene if possible.
     fn plan(&mut self, maker: &Maker<'_>, company: &Company, size: usize, first: u32) -> Vec<Turn> {
-        let mut room = company.room.clone();
+        let mut families = company.families.clone();
         let mut scenes = company.scenes.clone();
         let mut turns = Vec::new();
         for number in (first..).take(size) {
-            // In a short round, kernels get a second turn.
-            let again = || self.next(&company.room).filter(|_| turns.len() < ROUND.0);
-            let Some(at) = self.next(&room).or_else(again) else { break };
+            let Some(at) = self.next(&families) else { break };
             let fared = &mut self.0[at];
             let seed = maker.seed_of(number);
-            let is_open = |form: Option<&str>| company.room.is_open(fared.kernel, form);
-            let drawn =
-                KernelGenome::of_kernel(fared.kernel, is_open, &scenes, seed.seed().child("rules", 0));
+            let rules = seed.seed().child("rules", 0);
+            let drawn = KernelGenome::of_kernel(fared.kernel, |_| true, &scenes, rules);
             fared.tries += 1;
             let Some(drawn) = drawn else { continue };
             scenes.insert(drawn.scene().to_owned());
-            room.take(fared.kernel, drawn.form(), fared.kind.name());
+            families.count(fared.kernel);
             turns.push(Turn { number, drawn });
         }
         turns
     }
 
-    /// Returns the index of the kernel to try next, among the kernels with room for a game.
-    fn next(&self, room: &Room) -> Option<usize> {
-        let fared = self.0.iter().enumerate();
-        let open = fared.filter(|(_, fared)| room.has_room(fared.kernel, fared.kind.name()));
-        let late = |fared: &Fared| fared.tries + TRIES_PER_GAME * room.games_of(fared.kernel) as u32;
-        open.min_by_key(|(_, fared)| late(fared)).map(|(at, _)| at)
+    /// Returns the index of the kernel to try next; `None` if there are no kernels.
+    fn next(&self, families: &Families) -> Option<usize> {
+        let late = |fared: &Fared| fared.tries + TRIES_PER_GAME * families.games_of(fared.kernel) as u32;
+        self.0.iter().enumerate().min_by_key(|(_, fared)| late(fared)).map(|(at, _)| at)
     }
 
     fn note_game(&mut self, kernel: &str) {
@@ -80,10 +73,9 @@ impl Maker<'_> {
     /// attempts left.
     pub(crate) fn make_in_rounds(&self) -> GameSet {
         let (order, wanted) = (self.order, self.order.count as usize);
-        let mut company = Company::of(order);
+        let mut company = Company::default();
         let mut set = GameSet::default();
-        let mut shortfall = Shortfall::Attempts;
-        let fared = |(kernel, kind)| Fared { kernel, kind, tries: 0 };
+        let fared = |(kernel, _)| Fared { kernel, tries: 0 };
         let mut ledger =
             Ledger(Turns::draw(&self.order.kinds, self.seed.seed()).kernels().map(fared).collect());
         let (mut number, most) = (0, order.count.saturating_mul(order.effort.attempts));
@@ -91,7 +83,6 @@ impl Maker<'_> {
             let size = (wanted - set.games.len()).clamp(ROUND.0, ROUND.1).min((most - number) as usize);
             let turns = ledger.plan(self, &company, size, number);
             if turns.is_empty() {
-                shortfall = Shortfall::Room;
                 break;
             }
             number += size as u32;
@@ -114,7 +105,6 @@ impl Maker<'_> {
                 set.tally.add(&attempted.tally);
             }
         }
-        set.end(&company, wanted, shortfall);
         set
     }
 
@@ -134,20 +124,15 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    fn ledger(kernels: &[(&'static str, Kind)]) -> Ledger {
-        let fared = |&(kernel, kind)| Fared { kernel, kind, tries: 0 };
-        Ledger(kernels.iter().map(fared).collect())
-    }
-
     #[test]
     fn kernels_without_a_game_come_first_but_not_for_ever() {
-        let kernels = [("one-pull", Kind::Lure), ("one-spark", Kind::Demolition)];
-        let mut ledger = ledger(&kernels);
-        let mut room = Room::default();
-        room.take("one-pull", None, "lure");
+        let fared = |kernel| Fared { kernel, tries: 0 };
+        let mut ledger = Ledger(["one-pull", "one-spark"].map(fared).into());
+        let mut families = Families::default();
+        families.count("one-pull");
         let mut tried = BTreeMap::new();
         for _ in 0..40 {
-            let at = ledger.next(&room).unwrap();
+            let at = ledger.next(&families).unwrap();
             let fared = &mut ledger.0[at];
             fared.tries += 1;
             *tried.entry(fared.kernel).or_insert(0) += 1;

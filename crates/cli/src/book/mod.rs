@@ -1,0 +1,5 @@
+//! The pages of the book.
+
+#[cfg(test)]
+mod command_page;
+pub(crate) mod manual;

@@ -1,0 +1,195 @@
+//! `arcade export`: writes a snapshot as a dataset, as folders of games, or as one file.
+
+use crate::console::Console;
+use crate::failure::{Answer, Failure};
+use crate::input::trusted::{OriginArgs, SIGNATURES, refuse, signatures_of};
+use crate::paths;
+use crate::protected;
+use crate::shell;
+use crate::verbs::releases::verify;
+use base::MessagePath;
+use base::count;
+use serde_json::json;
+use snapshots::archive::{Packed, pack};
+use snapshots::export::{Export, ExportError, Exported, Format, export};
+use snapshots::released::{Released, ReleasedError};
+use snapshots::twin::Twin;
+use snapshots::{Draft, SnapshotError, integrity_of};
+use std::path::PathBuf;
+
+/// Writes a snapshot for other tools: as a dataset, as folders of games, or as one file.
+///
+/// A dataset has one row per level, with rules, level, legend, kind, difficulty and digests. PATH gets README.md, the dataset
+/// card that hubs read, and one file of rows in data/. Rows contain solutions only on request. The columns are explained in
+/// `arcade docs export`. With --twin, every game has a different surface and the same mechanics (see `arcade docs twins`). The
+/// same snapshot gives the same bytes.
+///
+/// Exit status 0: written. 1: the snapshot does not verify, and nothing is written. 2: not a snapshot.
+///
+/// Example: arcade export releases/starter --format jsonl --out starter-items
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The snapshot's folder or .tar.zst
+    #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
+    snapshot: PathBuf,
+    /// The format to write
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    format: FormatName,
+    /// Folder to write, absent or empty; for an archive, a file that does not exist
+    #[arg(long, value_name = "PATH")]
+    out: PathBuf,
+    /// Write the twins of the games instead: masked, mirrored, renamed, or the siblings that the coins withheld
+    #[arg(long, value_name = "TWIN")]
+    twin: Option<Twin>,
+    /// Add the actions that win each level
+    #[arg(long)]
+    solutions: bool,
+    #[command(flatten)]
+    origin: OriginArgs,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum FormatName {
+    /// JSON Lines: one object per line
+    Jsonl,
+    /// Apache Parquet
+    #[cfg(feature = "parquet")]
+    Parquet,
+    /// A folder for each game, with game.vgdl and its levels, as `arcade evaluate` and `arcade run` take them
+    Games,
+    /// The release itself as one .tar.zst, which `arcade verify` takes
+    Archive,
+}
+
+impl FormatName {
+    /// Returns the dataset format; `None` for an archive.
+    fn of_export(self) -> Option<Format> {
+        match self {
+            FormatName::Jsonl => Some(Format::JsonLines),
+            #[cfg(feature = "parquet")]
+            FormatName::Parquet => Some(Format::Parquet),
+            FormatName::Games => Some(Format::Games),
+            FormatName::Archive => None,
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args, console: &Console) -> Answer {
+    protected::check(&args.out)?;
+    let Some(format) = args.format.of_export() else { return archive(args, console) };
+    if args.solutions && matches!(args.format, FormatName::Games) {
+        bail!("folders of games contain no solutions: omit --solutions, or choose --format jsonl");
+    }
+    // An output folder that already has content is reported before the work starts.
+    let draft = Draft::create(&args.out)?;
+    let released = match Released::read(&args.snapshot) {
+        Ok(released) => released,
+        Err(error) => return unsound(error, console),
+    };
+    let found = args.origin.check(&args.snapshot, &released.manifest.name, released.manifest.root)?;
+    let origin = match found {
+        Ok(origin) => origin,
+        Err(problems) => return refuse(&problems, console),
+    };
+    verify::remark_unreplayed(&released.manifest, console);
+    let wanted = Export { format, solutions: args.solutions, twin: args.twin };
+    let exported = export(&released, &wanted)?;
+    let Exported { files, games, levels, left_out } = &exported;
+    for (path, content) in files {
+        draft.write(path, content)?;
+    }
+    draft.commit()?;
+    let manifest = &released.manifest;
+    let names: Vec<&str> = files.iter().map(|(path, _)| path.as_str()).collect();
+    let left_out: Vec<_> =
+        left_out.iter().map(|(id, why)| json!({ "game": id, "why": why.to_string() })).collect();
+    console.document(&json!({
+        "out": paths::in_json(&args.out),
+        "release": manifest.name,
+        "root": manifest.root,
+        "origin": origin,
+        "twin": args.twin,
+        "games": games,
+        "levels": levels,
+        "left_out": left_out,
+        "files": names,
+    }))?;
+    let twin = args.twin.map(|twin| format!(", {twin}")).unwrap_or_default();
+    console.say(format_args!(
+        "{}{twin}: {levels} levels of {games} games in {}",
+        manifest.name,
+        args.out.in_message()
+    ));
+    for (id, why) in &exported.left_out {
+        console.say(format_args!("left out: {id}: {why}"));
+    }
+    Ok(true)
+}
+
+/// Writes the release itself as one file.
+fn archive(args: &Args, console: &Console) -> Answer {
+    if args.twin.is_some() || args.solutions {
+        bail!(
+            "an archive is the whole release, with its solutions: omit --twin and --solutions, or choose another --format"
+        );
+    }
+    if !args.origin.is_empty() {
+        let manifest = integrity_of(&args.snapshot)?.manifest;
+        if let Err(problems) = args.origin.check(&args.snapshot, &manifest.name, manifest.root)? {
+            return refuse(&problems, console);
+        }
+    }
+    let Packed { root, digest, unpacked, size, papers } = match pack(&args.snapshot, &args.out) {
+        Ok(packed) => packed,
+        Err(error @ SnapshotError::Unsound { .. }) => {
+            console.document(&json!({ "problems": [error.to_string()] }))?;
+            console.say(&error);
+            return Ok(false);
+        }
+        Err(error) => return Err(error.into()),
+    };
+    console.document(&json!({
+        "out": paths::in_json(&args.out), "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
+        "papers_left_out": papers,
+    }))?;
+    console
+        .say(format_args!("{}: {size} bytes, {unpacked} unpacked, digest {digest}", args.out.in_message()));
+    console.say(format_args!("root {root}"));
+    if papers > 0 {
+        let papers = count(papers, "file");
+        console.say(format_args!("papers/ ({papers}) is not in the archive: publish that folder next to it"));
+        let (signed, beside) = (args.snapshot.join(SIGNATURES), signatures_of(&args.out));
+        if signed.is_dir() && !beside.exists() {
+            console.say(format_args!(
+                "`arcade verify --key` looks for the archive's signatures next to it:  cp -r {} {}",
+                shell::quoted(&signed),
+                shell::quoted(&beside)
+            ));
+        }
+    }
+    Ok(true)
+}
+
+/// Reports a snapshot that does not verify. The report is an answer with all problems, not a failure.
+pub(crate) fn unsound(error: ReleasedError, console: &Console) -> Answer {
+    match error {
+        ReleasedError::Unsound(verification) => {
+            console.document(&verification)?;
+            verification.problems.iter().for_each(|problem| console.say(problem));
+            console.say(format_args!("{}: does NOT verify", verification.name));
+            Ok(false)
+        }
+        ReleasedError::Snapshot(error) => Err(error.into()),
+        error => Err(Failure::Environment(error.into())),
+    }
+}
+
+impl From<ExportError> for Failure {
+    fn from(error: ExportError) -> Failure {
+        match error {
+            #[cfg(feature = "parquet")]
+            error @ ExportError::Parquet(_) => Failure::Environment(error.into()),
+            error => Failure::malformed(error.to_string()),
+        }
+    }
+}

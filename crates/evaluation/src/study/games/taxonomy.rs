@@ -1,0 +1,102 @@
+//! The results of players by kind of game. The kind is stated by the release, or derived from the rules by a
+//! taxonomy.
+
+use crate::study::episodes::scores::{Estimate, Scores};
+use crate::study::{Study, StudyGame};
+use itertools::Itertools;
+use report::{Table, TableCell};
+use serde::Serialize;
+
+/// The results of a player on all games of one kind.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TaxonomyRow {
+    /// The kind, which is a word from the release or a sentence of the taxonomy.
+    pub kind: String,
+    /// The index of the player in the study.
+    pub player: usize,
+    /// The number of games of the kind that the player played.
+    pub games: u64,
+    /// The scores on the games of the kind.
+    pub scores: Scores,
+}
+
+/// The name shown for the kind of a game whose kind is not recorded.
+const NOT_RECORDED: &str = "not recorded";
+
+/// Returns one row for each kind of the taxonomy and each player. The kinds are in the order of their first
+/// game. A game has several kinds.
+pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
+    rows(study, |game| game.taxonomy.clone())
+}
+
+/// Returns one row for each kind that the release states and each player, with the kinds in alphabetical
+/// order. The list is empty if no game has a recorded kind.
+pub(crate) fn kinds(study: &Study) -> Vec<TaxonomyRow> {
+    if study.games.iter().all(|game| game.kind.is_empty()) {
+        return Vec::new();
+    }
+    let kind = |game: &StudyGame| if game.kind.is_empty() { NOT_RECORDED } else { &game.kind }.to_owned();
+    let mut rows = rows(study, |game| vec![kind(game)]);
+    rows.sort_by(|one, other| one.kind.cmp(&other.kind));
+    rows
+}
+
+fn rows(study: &Study, kinds: impl Fn(&StudyGame) -> Vec<String>) -> Vec<TaxonomyRow> {
+    let mut rows = Vec::new();
+    let of_games: Vec<Vec<String>> = study.games.iter().map(kinds).collect();
+    for kind in of_games.iter().flatten().unique() {
+        for player in 0..study.players.len() {
+            let of_kind = |game: usize| of_games[game].contains(kind);
+            let episodes = || study.on(player, None, None).iter().filter(|episode| of_kind(episode.game));
+            let games = episodes().map(|episode| episode.game).sorted_unstable().dedup().collect_vec();
+            if !games.is_empty() {
+                let (kind, scores) = (kind.clone(), Scores::of(episodes()));
+                rows.push(TaxonomyRow { kind, player, games: games.len() as u64, scores });
+            }
+        }
+    }
+    rows
+}
+
+pub(crate) fn tables(study: &Study) -> Vec<Table> {
+    let taxonomy = Table::of(
+        "taxonomy",
+        "Results by the taxonomy of the rules",
+        "Derived from the rules; a game can have several.",
+        &study.taxonomy,
+        &[
+            ("kind", &|row| TableCell::text(&row.kind)),
+            ("player", &|row| TableCell::text(study.players[row.player].label())),
+            ("games", &|row| TableCell::Count(row.games)),
+            ("episodes", &|row| TableCell::Count(row.scores.episodes)),
+            ("win rate", &|row| Estimate::cell(row.scores.win_rate, 2)),
+            ("meaningful", &|row| TableCell::number(row.scores.meaningful, 3)),
+            ("normalised reward", &|row| TableCell::number(row.scores.normalised_reward, 3)),
+            ("overall", &|row| TableCell::number(row.scores.overall, 3)),
+        ],
+    );
+    vec![by_kind(study), taxonomy]
+}
+
+/// Returns a table of the kinds that the release states, with one column of win rates per player. The players
+/// are in the order of the leaderboard.
+fn by_kind(study: &Study) -> Table {
+    let players: Vec<usize> = study.leaderboard.iter().map(|row| row.player).collect();
+    let labels: Vec<String> = players.iter().map(|&player| study.players[player].label()).collect();
+    let columns: Vec<&str> = ["kind", "games"].into_iter().chain(labels.iter().map(String::as_str)).collect();
+    let note = "The kind of each game as its release gives it, and win rates; intervals over the games of \
+                the kind (of one game, for exactly its levels). Results recorded before kinds existed, and \
+                games from files, have no kind.";
+    let mut table = Table::new("kinds", "Results by kind of game", note, &columns);
+    for (kind, rows) in &study.kinds.iter().chunk_by(|row| &row.kind) {
+        let rows = rows.collect_vec();
+        let games = rows.iter().map(|row| row.games).max().unwrap_or(0);
+        let rate = |&player: &usize| {
+            let row = rows.iter().find(|row| row.player == player);
+            Estimate::cell(row.and_then(|row| row.scores.win_rate), 2)
+        };
+        let cells = [TableCell::text(kind), TableCell::Count(games)];
+        table.push(cells.into_iter().chain(players.iter().map(rate)).collect());
+    }
+    table
+}

@@ -1,0 +1,222 @@
+//! The horizons of players. A player's horizon is the commitment at which it still wins half of its episodes.
+
+use crate::study::episodes::scores::Estimate;
+use crate::study::{Player, Study, StudyEpisode};
+use itertools::Itertools;
+use report::{Table, TableCell};
+use serde::Serialize;
+use statistics::{DoseTrials, half_point};
+use std::collections::BTreeMap;
+
+/// The number of bootstrap resamples for an interval.
+const RESAMPLES: usize = 1000;
+
+base::named_enum! {
+    /// The kind of games on which a horizon is measured, by what a player must foresee.
+    pub enum Foresight {
+        /// Deterministic games, in which the future follows from the rules.
+        Exact = "deterministic",
+        /// Stochastic games, in which a plan must work for every outcome.
+        Robust = "stochastic",
+        /// Games of both kinds, and games whose kind is unknown.
+        All = "all",
+    }
+}
+
+/// A player's horizon, which is the commitment at which the player still wins half of its episodes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HorizonRow {
+    /// The player, without its commitment.
+    pub player: Player,
+    /// The kind of games on which the horizon is measured.
+    pub games: Foresight,
+    /// The win rates, sorted by ascending commitment.
+    pub rates: Vec<CommitmentRate>,
+    /// The horizon in ticks, with its interval over games.
+    pub horizon: Option<Estimate>,
+    /// The lowest and the highest horizon that can be reported. The lowest is a quarter of the smallest
+    /// effective commitment, but at least one tick. The highest is four times the largest effective
+    /// commitment.
+    pub range: [f64; 2],
+}
+
+/// The win rate of a player with one commitment.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CommitmentRate {
+    /// The commitment in the notation of results: a number, or `all`.
+    pub commit: String,
+    /// The mean of the effective commitments, in ticks. An effective commitment is at most the length of the
+    /// level's shortest known win.
+    pub ticks: f64,
+    /// The win rate with its interval.
+    pub rate: Option<Estimate>,
+    /// The number of ended episodes.
+    pub episodes: u64,
+}
+
+impl HorizonRow {
+    /// Formats the horizon, such as `12`, or `≥ 80` if only a bound is known. An unknown horizon is formatted
+    /// as `–`.
+    pub fn told_value(&self) -> String {
+        self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
+    }
+
+    /// Formats the interval of the horizon, or a single bound if both ends are equal.
+    pub fn told_interval(&self) -> String {
+        self.horizon.map_or(String::new(), |found| {
+            let [low, high] = [found.low, found.high].map(|end| self.bounded(end));
+            if low == high { low } else { format!("{low} to {high}") }
+        })
+    }
+
+    /// Returns the label of the player and the kind of games. The kind is omitted for [`Foresight::All`].
+    pub fn title(&self) -> String {
+        match self.games {
+            Foresight::All => self.player.label(),
+            games => format!("{}, {} games", self.player.label(), games.name()),
+        }
+    }
+
+    /// Formats a number of ticks. At the ends of the range, the number is preceded by `≤` or `≥`.
+    fn bounded(&self, ticks: f64) -> String {
+        let [least, most] = self.range;
+        let sign = if ticks <= least {
+            "≤ "
+        } else if ticks >= most {
+            "≥ "
+        } else {
+            ""
+        };
+        let digits = usize::from(ticks < 10.0 && sign.is_empty());
+        format!("{sign}{ticks:.digits$}")
+    }
+}
+
+/// Returns one row for each player with several commitments and each kind of game that it played, furthest horizon
+/// first.
+pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
+    let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
+    for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
+        let mut player = study.players[episode.player].clone();
+        let commit = episode.metrics.commit.aid();
+        player.aids.retain(|aid| Some(aid) != commit.as_ref());
+        players.entry(player).or_default().push(episode);
+    }
+    let shortest = shortest_wins(study);
+    let is_of = |episode: &StudyEpisode, games: Foresight| match games {
+        Foresight::Exact => study.games[episode.game].is_stochastic == Some(false),
+        Foresight::Robust => study.games[episode.game].is_stochastic == Some(true),
+        Foresight::All => true,
+    };
+    let mut rows = Vec::new();
+    for (player, episodes) in players {
+        for games in Foresight::ALL {
+            let chosen: Vec<&StudyEpisode> =
+                episodes.iter().copied().filter(|episode| is_of(episode, games)).collect();
+            let is_all_alike = games == Foresight::All
+                && episodes.iter().map(|episode| study.games[episode.game].is_stochastic).all_equal();
+            if chosen.iter().map(|episode| episode.metrics.commit).unique().count() > 1 && !is_all_alike {
+                rows.push(row(player.clone(), games, &chosen, &shortest));
+            }
+        }
+    }
+    rows.sort_by(|a, b| {
+        let far = |row: &HorizonRow| row.horizon.map_or(-1.0, |horizon| horizon.value);
+        a.games.cmp(&b.games).then(far(b).total_cmp(&far(a)))
+    });
+    rows
+}
+
+/// Returns the length of the shortest known win in ticks, by game and level. The shortest known win is a proved
+/// one, or else the shortest win of any player in the study.
+fn shortest_wins(study: &Study) -> BTreeMap<(usize, usize), u64> {
+    let mut shortest = BTreeMap::new();
+    let wins = study.episodes.iter().filter(|episode| episode.metrics.won());
+    let proved =
+        study.episodes.iter().filter_map(|episode| Some((episode, episode.metrics.optimal_ticks? as u64)));
+    for (episode, ticks) in wins.map(|episode| (episode, episode.metrics.steps)).chain(proved) {
+        let known = shortest.entry((episode.game, episode.metrics.level)).or_insert(ticks);
+        *known = ticks.min(*known);
+    }
+    shortest
+}
+
+fn row(
+    player: Player,
+    games: Foresight,
+    episodes: &[&StudyEpisode],
+    shortest: &BTreeMap<(usize, usize), u64>,
+) -> HorizonRow {
+    // A commitment beyond the shortest win is effectively a commitment to the length of the win.
+    let ticks = |episode: &StudyEpisode| {
+        let metrics = &episode.metrics;
+        let known = shortest.get(&(episode.game, metrics.level)).copied().unwrap_or(u64::MAX);
+        metrics.commit.due(metrics.max_steps.min(known)).max(1) as f64
+    };
+    let mut trials: BTreeMap<usize, BTreeMap<usize, Vec<DoseTrials>>> = BTreeMap::new();
+    for episode in episodes {
+        let level = trials.entry(episode.game).or_default().entry(episode.metrics.level).or_default();
+        level.push(DoseTrials {
+            dose: ticks(episode),
+            won: f64::from(u8::from(episode.metrics.won())),
+            of: 1.0,
+        });
+    }
+    let groups: Vec<Vec<Vec<DoseTrials>>> =
+        trials.into_values().map(|levels| levels.into_values().collect()).collect();
+    let seed = blake3::hash(format!("horizon {} {}", player.label(), games.name()).as_bytes());
+    let found = half_point(&groups, RESAMPLES, crate::study::LEVEL, *seed.as_bytes());
+    let doses = || groups.iter().flatten().flatten().map(|trials| trials.dose);
+    // No player decides more often than once per action.
+    let range = [(doses().fold(f64::INFINITY, f64::min) / 4.0).max(1.0), doses().fold(0.0, f64::max) * 4.0];
+    let by_commitment = episodes.iter().copied().into_group_map_by(|episode| episode.metrics.commit);
+    let rates = by_commitment.into_iter().sorted_by_key(|(commit, _)| *commit).map(|(commit, episodes)| {
+        CommitmentRate {
+            commit: commit.to_string(),
+            ticks: episodes.iter().map(|episode| ticks(episode)).sum::<f64>() / episodes.len() as f64,
+            rate: Estimate::rate(&episodes),
+            episodes: episodes.len() as u64,
+        }
+    });
+    let told = |ticks: f64| ticks.max(range[0]);
+    let horizon = found.map(|found| Estimate {
+        value: told(found.dose),
+        low: told(found.interval.low),
+        high: told(found.interval.high),
+    });
+    HorizonRow { player, games, rates: rates.collect(), horizon, range }
+}
+
+/// Returns the table of horizons; `None` without commitments.
+pub(in crate::study) fn table(study: &Study) -> Option<Table> {
+    if study.horizons.is_empty() {
+        return None;
+    }
+    let table = Table::of(
+        "horizons",
+        "How far players see ahead",
+        "Horizon: the number of ticks that a player can commit to without another look and still win half of \
+         its episodes on an average level, with a 95% interval over games (logistic in the logarithm of the \
+         commitment, with level effects). A commitment longer than the shortest known win of a level counts \
+         as a commitment of that length. No value is given below one tick or beyond four times the largest \
+         commitment: ≤ and ≥ mark these bounds. Deterministic games require exact foresight, stochastic \
+         games require plans that work whatever happens.",
+        &study.horizons,
+        &[
+            ("player", &|row| TableCell::text(row.player.label())),
+            ("games", &|row| TableCell::text(row.games.name())),
+            ("horizon", &|row| TableCell::figure(row.horizon.map(|_| row.told_value()))),
+            ("interval", &|row| TableCell::figure(row.horizon.map(|_| row.told_interval()))),
+            ("won by commitment", &|row| {
+                let one = |found: &CommitmentRate| {
+                    let rate =
+                        found.rate.map_or("–".to_owned(), |rate| format!("{:.0}%", 100.0 * rate.value));
+                    format!("{}: {rate}", found.commit)
+                };
+                TableCell::text(row.rates.iter().map(one).join(", "))
+            }),
+            ("episodes", &|row| TableCell::Count(row.rates.iter().map(|rate| rate.episodes).sum())),
+        ],
+    );
+    Some(table)
+}

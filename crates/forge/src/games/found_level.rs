@@ -1,0 +1,31 @@
+//! A level of a game that its judges accepted.
+
+use base::SeedPath;
+use engine::Level;
+use validators::{Demand, Report};
+
+/// A level that its judges accepted.
+#[derive(Clone, Debug)]
+pub struct FoundLevel {
+    /// The level.
+    pub level: Level,
+    /// The findings of the level's judges, whose witness wins the level.
+    pub report: Report,
+    /// The generator that made the level.
+    pub generator: &'static str,
+    /// The level's question to the player, if the level belongs to a course.
+    pub asks: Option<String>,
+    /// The difficulty requested from the generator, from 0 to 1.
+    pub difficulty: f64,
+    /// The level's index among the candidates for its place, from 0.
+    pub candidate: u32,
+    /// The seed of the candidate.
+    pub seed: SeedPath,
+    /// The level's demands on a player, if it was made to a tier.
+    pub demand: Option<Demand>,
+}
+
+/// Returns the seed for the judges of a candidate.
+pub(crate) fn judges_seed(candidate: &SeedPath) -> SeedPath {
+    candidate.child("judges", 0)
+}
