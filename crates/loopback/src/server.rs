@@ -93,7 +93,7 @@ async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bound
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unread {
     /// The body is larger than this number of bytes.
-    #[error("a request has at most {0} bytes")]
+    #[error("the request is larger than the limit of {0} bytes")]
     TooLarge(usize),
     /// The connection broke.
     #[error("the request was cut off: {0}")]

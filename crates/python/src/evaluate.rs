@@ -242,7 +242,7 @@ impl Series {
         let prompts = prompts_of(track, prompts)?;
         let order = Order { subject, settings, prompts, run, first: group, reasks };
         if order.tasks().is_empty() {
-            return Err(invalid(format_args!("there is no series {group} among the levels of {id}")));
+            return Err(invalid(format_args!("the levels of {id} have no series {group}")));
         }
         let (sender, reports) = channel();
         let (answers, receiver) = channel();
@@ -403,7 +403,7 @@ impl Series {
 fn events(log: &str) -> PyResult<Vec<Event>> {
     let event = |(number, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
-            bad_log(format_args!("line {} is not an event of an episode: {error}", number + 1))
+            bad_log(format_args!("line {} is not a valid event of an episode: {error}", number + 1))
         })
     };
     log.lines().enumerate().map(event).collect()

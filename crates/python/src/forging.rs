@@ -115,7 +115,8 @@ pub(crate) fn generate_games(
     let kinds: Vec<Kind> = kinds.iter().map(kind).collect::<PyResult<_>>()?;
     if !kinds.is_empty() && method != Method::Constructive {
         return Err(invalid(format!(
-            "kinds are those of hand-written kernels, whose games are only drawn: leave out the method `{method}`, or the kinds"
+            "kinds select hand-written kernels, which the method `{method}` does not use: omit the method \
+             or the kinds"
         )));
     }
     py.detach(|| {

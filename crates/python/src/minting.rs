@@ -43,7 +43,7 @@ pub(crate) fn mint(
         match &parent {
             Some(parent) => follow(&mut recipe, parent).map_err(failed)?,
             None if recipe.parent.is_some() => {
-                return Err(failed("the recipe has a parent: pass its folder"));
+                return Err(failed("the recipe has a parent: pass the parent's folder"));
             }
             None => {}
         }

@@ -88,8 +88,8 @@ fn a_sealed_month_waits_for_its_beacon() {
     beacon(folder, "chosen.json", "drand quicknet", 1000, &"ab".repeat(32));
     minted("chosen.json", "has no `signature` of round 1000 of drand quicknet");
     drand(folder, "chosen.json", 1000, ROUND_123);
-    minted("chosen.json", "its `signature` is not the one of round 1000 of drand quicknet");
-    append(&["--beacon", "chosen.json"], 2, "its `signature` is not the one of round 1000");
+    minted("chosen.json", "its `signature` does not belong to round 1000 of drand quicknet");
+    append(&["--beacon", "chosen.json"], 2, "its `signature` does not belong to round 1000");
     drand(folder, "round.json", 1000, ROUND_1000);
     run(folder, &[&mint[..], &["--beacon", "round.json"]].concat(), 0);
     run(folder, &["verify", "out/public"], 0);
@@ -101,7 +101,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     append(
         &["--release", "out/public", "--unsigned"],
         2,
-        "takes round 1000 of drand quicknet, whose value is not in the log",
+        "uses round 1000 of drand quicknet, whose value is not in the log",
     );
     let copy = folder.join("copy");
     copy_tree(&folder.join("log"), &copy);
@@ -182,7 +182,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     says(folder, &forks, 0, "round 1 of dice, as the log states it");
     beacon(folder, "third.json", "dice", 2, &"01".repeat(32));
     run(folder, &["trust", "log", "append", "copy", "--secret", "log.key", "--beacon", "third.json"], 0);
-    says(folder, &rolled, 1, "the log has forked: its first 4 entries are not those that were seen before");
+    says(folder, &rolled, 1, "the log has forked: its first 4 entries differ from the entries seen before");
     says(
         folder,
         &["trust", "log", "check", "copy", "--key", "log.pub", "--release", "revealed"],
@@ -200,7 +200,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     fs::write(&entries, text(&bytes).replacen("\"commitment\"", "\"Commitment\"", 1)).unwrap();
     says(folder, &copy, 1, "the log is NOT sound");
     fs::remove_file(&entries).unwrap();
-    says(folder, &copy, 1, "the log is cut");
+    says(folder, &copy, 1, "the log was truncated");
 }
 
 /// A commitment cannot be taken back, so what would make the root of its release impossible is refused.
@@ -316,7 +316,7 @@ fn wrong_files_are_named() {
     fs::create_dir(folder.join("folder")).unwrap();
     for file in ["empty", "binary", "long", "folder", "missing"] {
         let next = |of_content: &'static str| match file {
-            "long" => "which no such file has: check the path",
+            "long" => "the limit for such a file: check the path",
             "folder" => "is a folder: pass a file in it",
             "missing" => "does not exist: check the path",
             _ => of_content,
@@ -337,7 +337,7 @@ fn wrong_files_are_named() {
             ),
             (
                 &["trust", "log", "append", "log", "--secret", "log.key", "--beacon", file],
-                next("write the answer of the source with its name"),
+                next("write the source's answer together with its name"),
             ),
             (
                 &["trust", "log", "append", "log", "--secret", file, "--release", "tiny", "--unsigned"],

@@ -14,8 +14,8 @@ use sha2::{Digest as _, Sha256};
 pub const MAX_BEACON: u64 = 1 << 14;
 
 /// The expected content of the file, for messages.
-const SHAPE: &str = "write the answer of the source with its name: \
-    { \"source\": \"drand quicknet\", \"round\": 7, \"randomness\": \"…\", \"signature\": \"…\" }";
+const SHAPE: &str = "write the source's answer together with its name: \
+                     { \"source\": \"drand quicknet\", \"round\": 7, \"randomness\": \"…\", \"signature\": \"…\" }";
 
 /// A value from a source of randomness, with its evidence.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,7 +67,7 @@ impl Drawn {
             .map_err(|error| wrong(format!("isn't a beacon value: {error}; {SHAPE}")))?;
         let DrawnFile { source, round, value, signature, previous_signature, chain } = file;
         if signature.is_none() && (previous_signature.is_some() || chain.is_some()) {
-            return Err(wrong(format!("has no `signature`, which the rest would be for; {SHAPE}")));
+            return Err(wrong(format!("has no `signature`, but has fields that belong to one; {SHAPE}")));
         }
         let proof = signature.map(|signature| Proof { signature, previous_signature, chain });
         let drawn = Drawn { round: Round { source, round }, value, proof };
@@ -87,8 +87,8 @@ impl Drawn {
             return match network {
                 None => Ok(()),
                 Some(_) => Err(format!(
-                    "has no `signature` of round {} of {}, which shows that the value is the network's: \
-                     take the whole answer of the network, such as that of /public/{}",
+                    "has no `signature` of round {} of {}, which proves that the value comes from the \
+                     network: use the network's complete answer, such as that of /public/{}",
                     round.round, round.source, round.round
                 )),
             };
@@ -96,7 +96,7 @@ impl Drawn {
         let signature = hex(&proof.signature).ok_or_else(|| not_hex("signature"))?;
         let value: [u8; 32] = Sha256::digest(&signature).into();
         if Digest::from_bytes(value) != self.value {
-            return Err("its `value` is not the SHA-256 of its `signature`: take both from the source again"
+            return Err("its `value` is not the SHA-256 of its `signature`: fetch both from the source again"
                 .to_owned());
         }
         match network {
@@ -117,7 +117,7 @@ impl Drawn {
 }
 
 fn not_hex(field: &str) -> String {
-    format!("its `{field}` does not consist of lower-case hexadecimal digits: take it from the source again")
+    format!("its `{field}` does not consist of lower-case hexadecimal digits: fetch it from the source again")
 }
 
 fn hex(text: &str) -> Option<Vec<u8>> {

@@ -354,7 +354,7 @@ fn swapped_beacons_are_told() {
                 if let Entry::Root { beacon, .. } = &mut forged[place + 1] {
                     *beacon = made_up;
                 }
-                "its `signature` is not the one of round"
+                "its `signature` does not belong to round"
             }
             6 => {
                 // The value belongs to a different round of the network, which suits the publisher.
@@ -366,7 +366,7 @@ fn swapped_beacons_are_told() {
                 if let Entry::Root { beacon, .. } = &mut forged[place + 1] {
                     *beacon = Some(other.value);
                 }
-                "its `signature` is not the one of round"
+                "its `signature` does not belong to round"
             }
             _ => {
                 // The value never came.
@@ -558,7 +558,7 @@ fn other_keys_are_told() {
                 previous: Some(any_digest(&mut chance)),
             },
         });
-        broken(&forged, "does not follow the one before it in the log");
+        broken(&forged, "does not follow the previous set in the log");
     }
 }
 

@@ -131,7 +131,7 @@ impl Request<'_> {
             Some(parent) => follow(&mut recipe, parent)?,
             None if recipe.parent.is_some() => {
                 bail!(
-                    "the recipe has a parent: pass its folder with --parent, so that no content is minted \
+                    "the recipe has a parent: pass the parent's folder with --parent, so that no content is minted \
                      twice"
                 );
             }
