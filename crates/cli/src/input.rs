@@ -203,9 +203,9 @@ impl GameInput {
                         format!("levels {}", numbers.join(", "))
                     }
                 };
-                Err(malformed!("{title} has {there}: no `{name}`"))
+                Err(malformed!("`{name}` is not a level of {title}, which has {there}"))
             }
-            None => Err(malformed!("{}: there is no such file", name.in_message())),
+            None => Err(malformed!("{}: there is no such file; check the path", name.in_message())),
         }
     }
 }
@@ -242,7 +242,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
         let near = near.map(|near| format!("the corpus game `{near}`"));
         let help = match near.or_else(|| nearest_sibling(path).map(|near| format!("`{near}`"))) {
             Some(near) => format!("there is no such file, folder or corpus game; did you mean {near}?"),
-            None => "there is no such file, folder or corpus game".to_owned(),
+            None => "there is no such file, folder or corpus game; check the path".to_owned(),
         };
         bail!("{}: {help}", name.in_message());
     };
@@ -546,7 +546,7 @@ fn file_names(folder: &Path) -> Result<Vec<String>, Failure> {
 pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
-            malformed!("{}: there is no such folder", folder.in_message())
+            malformed!("{}: there is no such folder; check the path", folder.in_message())
         }
         _ => Failure::read(folder, error),
     };

@@ -318,7 +318,7 @@ fn altered_logs_are_refused() {
         assert_ne!(altered, rows.honest, "{number}");
         rows.write(&altered);
         let (status, said) = rows.check("log", &[]);
-        let words = "no row of the log has its digest, ";
+        let words = "no row of the log has the digest of these results, ";
         assert!(status == Some(1) && said.contains(words), "{number}: {said}");
         let digest = said.split(words).nth(1).unwrap().split(':').next().unwrap();
         rows.forge(digest.parse().unwrap());
@@ -355,7 +355,7 @@ fn altered_bytes_are_refused() {
         }
         rows.write(&altered);
         let (status, said) = rows.check("log", &[]);
-        assert!(status == Some(1) && said.contains("no row of the log has its digest"), "{number}: {said}");
+        assert!(status == Some(1) && said.contains("no row of the log has the digest of these results"), "{number}: {said}");
     }
 }
 

@@ -220,7 +220,7 @@ fn solutions_are_revealed_before_the_rest() {
         assert!(!text(&content).contains(secret["seed"].as_str().unwrap()), "{name}");
     }
     let said = text(&run(folder, &["study", "contamination", "--release", "solved"], 2).stderr);
-    assert!(said.contains("the parts that the coins of `coins` withheld are missing"), "{said}");
+    assert!(said.contains("the withheld parts of `coins` are missing"), "{said}");
     run(folder, &["release", "solved", "--reveal", "held", "--out", "revealed"], 0);
     assert_eq!(files(&folder.join("revealed")), all);
     // A part of them is none.

@@ -96,7 +96,8 @@ fn a_sealed_month_waits_for_its_beacon() {
     append(
         &["--release", "out/public"],
         2,
-        "sign it first with `arcade trust sign out/public --secret NAME.key`, or enter it without a signature with --unsigned",
+        "sign it first with `arcade trust sign out/public --secret NAME.key`, or append it without a \
+         signature with --unsigned",
     );
     append(
         &["--release", "out/public", "--unsigned"],
@@ -168,7 +169,8 @@ fn a_sealed_month_waits_for_its_beacon() {
         "1",
     ];
     check(&["--witness", "w.example=w.pub"], 1, "the witness `w.example` has not signed");
-    says(folder, &[&witness[..], &["--seen", "seen-2"]].concat(), 2, "pass the one signed last");
+    says(folder, &[&witness[..], &["--seen", "seen-2"]].concat(), 2, "pass the checkpoint that the \
+                                    witness signed last");
     run(folder, &witness, 0);
     check(&["--witness", "w.example=w.pub", "--seen", "seen-2", "--save", "witnessed"], 0, "sound");
     run(folder, &[&witness[..], &["--seen", "witnessed"]].concat(), 0);
@@ -388,7 +390,7 @@ fn wrong_files_are_named() {
         folder,
         &["trust", "keygen", "k", "--password-file", "binary"],
         2,
-        "write the password into a text file",
+        "save the password as a UTF-8 text file",
     );
     says(folder, &["trust", "keygen", "k", "--password-file", "empty"], 2, "the password is empty");
     let at_file = [
@@ -465,7 +467,7 @@ fn rows_are_replayed() {
     };
     assert_ne!(honest, altered);
     fs::write(&episode, altered).unwrap();
-    says(folder, &check, 1, "no row of the log has its digest");
+    says(folder, &check, 1, "no row of the log has the digest of these results");
     let said = text(&run(folder, &again, 2).stderr);
     assert!(!said.contains("are already in the log"), "{said}");
 }

@@ -141,7 +141,7 @@ fn gates_are_asked_of_a_game_with_all_its_levels() {
     let refused = text(&refused.stderr);
     assert!(refused.contains("only 1 of 2 were given: `arcade validate . --gates`"), "{refused}");
     let refused = text(&run(folder.path(), &["play", ".", "--text"], 2).stderr);
-    assert!(refused.contains("--ascii plays with plain characters"), "{refused}");
+    assert!(refused.contains("use --ascii to play with plain characters"), "{refused}");
 }
 
 #[test]
@@ -470,7 +470,7 @@ fn levels_have_the_numbers_of_their_files() {
     let said = text(&run(folder.path(), &["validate", ".", "1"], 2).stderr);
     assert!(said.contains("lvl1.txt:2:2"), "{said}");
     let said = text(&run(folder.path(), &["validate", ".", "0"], 2).stderr);
-    assert!(said.contains(". has levels 1, 3: no `0`"), "{said}");
+    assert!(said.contains("`0` is not a level of ., which has levels 1, 3"), "{said}");
 }
 
 #[test]

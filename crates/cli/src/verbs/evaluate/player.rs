@@ -109,13 +109,13 @@ impl RequestedPlayer {
         let fit: Vec<&str> = fit.into_iter().filter(|id| !problems.contains_key(id)).collect();
         match (problems.len(), fit.is_empty()) {
             (_, false) => Err(malformed!(
-                "{game}: {why}; it can play {} of {} games: --games {}",
+                "{game}: {why}; the player can play {} of {} games: pass --games {}",
                 fit.len(),
                 subjects.len(),
                 fit.join(",")
             )),
             (1, _) => Err(malformed!("{game}: {why}")),
-            (many, _) => Err(malformed!("{game}: {why}; it can play none of the {many} games")),
+            (many, _) => Err(malformed!("{game}: {why}; the player cannot play any of the {many} games")),
         }
     }
 
