@@ -291,16 +291,16 @@ fn what_was_withheld_is_verified() {
         let (one, other) = (files[&won].clone(), files[&second].clone());
         files.extend([(won.clone(), other), (second.clone(), one)]);
     };
-    forged(&swap, &format!("{second}: its coin publishes it"));
+    forged(&swap, &format!("{second}: the coin publishes this"));
     let repeat = |files: &mut BTreeMap<String, Vec<u8>>| {
         files.insert(second.clone(), files[&won].clone());
     };
-    forged(&repeat, &format!("{second}: it begins like the win that is published"));
+    forged(&repeat, &format!("{second}: the second win begins like the published win"));
     let other_rules = |files: &mut BTreeMap<String, Vec<u8>>| {
         let changed = text(&files[&sibling]).replace("scoreChange=1", "scoreChange=2");
         files.insert(sibling.clone(), changed.into_bytes());
     };
-    forged(&other_rules, &format!("{sibling}: its rules are not those"));
+    forged(&other_rules, &format!("{sibling}: the rules are not those"));
     let without_level = |files: &mut BTreeMap<String, Vec<u8>>| {
         files.remove(&sibling.replace("game.vgdl", "lvl0.txt"));
     };

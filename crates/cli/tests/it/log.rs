@@ -252,7 +252,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     append(
         &["--commitment", "2027-02.toml", "--parent", "tiny"],
         2,
-        "more than its `commitment` was changed",
+        "more than that line was changed",
     );
     fs::write(folder.join("2027-02.toml"), february(&commitment)).unwrap();
     assert!(text(&run(folder, &["trust", "log", "show", "log"], 0).stdout).contains("1 entry, not checked"));

@@ -35,7 +35,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     let changed =
         run(folder, &["release", "changed.toml", "--secret", "sealed.secret.json", "--out", "x"], 2);
     let said = text(&changed.stderr);
-    assert!(said.contains("the recipe is not the one that was committed to"), "{said}");
+    assert!(said.contains("the recipe does not match its `commitment`"), "{said}");
     assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
     let without = run(folder, &["release", "sealed.toml", "--out", "x"], 2);
     assert!(text(&without.stderr).contains("--secret FILE"), "{}", text(&without.stderr));
@@ -178,7 +178,7 @@ fn commitments_are_made_to_recipes_that_can_be_minted() {
     recipe("many", "", "games = 40\nkinds = ['rescue']");
     let said = text(&run(folder, &["release", "many.toml", "--commit"], 2).stderr);
     assert!(
-        said.contains("`generated.games` is 40, but at most ") && said.contains("of the kinds rescue"),
+        said.contains("`generated.games` is 40, but the limit is ") && said.contains("of the kinds rescue"),
         "{said}"
     );
     assert!(!folder.join("many.secret.json").exists());
@@ -200,7 +200,7 @@ fn commitments_are_made_to_recipes_that_can_be_minted() {
     }
     recipe("late", "", &format!("games = 2\ncommitment = '{}'", "0".repeat(64)));
     let said = text(&run(folder, &["release", "late.toml", "--dry-run"], 2).stderr);
-    assert!(said.contains("move it above the first [table]"), "{said}");
+    assert!(said.contains("move the line above the first [table]"), "{said}");
 }
 
 /// A seed invented by a person can be guessed.
@@ -353,7 +353,7 @@ fn another_secret_is_refused() {
     run(folder, &["release", "sealed.toml", "--commit"], 0);
     let output = run(folder, &["release", "sealed.toml", "--secret", "sealed.secret.json", "--out", "x"], 2);
     assert!(
-        text(&output.stderr).contains("not the one that the recipe's `commitment`"),
+        text(&output.stderr).contains("does not match the recipe's `commitment`"),
         "{}",
         text(&output.stderr)
     );

@@ -20,7 +20,7 @@ impl Trial<'_> {
         name: "new rules",
         purpose: "compares rules, title and names with known games and with the games of the set",
         cost: "a millisecond",
-        reasons: &[NEAR_KNOWN, "a title twice", "a cast twice"],
+        reasons: &[NEAR_KNOWN, "duplicate title", "duplicate cast"],
         ..Stage::once(Self::ask_for_new_rules)
     };
 

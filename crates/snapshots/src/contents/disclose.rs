@@ -96,5 +96,5 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
 pub(crate) fn salt_flaw(part: HeldPart, bytes: &[u8], secret: &Secret) -> Option<String> {
     let list = serde_json::from_slice::<HeldList>(bytes).ok()?;
     (list.salt != secret.salt(part))
-        .then(|| format!("{}: its salt does not follow from the release's secret", part.list()))
+        .then(|| format!("{}: the salt does not follow from the release's secret", part.list()))
 }

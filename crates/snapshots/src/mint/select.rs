@@ -269,16 +269,17 @@ impl Fit {
                     && fit.iter().map(|&other| &contenders[other]).any(|other| other.is_new && same(other))
             };
             let why = match () {
-                () if contender.is_known(plan) => "in a release before",
-                () if repeats => "a level twice",
-                () if of_new(&|other| contender.form.is_near(&other.form)) => "near to another candidate",
+                () if contender.is_known(plan) => "in an earlier release",
+                () if repeats => "duplicate level",
+                () if of_new(&|other| contender.form.is_near(&other.form)) => "too similar to another \
+                    candidate",
                 () if of_new(&|other| share_idea(&contender.patterns, &other.patterns)) => {
-                    "two mechanics of another candidate"
+                    "two mechanics shared with another candidate"
                 }
                 () if of_new(&|other| contender.titles.iter().any(|title| other.titles.contains(title))) => {
-                    "a title twice"
+                    "duplicate title"
                 }
-                () if of_new(&|other| contender.shares_cast(other)) => "a cast twice",
+                () if of_new(&|other| contender.shares_cast(other)) => "duplicate cast",
                 () => {
                     fit.push(at);
                     continue;
@@ -317,7 +318,7 @@ pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -
     }
     if let Some(most) = counts.crowd {
         let there = counts.kinds.values().copied().max().unwrap_or_default();
-        bins.push(Bin { name: "games of one goal and avatar".to_owned(), least: 0, most, there });
+        bins.push(Bin { name: "games with the same goal and avatar".to_owned(), least: 0, most, there });
     }
     bins
 }

@@ -33,7 +33,7 @@ pub enum RevealError {
     )]
     NoSecondWins(String),
     /// The two parts differ from the content that the manifest commits to.
-    #[error("the two parts are not what the manifest commits to: {}", .0.join("; "))]
+    #[error("the two parts do not match the commitments of the manifest: {}", .0.join("; "))]
     Problems(Vec<String>),
     /// A part cannot be read, or the result cannot be written.
     #[error(transparent)]
@@ -91,7 +91,7 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
         };
         let bytes = folder::read(part, path, Limits::SNAPSHOT.file_bytes)?;
         if Digest::of(&bytes) != item.digest || bytes.len() as u64 != item.size {
-            problems.push(format!("{}: not the file that was committed to", item.path));
+            problems.push(format!("{}: the file does not match its commitment", item.path));
         } else if what == Reveal::All || !item.path.starts_with(HELD) || is_early(&item.path) {
             draft.write(&item.path, &bytes)?;
         }
@@ -145,7 +145,7 @@ fn unrelated_witnesses(
         match serde_json::from_slice::<Witness>(&bytes) {
             Ok(witness) if secret.leads_to(&witness, recipe) => {}
             Ok(_) => problems.push(format!("{path}: {UNRELATED_WITNESS}")),
-            Err(error) => problems.push(format!("{path}: not a witness: {error}")),
+            Err(error) => problems.push(format!("{path}: not a valid witness: {error}")),
         }
     }
     Ok(problems)

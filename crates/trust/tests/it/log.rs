@@ -416,7 +416,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                 if let Some(Entry::Reveal(revealed)) = forged.get_mut(place + 3) {
                     revealed.seed = format!("better {number}");
                 }
-                broken(&forged, "is not the one that was committed to");
+                broken(&forged, "does not match the commitment");
             }
         }
     }
