@@ -139,7 +139,7 @@ fn action_of(event: &Value) -> Action {
     serde_json::from_value(event["action"].clone()).unwrap()
 }
 
-const OF_ANOTHER: &[&str] = &["line 1: ", "it was played on game", "it was played on another", "starts in"];
+const OF_ANOTHER: &[&str] = &["line 1: ", "the episode was played on game", "it was played on another", "starts in"];
 const NOT_REPLAYED: &[&str] = &["but the log records", "is recorded as", "after the end of the episode"];
 
 /// Alters files in one of many ways.
@@ -237,7 +237,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             let copy = files[&name].clone();
             if chance.below(2) == 0 {
                 files.insert(name.replace("run0", "run1"), copy);
-                return Expect::Refused(&["has no such episode"]);
+                return Expect::Refused(&["does not list this episode"]);
             }
             files.insert(other(chance, &name), copy);
             Expect::Refused(OF_ANOTHER)

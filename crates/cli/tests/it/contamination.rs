@@ -193,7 +193,7 @@ fn wrong_inputs_name_the_next_move() {
         0,
     );
     refused(&["foreign", "--release", "revealed"], "no episode on a level of the release");
-    refused(&[published, published, "--release", "revealed"], "another folder has the same episodes");
+    refused(&[published, published, "--release", "revealed"], "two folders have the same episodes");
 }
 
 /// The wins that coins published come out before the rest, under the same root.

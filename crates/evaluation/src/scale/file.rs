@@ -234,7 +234,8 @@ impl ScaleFile {
         let format = serde_json::from_str::<Version>(&text).ok().and_then(|version| version.format);
         if let Some(format) = format.filter(|&format| format > u64::from(SCALE_FORMAT)) {
             return Err(wrong(format!(
-                "a scale of format {format}; this version of arcade reads up to {SCALE_FORMAT}: update it"
+                "the scale has format {format}, but this version of arcade reads formats up to \
+                 {SCALE_FORMAT}: update arcade"
             )));
         }
         let scale: ScaleFile = serde_json::from_str(&text)
@@ -418,7 +419,7 @@ fn estimate(key: fmt::Arguments<'_>, one: &Estimate) -> Result<(), String> {
 
 fn once<T: Eq + Hash + Debug>(key: &str, names: impl Iterator<Item = T>) -> Result<(), String> {
     match names.duplicates().next() {
-        Some(twice) => Err(format!("`{key}` has {twice:?} twice")),
+        Some(twice) => Err(format!("`{key}` contains {twice:?} twice")),
         None => Ok(()),
     }
 }

@@ -473,7 +473,7 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
             let known = |action: String| {
                 let found = Action::ALL.into_iter().find(|known| known.to_string() == action);
                 found.ok_or_else(|| {
-                    format!("`{action}` is no action; the actions are {}", names(&Action::ALL))
+                    format!("`{action}` is not an action; the actions are {}", names(&Action::ALL))
                 })
             };
             actions.into_iter().take(turn.due() as usize).map(known).collect()
@@ -485,14 +485,15 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
 /// Returns the predictions in an answer, or the problem with the answer. `names` maps the names that the process
 /// received to the game's own.
 fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<Predicted, String> {
-    const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with kinds that were asked about";
+    const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with \
+                            kinds from the question";
     let answer: BTreeMap<String, Value> =
         serde_json::from_slice(answer).map_err(|error| format!("{error}; {EXPECTED}"))?;
     let own = |name: String| {
-        names.get(&name).cloned().ok_or_else(|| format!("`{name}` was not asked about; {EXPECTED}"))
+        names.get(&name).cloned().ok_or_else(|| format!("`{name}` is not a kind from the question; {EXPECTED}"))
     };
     let facts = TouchFact::ALL.into_iter().map(|fact| {
-        let missing = || format!("missing list `{}`; {EXPECTED}", fact.name());
+        let missing = || format!("the list `{}` is missing; {EXPECTED}", fact.name());
         let named = answer.get(fact.name()).cloned().ok_or_else(missing)?;
         let named: Vec<String> = serde_json::from_value(named).map_err(|_| missing())?;
         Ok((fact, named.into_iter().map(own).collect::<Result<_, String>>()?))
