@@ -105,7 +105,7 @@ impl NoEarlyDeath {
     fn failure_reason(&self, ticks: usize, doomed: u64, seeds: u64) -> String {
         if seeds == 1 {
             return format!(
-                "every play loses within {}: all action sequences were searched",
+                "every sequence of actions loses within {}: all sequences were searched",
                 base::count(ticks, "tick")
             );
         }
@@ -255,7 +255,7 @@ mod tests {
     fn unavoidable_death_differs_from_idle_death() {
         let doomed = check(&calm(), "wwwwwwww\nwA  rr d\nwwwwwwww\n", 10_000);
         let Verdict::Fail { reason, .. } = &doomed.verdict else { panic!("{doomed:?}") };
-        assert!(reason.0.contains("within 4 ticks: all action sequences were searched"), "{reason:?}");
+        assert!(reason.0.contains("within 4 ticks: all sequences were searched"), "{reason:?}");
         assert_eq!(doomed.evidence[0].rule.as_ref().unwrap().text, "avatar rock > killSprite");
         let alive = check(&calm(), "wwwwwwww\nwA  rr d\nw      w\nwwwwwwww\n", 10_000);
         assert!(alive.verdict.is_pass());

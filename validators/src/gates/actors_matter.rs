@@ -25,7 +25,7 @@ pub(crate) struct ActorsMatter(Gates);
 /// The minimum number of ticks that a measured sprite lives.
 const LIFE: usize = 20;
 
-pub(crate) const QUESTION: &str = "does what moves by itself come in the player's way?";
+pub(crate) const QUESTION: &str = "do sprites that move by themselves get in the player's way?";
 
 pub(crate) fn judge(setting: &Setting<'_>) -> ActorsMatter {
     ActorsMatter(setting.criteria.gates.clone())
@@ -58,8 +58,9 @@ impl GameValidator for ActorsMatter {
                 met += 1;
             } else {
                 let text =
-                    format!("level {}: nothing that moves by itself comes near the player's way", won.number);
-                notes.push(Evidence::new(text).advise("let its path cross the path to the goal"));
+                    format!("level {}: no sprite that moves by itself comes near the player's path", won.number);
+                notes.push(Evidence::new(text).advise("let the path of such a sprite cross the path to \
+                    the goal"));
             }
         }
         if levels == 0 {
@@ -68,13 +69,13 @@ impl GameValidator for ActorsMatter {
         }
         let swept = sweeps.iter().sum::<f64>() / sweeps.len().max(1) as f64;
         let text = format!(
-            "what moves by itself sweeps {swept:.1} cells on average over {} sprites, {} required",
+            "sprites that move by themselves sweep {swept:.1} cells on average over {} sprites, {} required",
             sweeps.len(),
             gates.sweep
         );
         let narrow = !sweeps.is_empty() && swept < gates.sweep;
         if narrow { &mut problems } else { &mut notes }.push(Evidence::new(text));
-        let text = format!("on {met} of {levels} levels it meets the player's way");
+        let text = format!("on {met} of {levels} levels, they meet the player's path");
         let away = (met as f64) < gates.met_levels * f64::from(levels);
         if away { &mut problems } else { &mut notes }.push(Evidence::new(text));
         if actors.deadly && case.analysis.aims().avatar_must_live && losses > 0 {

@@ -52,7 +52,7 @@ impl GameValidator for NotInstant {
             );
             match share > gates.bot_wins {
                 true => {
-                    problems.push(Evidence::new(text).advise("make the nearest goal the wrong one, at times"))
+                    problems.push(Evidence::new(text).advise("make the nearest goal the wrong choice at times"))
                 }
                 false => notes.push(Evidence::new(text)),
             }
@@ -70,7 +70,8 @@ impl GameValidator for NotInstant {
                  to {most} times required"
             );
             match factor < least || factor > most {
-                true => problems.push(Evidence::new(text).advise("set the limit by the longest win")),
+                true => problems.push(Evidence::new(text).advise("set the time limit in proportion to the \
+                    longest win")),
                 false => notes.push(Evidence::new(text)),
             }
         }
@@ -111,7 +112,7 @@ impl NotInstant {
             let text =
                 format!("level {number} is won in {}, fewer than {least_win}", base::count(ticks, "tick"));
             problems
-                .push(Evidence::new(text).advise("move the goal farther away, or put something in the way"));
+                .push(Evidence::new(text).advise("move the goal farther away, or add an obstacle"));
         }
         let start = game.start(won.level, won.win.seed);
         let placed = periods.iter().filter(|(stype, _)| start.alive(*stype) > 0);
@@ -123,7 +124,7 @@ impl NotInstant {
                 base::count(ticks, "tick")
             );
             let rule = Line::sprite(game, name);
-            problems.push(Evidence { rule, ..Evidence::new(text) }.advise("lower its cooldown"));
+            problems.push(Evidence { rule, ..Evidence::new(text) }.advise("lower the spawner's cooldown"));
         }
         problems
     }

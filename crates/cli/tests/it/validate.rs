@@ -629,14 +629,14 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
         "(./game.vgdl:20)\n",
         "where a `raft` is, too; tick ",
         "try: move `duckling pond > killSprite` below `duckling raft > shieldFrom",
-        "the closest any play can come: 1 nest left",
+        "the closest reachable state to a win: 1 nest left",
         // The author's own characters.
         "D duckling, ",
         "~ pond",
     ] {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
-    assert!(!said.contains("the rules alone do not show why"), "{said}");
+    assert!(!said.contains("the rules alone do not show the reason"), "{said}");
     // Not found, and not proved either.
     let hedge = POND.replace("nw\n", "nw\nwwwwwwwwwwwwww\n");
     let hedge = folder(FERRY, &hedge);
@@ -680,7 +680,7 @@ fn warnings_about_files_follow_the_verdict() {
         assert!(place("game.vgdl does not pass") < place("no-lose") && place("no-lose") < criteria, "{said}");
         assert!(place("ragged-level") < criteria, "{said}");
         place(
-            "removes the player's `avatar`, and nothing is lost by that: add `SpriteCounter stype=avatar win=False`",
+            "removes the player's `avatar`, but the game goes on: add `SpriteCounter stype=avatar win=False`",
         );
         // What is asked stands where the answer is not yes.
         place("asks: ");

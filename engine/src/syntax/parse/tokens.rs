@@ -80,7 +80,7 @@ impl Reader {
             let problem = Diagnostic::error("bad-parameter", whole.span, message);
             self.problems.push(match whole.text.strip_suffix('=') {
                 Some("") => problem
-                    .help("remove it, or write a parameter as one word")
+                    .help("remove the word, or write a parameter as one word")
                     .remove(whole.span, &whole.text),
                 Some(key) => problem.help(format!("write a value after `{key}=`, without a space")),
                 None => problem.help(format!("write the parameter's name before `{}`", whole.text)),
