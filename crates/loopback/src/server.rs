@@ -68,7 +68,7 @@ async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bound
             Ok(place) => place,
             Err(_) => {
                 seats.free_one();
-                places.clone().acquire_owned().await.expect("it is never closed")
+                places.clone().acquire_owned().await.expect("the semaphore is never closed")
             }
         };
         let asker = seats.take();
@@ -137,7 +137,7 @@ impl Bodies {
         };
         let read = async {
             let units = u32::try_from(size.div_ceil(UNIT)).expect("no body is that large");
-            let taken = self.memory.clone().acquire_many_owned(units).await.expect("it is never closed");
+            let taken = self.memory.clone().acquire_many_owned(units).await.expect("the semaphore is never closed");
             (axum::body::to_bytes(body, size).await, taken)
         };
         match tokio::time::timeout(body_time, read).await {

@@ -221,7 +221,7 @@ impl Series {
         game, id, levels, *, group = 0, run = 0, seed, max_steps, commit = "1", track = None, prompts = None, reasks = 1,
         folder = None
     ))]
-    #[allow(clippy::too_many_arguments, reason = "they are the settings of an evaluation")]
+    #[allow(clippy::too_many_arguments, reason = "the arguments are the settings of an evaluation")]
     fn new(
         game: &Game,
         id: &str,
@@ -324,7 +324,7 @@ impl Series {
 
     /// Answers the last request. `finish` is `stop`, `length`, `refusal` or `other`.
     #[pyo3(signature = (text, *, finish = "stop", reasoning = None, input_tokens = None, output_tokens = None, served_by = None, latency_ms = 0.0))]
-    #[allow(clippy::too_many_arguments, reason = "they are the parts of an answer")]
+    #[allow(clippy::too_many_arguments, reason = "the arguments are the parts of an answer")]
     fn answer(
         &mut self,
         text: String,
@@ -417,7 +417,7 @@ fn events(log: &str) -> PyResult<Vec<Event>> {
 /// has an end.
 #[pyfunction]
 #[pyo3(signature = (game, id, levels, log, *, level = None, run = 0, seed = None, max_steps = None, commit = "1", track = None))]
-#[allow(clippy::too_many_arguments, reason = "they are the settings of an evaluation")]
+#[allow(clippy::too_many_arguments, reason = "the arguments are the settings of an evaluation")]
 pub(crate) fn replay_log(
     py: Python<'_>,
     game: &Game,

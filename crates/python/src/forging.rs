@@ -41,7 +41,7 @@ pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -
 /// Generates levels for a game, as `arcade generate levels` does. Returns the levels with their witnesses, and the cost.
 #[pyfunction]
 #[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, sprites = Vec::new()))]
-#[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
+#[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
 pub(crate) fn generate_levels(
     py: Python<'_>,
     game: &Game,

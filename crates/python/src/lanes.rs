@@ -382,7 +382,7 @@ impl Lanes {
 
     /// Plays one step in every lane. If lanes reset in the same step, `last` receives the last observations of the episodes that
     /// ended. Returns the number of episodes that ended.
-    #[allow(clippy::too_many_arguments, reason = "one array each")]
+    #[allow(clippy::too_many_arguments, reason = "each argument is an array")]
     fn step(
         &mut self,
         py: Python<'_>,

@@ -25,7 +25,7 @@ pub(crate) fn recipe(name: &str) -> Option<&'static str> {
 /// Mints a release, or shard `K/N` of a release, from the text of a recipe.
 #[pyfunction]
 #[pyo3(signature = (recipe, out, *, parent = None, secret = None, shard = None, resume = false, jobs = None))]
-#[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
+#[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
 pub(crate) fn mint(
     py: Python<'_>,
     recipe: &str,

@@ -51,7 +51,7 @@ impl KernelGenome {
     pub fn draw(kinds: &[Kind], seed: Seed) -> Result<KernelGenome, GenerateError> {
         let kernel =
             Turns::draw(kinds, seed).any(&mut seed.child("place", 0).sampler()).ok_or_else(|| {
-                GenerateError::Unsuitable("no kernel is of the kinds that are allowed".to_owned())
+                GenerateError::Unsuitable("no kernel belongs to the allowed kinds".to_owned())
             })?;
         Ok(KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler()))
     }

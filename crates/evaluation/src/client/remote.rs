@@ -164,7 +164,7 @@ impl Remote {
 
     fn given_up(&self, failures: Vec<Failure>, requested_wait: Option<Duration>) -> ChatError {
         let host = &self.spec.server.host;
-        let last = failures.last().expect("there was a try");
+        let last = failures.last().expect("at least one try has failed");
         let status = last.status.map(|status| format!("{status}: ")).unwrap_or_default();
         let times = if failures.len() == 1 { "once".to_owned() } else { format!("{} times", failures.len()) };
         let requested_wait = requested_wait

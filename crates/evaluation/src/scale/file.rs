@@ -328,7 +328,7 @@ impl ScaleFile {
         families.dedup();
         let examinee = |one: &ExamineeEntry| Examinee {
             dimension: if one.is_reader { Dimension::Reader } else { Dimension::Planner },
-            family: families.binary_search(&one.family.as_str()).expect("it is one of them"),
+            family: families.binary_search(&one.family.as_str()).expect("the family is in the list"),
         };
         Calibration {
             examinees: self.examinees.iter().map(examinee).collect(),

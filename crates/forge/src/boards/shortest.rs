@@ -29,7 +29,7 @@ pub(super) struct Found {
 }
 
 /// The keys of the states met so far.
-#[expect(clippy::disallowed_types, reason = "used for look-ups, never iterated")]
+#[expect(clippy::disallowed_types, reason = "the map is used for look-ups and never iterated")]
 type Met = std::collections::HashSet<SearchKey>;
 
 /// Searches for a shortest win layer by layer. Once half of the calls are spent, only the most promising states of a

@@ -212,7 +212,7 @@ pub(crate) mod tests {
             .find_map(|genome| {
                 Some((judge(&order(), &[], &genome).0?, genome)).map(|(made, genome)| (genome, made))
             })
-            .expect("one of them passes");
+            .expect("a candidate passes");
         assert!(made.levels.len() == 2 && made.witnesses.len() == 2);
         let check = |alter: &dyn Fn(GameOrder) -> GameOrder, known: &[GameForm], reason: &str| {
             let order = alter(order());
@@ -318,7 +318,7 @@ pub(crate) mod tests {
             .filter(|genome| Analysis::of(&genome_game(genome)).is_stochastic())
             .filter_map(|genome| judge(&order(), &[], &genome).0)
             .find(has_chance);
-        (made.expect("one of them passes"), Seed::from_text("gate").into())
+        (made.expect("a candidate passes"), Seed::from_text("gate").into())
     }
 
     #[test]

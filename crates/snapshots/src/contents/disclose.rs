@@ -86,7 +86,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     withheld.disclosed.sort_by(|a, b| a.path.cmp(&b.path));
     // Checked together with all other files, because their paths might conflict.
     if let Err(error) = manifest.check_files() {
-        manifest.withheld.as_mut().expect("as above").disclosed = before;
+        manifest.withheld.as_mut().expect("the manifest withholds files").disclosed = before;
         return Err(Flaw::NotAList(error.to_string()));
     }
     Ok(())

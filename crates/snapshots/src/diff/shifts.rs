@@ -167,7 +167,7 @@ impl Shift {
             }
         }
         let values: Vec<&str> = counts.keys().copied().collect();
-        let place = |value: &String| values.binary_search(&value.as_str()).expect("it was counted");
+        let place = |value: &String| values.binary_search(&value.as_str()).expect("every value was counted");
         let games: Vec<Vec<usize>> =
             before.iter().chain(after).map(|game| game.iter().map(place).collect()).collect();
         let distance = |sides: &[bool]| {

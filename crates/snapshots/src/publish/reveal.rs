@@ -62,7 +62,7 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
     let mut salts = Vec::new();
     let has_lists = manifest.withheld.is_some();
     for part in HeldPart::ALL.into_iter().filter(|_| has_lists) {
-        let file = part.list().strip_prefix(HELD).expect("it is held");
+        let file = part.list().strip_prefix(HELD).expect("the list is in the held part");
         let Some(bytes) = folder::find(held, file, LIST_LIMIT)? else { continue };
         if manifest.hides(part) {
             let flaw = disclose(&mut manifest, part, &bytes).err();
@@ -97,7 +97,7 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
         }
     }
     if problems.is_empty() {
-        let file = SECRET_FILE.strip_prefix(HELD).expect("it is held");
+        let file = SECRET_FILE.strip_prefix(HELD).expect("the secret is in the held part");
         let secret = read_revealed(held, file)?;
         problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
         problems.extend(salts.iter().filter_map(|(part, bytes)| salt_flaw(*part, bytes, &secret)));
@@ -140,7 +140,7 @@ fn unrelated_witnesses(
             || summaries.iter().any(|summary| summary == **path))
     };
     for path in files.iter().filter(is_witness) {
-        let file = path.strip_prefix(HELD).expect("it is held");
+        let file = path.strip_prefix(HELD).expect("the witness is in the held part");
         let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;
         match serde_json::from_slice::<Witness>(&bytes) {
             Ok(witness) if secret.leads_to(&witness, recipe) => {}

@@ -64,7 +64,7 @@ impl Reader {
             // The `=` was meant as the arrow, and the missing arrow is reported elsewhere.
             return;
         }
-        let (key, value) = whole.text.split_once('=').expect("it is broken at its `=`");
+        let (key, value) = whole.text.split_once('=').expect("the text contains `=`");
         let value = value.rsplit('=').next().unwrap_or_default();
         let key = match tokens.last() {
             Some(Token::Word(before)) if key.is_empty() => Some(before.clone()),

@@ -94,7 +94,7 @@ fn coverage(args: &Args) -> Table {
     );
     let columns =
         ["true win rate", "games", "over games (reports)", "bootstrap of games", "episodes as independent"];
-    let mut table = Table::new("coverage", "Coverage of nominal 95 % intervals", &note, &columns);
+    let mut table = Table::new("coverage", "Coverage of nominal 95% intervals", &note, &columns);
     table.rows = rows(args, &cases, |(rate, games), seed| {
         let spread = Spread { matches: 0.0, ..Spread::default() };
         let design = Design { games, levels: 5, runs: 5 };
@@ -124,7 +124,7 @@ fn comparisons(args: &Args) -> Table {
     );
     let columns =
         ["match", "episodes", "win rate", "games", "paired over games (reports)", "exact, within levels"];
-    let mut table = Table::new("comparisons", "Equal players told apart at 5 %", &note, &columns);
+    let mut table = Table::new("comparisons", "Equal players distinguished at 5%", &note, &columns);
     table.rows = rows(args, &cases, |(matches, episodes, rate, games), seed| {
         let spread = Spread { matches, ..Spread::default() };
         let design = Design { games, levels: 5, runs: 5 };
@@ -157,7 +157,7 @@ fn power(args: &Args) -> Table {
         args.evaluations()
     );
     let columns = ["games", "levels", "runs", "episodes", "win rate", "against", "stated power", "simulated"];
-    let mut table = Table::new("power", "Power at 5 %, stated and simulated", &note, &columns);
+    let mut table = Table::new("power", "Power at 5%, stated and simulated", &note, &columns);
     table.rows = rows(args, &cases, |(design, rates), seed| {
         let stated = design.power(rates, Spread::default(), 0.05);
         let mut simulation = Simulation::new(design, Spread::default(), seed);

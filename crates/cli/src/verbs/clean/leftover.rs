@@ -21,7 +21,7 @@ pub(super) enum LeftoverKind {
     /// A shard of a release, with its description.
     Shard(String),
     /// An unfinished file. While it is held open, no other process considers it abandoned.
-    File(#[expect(dead_code, reason = "it holds the lock")] File),
+    File(#[expect(dead_code, reason = "the open file holds the lock")] File),
     Scratch,
     /// A file that redirected a browser to the page of `arcade studio`.
     Page,

@@ -193,7 +193,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     let evaluation = evaluation?;
     if let Some(origin) = origin {
-        let mut text = serde_json::to_string_pretty(&origin).expect("what was checked is plain data");
+        let mut text = serde_json::to_string_pretty(&origin).expect("checked settings are plain data");
         text.push('\n');
         whole_file::write(&folder.join(ORIGIN_FILE), text.as_bytes())?;
     }

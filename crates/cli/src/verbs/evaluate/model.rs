@@ -264,8 +264,8 @@ impl Aid {
 }
 
 /// The defaults of flags that are rejected for players on which they have no effect.
-const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("it is positive");
-const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("it is positive");
+const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("the default is positive");
+const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("the default is positive");
 const TIMEOUT: u64 = 600;
 
 impl ModelArgs {

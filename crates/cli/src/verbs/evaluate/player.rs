@@ -162,7 +162,7 @@ impl RequestedPlayer {
                 let remark = console.remarks();
                 let track = args.model.prompt.track.unwrap_or(Track::Told);
                 let process = move || {
-                    let process = process(&command, timeout).expect("it was read before");
+                    let process = process(&command, timeout).expect("the command line was parsed before");
                     process.with_notices(remark.clone()).on_track(track)
                 };
                 Box::new(move |_| Contestant::Agent(Box::new(process())))

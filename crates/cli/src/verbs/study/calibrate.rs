@@ -288,7 +288,7 @@ fn default_name(subjects: &[String]) -> String {
 }
 
 fn print(scale: &ScaleFile, path: &Path, console: &Console) -> Result<(), Failure> {
-    let month = scale.months.last().expect("one was just added");
+    let month = scale.months.last().expect("a month was just added");
     console.document(&json!({
         "scale": paths::in_json(path),
         "month": { "name": month.name, "shifts": month.shifts, "planners_shift": month.planners_shift, "link": month.link, "drift": month.drift },

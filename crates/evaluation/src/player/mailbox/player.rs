@@ -246,7 +246,7 @@ impl EpisodeFolder {
     fn set_aside(&self, name: &str, why: &str) -> Result<(), EvaluationError> {
         let to = |number: u32| name.replace(".answer.txt", &format!(".refused-{number}.txt"));
         let free = |name: &String| fs::symlink_metadata(self.path.join(name)).is_err();
-        let to = (1..).map(to).find(free).expect("some number is free");
+        let to = (1..).map(to).find(free).expect("an unused number exists");
         let from = self.path.join(name);
         match fs::rename(&from, self.path.join(&to)) {
             Err(error) if is_absent(&error) => return Ok(()),

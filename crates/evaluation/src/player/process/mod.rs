@@ -248,7 +248,7 @@ impl Agent for Process {
         running.process.send_line(line(&asked));
         for attempt in 0..=MAX_REASKS {
             self.running(last)?;
-            let process = &self.running.as_ref().expect("it was started").process;
+            let process = &self.running.as_ref().expect("the process was started").process;
             let answer = match receive(process, timeout, last.number, None, || ()) {
                 Ok(answer) => answer,
                 Err(no_line) => return Err(self.failed(no_line, last, attempt)),
@@ -278,7 +278,7 @@ impl Agent for Process {
         for attempt in 0..=MAX_REASKS {
             let notice_after = (attempt > 0).then(|| NOTICE_AFTER.min(timeout / 2));
             self.running(turn)?;
-            let process = &self.running.as_ref().expect("it was started").process;
+            let process = &self.running.as_ref().expect("the process was started").process;
             let notice = || (self.notices.0)(&self.silence(turn));
             let answer = match receive(process, timeout, turn.number, notice_after, notice) {
                 Ok(answer) => answer,

@@ -186,7 +186,7 @@ impl FrameReader {
             return Ok(None);
         }
         let bytes = self.content(BLOCK as u64)?;
-        Ok(Some(bytes.try_into().expect("as many bytes as were asked for")))
+        Ok(Some(bytes.try_into().expect("the content has the requested length")))
     }
 
     /// Reads the next `size` bytes. Memory use grows with the bytes read, not with the stated size.

@@ -77,12 +77,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let (Some(growth), Some(seen)) = (&args.growth, &args.seen) {
         return consistency(growth, seen, &key, console);
     }
-    let folder = args.log.as_deref().expect("the arguments require it");
+    let folder = args.log.as_deref().expect("the arguments require the log's folder");
     let log = match Log::open(folder) {
         // A log exists but is damaged, so this is an answer and not a failure.
         Err(error @ TrustError::Document { .. }) => return damaged(&error, console),
         Ok(None) => return Err(absent(folder)),
-        log => log?.expect("there is one"),
+        log => log?.expect("the log exists"),
     };
     // The checkpoint that was seen last may be replaced by the new one.
     if let Some(file) = &args.save {
