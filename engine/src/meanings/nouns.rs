@@ -47,7 +47,7 @@ pub(super) const CLASSES: &[Meaning] = &[
     means(
         "wall walls obstacle barrier solid block blocks solidblock rock unmovable nonmovable",
         &["Immovable"],
-        "use `Immovable`, with the effect `stepBack` for those that it stops",
+        "use `Immovable`, with the effect `stepBack` for the sprites that it stops",
     ),
     means(
         "static stationary floor ground tile background decoration scenery object sprite entity thing fixed structure terrain basic \
@@ -200,7 +200,8 @@ pub(super) const TERMINATIONS: &[Meaning] = &[
     means(
         "resourcecounter resourcecount resourcecollected hasresource inventorycounter resourcelimit",
         &[],
-        "count what is left, as in `SpriteCounter stype=coin limit=0 win=True`: no termination counts what a sprite holds",
+        "count the remaining sprites, as in `SpriteCounter stype=coin limit=0 win=True`: no termination \
+         counts held resources",
     ),
     means(
         "spritecount countsprites counter spritescounter nosprites spritekilled allkilled killall spritesleft spriteless spritecounterless \

@@ -140,17 +140,18 @@ pub(super) const EFFECTS: &[Meaning] = &[
     means(
         "killifotherhasless",
         &[],
-        "use `killIfOtherHasMore` for the amounts that kill, or `killIfHasLess`, which looks at the first sprite: no effect asks whether the partner has less",
+        "use `killIfOtherHasMore` for the amounts that kill, or `killIfHasLess`, which checks the first \
+         sprite: no effect checks whether the partner has less",
     ),
     means(
         "killifhasnot killifnothas killifdoesnothave killifhasno killifno killifnokey killunlesshas",
         &[],
-        "use `killIfHasLess resource=key limit=0`, which removes the first sprite if it holds none",
+        "use `killIfHasLess resource=key limit=0`, which removes the first sprite if it holds no such resource",
     ),
     means(
         "killifhas killifhaskeys killifhasresource killifhasitem",
         &[],
-        "use `killIfHasMore resource=key limit=1`, which removes the first sprite if it holds one",
+        "use `killIfHasMore resource=key limit=1`, which removes the first sprite if it holds such a resource",
     ),
     means("killifotherhas", &["killIfOtherHasMore"], ""),
     means(

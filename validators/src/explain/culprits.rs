@@ -25,7 +25,7 @@ const MAX_TRIALS: u64 = 200;
 const CARRYING_SPEED: &str = "0.2";
 
 /// The beginning of the sentence about a line without which, or with which, the level can be won.
-pub(crate) const CAN_BE_WON: &str = "it can be won ";
+pub(crate) const CAN_BE_WON: &str = "the level can be won ";
 
 /// Adds to a finding of `winnable` the lines that keep the level from being won, as far as searches of games without
 /// them show it. Leaves other findings unchanged. Cost: half the budget of the search.

@@ -148,7 +148,8 @@ fn answer(args: &Args, Answered { manifest, compared, minted }: &Answered<'_>, c
     }
     if *other_lockfile {
         console.remark(
-            "note: minted with another Cargo.lock than the original; only its digest in the manifest differs",
+            "note: minted with a different Cargo.lock than the original; only its digest in the manifest \
+             differs",
         );
     }
     let files = count(manifest.files().count(), "file");

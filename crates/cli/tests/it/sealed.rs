@@ -310,7 +310,7 @@ fn shards_of_a_sealed_release_are_private() {
     let datasheet = |part: &str| fs::read_to_string(folder.join(part).join("papers/DATASHEET.md")).unwrap();
     assert!(datasheet("out/public").contains("held back until it is revealed"));
     let revealed = datasheet("whole");
-    assert!(revealed.contains("sealed, and revealed") && !revealed.contains("held back"), "{revealed}");
+    assert!(revealed.contains("sealed and revealed") && !revealed.contains("held back"), "{revealed}");
     // A lost commitment can be restored from the secret.
     fs::write(folder.join("lost.toml"), recipe("x").replace("commitment = 'x'\n", "")).unwrap();
     let lost = text(&run(folder, &[&["release", "lost.toml"][..], &secret].concat(), 2).stderr);

@@ -625,7 +625,7 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
     let late = folder(&late, POND);
     let said = text(&run(late.path(), &["validate", ".", "--budget", "100000"], 1).stdout);
     for words in [
-        "; it can be won without `duckling pond > killSprite`: a search wins it in 13 ticks",
+        "; the level can be won without `duckling pond > killSprite`: a search wins it in 13 ticks",
         "(./game.vgdl:20)\n",
         "where a `raft` is, too; tick ",
         "try: move `duckling pond > killSprite` below `duckling raft > shieldFrom",
@@ -643,7 +643,8 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
     let said = text(&run(hedge.path(), &["validate", ".", "--budget", "40000"], 1).stdout);
     let headline = "not shown to pass winnable: no win found with ";
     assert!(said.contains(headline), "{said}");
-    assert!(said.contains("it can be won without `duckling wall > stepBack`: a search wins it in"), "{said}");
+    assert!(said.contains("the level can be won without `duckling wall > stepBack`: a search wins it \
+                           in"), "{said}");
 }
 
 /// A quiet answer has what fails, and nothing of what passes.

@@ -42,8 +42,8 @@ impl Trial<'_> {
 
     pub(super) const QUICK_LOOK: Stage<Self> = Stage {
         name: "quick look",
-        purpose: "of an invented game: composes a few boards, and requires that one is won by choices that cost and one by a win that needs the \
-                  opposed uses",
+        purpose: "for an invented game, composes a few boards, and requires one win with costly choices \
+                  and one win that needs the opposed uses",
         cost: "up to 3.5 million forward-model calls",
         reasons: &[
             "no board was won",

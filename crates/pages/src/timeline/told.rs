@@ -42,12 +42,12 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
         let changed = changed.into_iter().filter(|player| player.is_examinee == is_examinee).collect_vec();
         told.push(match &changed[..] {
             [] => format!(
-                "Of {} {who} with two months or more, no player changed by more than the errors of the \
+                "Among {} {who} with two months or more, no player changed by more than the errors of the \
                  months can explain.",
                 words::grouped(tested)
             ),
             some => format!(
-                "Of {} {who} with two months or more, {} changed by more than the errors of the months can \
+                "Among {} {who} with two months or more, {} changed by more than the errors of the months can \
                  explain: {}.",
                 words::grouped(tested),
                 some.len(),

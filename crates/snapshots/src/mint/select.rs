@@ -237,7 +237,7 @@ pub(super) fn select(
     let mut taken = best.map(|(_, _, taken)| taken).unwrap_or_default();
     taken.sort_unstable();
     let missed = bins(recipe, contenders, &taken).into_iter().filter(|bin| bin.missed() > 0);
-    let told = |bin: Bin| format!("{} {} (asked {} to {})", bin.name, bin.there, bin.least, bin.most);
+    let told = |bin: Bin| format!("{} {} (requested {} to {})", bin.name, bin.there, bin.least, bin.most);
     let missed = missed.map(told).join(", ");
     if missed.is_empty() {
         return Ok(taken);

@@ -233,7 +233,7 @@ impl Shards {
             read.push((folder, shard_file(folder)?));
         }
         let Some((first, head)) = read.first() else {
-            return Err(MergeError::Missing("none was given".to_owned()));
+            return Err(MergeError::Missing("no shard was given".to_owned()));
         };
         let mut numbers: BTreeMap<u32, &PathBuf> = BTreeMap::new();
         let mut jobs = BTreeMap::new();

@@ -78,7 +78,7 @@ impl Recipe {
         let names =
             |text: &str| !text.trim().is_empty() && text.len() <= 200 && !text.chars().any(char::is_control);
         if self.authors.len() > 100 || !self.authors.iter().all(|author| names(author)) {
-            return wrong("authors", "takes at most 100 names of 1 to 200 bytes on one line each");
+            return wrong("authors", "takes up to 100 names, each of 1 to 200 bytes on one line");
         }
         if self.publisher.as_ref().is_some_and(|publisher| !names(publisher)) {
             return wrong("publisher", "takes a name of 1 to 200 bytes on one line");

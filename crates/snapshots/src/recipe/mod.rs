@@ -150,8 +150,9 @@ impl Recipe {
         let mut caveats = Vec::new();
         if self.parent.is_none() && self.new_games() > 0 {
             caveats.push(
-                "It follows no earlier release (`--parent`), so its games are not compared with those of other releases, which may \
-                 have the same rules, and even the same levels, under other names.",
+                "The release follows no earlier release (`--parent`), so its games are not compared with \
+                 other releases, which may have the same rules, and even the same levels, under different \
+                 names.",
             );
         }
         if self.generated.games > 0 && self.criteria.ask.only(CriterionSet::GATES).is_empty() {

@@ -89,7 +89,8 @@ fn coverage(args: &Args) -> Table {
         cases.extend([6, 12, 18, 30, 60, 120].map(|games| (rate, games)));
     }
     let note = format!(
-        "{} evaluations each, of 5 levels a game and 5 runs a level; standard deviation of games 1.3, of levels 1.0 logit.",
+        "{} evaluations each, of 5 levels per game and 5 runs per level; standard deviation of games 1.3, \
+         of levels 1.0 logit.",
         args.evaluations()
     );
     let columns =
@@ -119,7 +120,8 @@ fn comparisons(args: &Args) -> Table {
         }
     }
     let note = format!(
-        "{} pairs of equal players each, on 5 levels a game, with 5 runs a level; the match of player and game in logits.",
+        "{} pairs of equal players each, on 5 levels per game, with 5 runs per level; the match of player \
+         and game in logits.",
         args.evaluations()
     );
     let columns =

@@ -98,10 +98,10 @@ fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
     }
     match problems.is_empty() {
         true if set.version == 1 => console.say(format_args!(
-            "publish this file where it cannot be changed unnoticed: readers start from it; digest {}",
+            "publish this file where it cannot be changed unnoticed: readers start from this set; digest {}",
             set.digest()?
         )),
-        true => console.say(format_args!("it follows from keys-1.json; digest {}", set.digest()?)),
+        true => console.say(format_args!("the set follows from keys-1.json; digest {}", set.digest()?)),
         false => console.say(format_args!(
             "readers do NOT follow it yet: sign with  arcade trust keys {} --secret FILE...",
             crate::shell::quoted(&args.folder)
