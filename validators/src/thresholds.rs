@@ -156,7 +156,10 @@ impl Criteria {
             }
         }
         if self.decision == 0 || self.decision > 1_000_000 {
-            return wrong("decision", format!("is {}; the value must be from 1 to 1000000 calls", self.decision));
+            return wrong(
+                "decision",
+                format!("is {}; the value must be from 1 to 1000000 calls", self.decision),
+            );
         }
         for (key, count, most) in [
             ("early_ticks", self.early_ticks as u64, 100),

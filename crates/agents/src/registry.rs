@@ -154,7 +154,11 @@ impl fmt::Display for UnknownPlanner {
             Some(near) => write!(f, "; did you mean `{near}`?")?,
             None => f.write_str(".")?,
         }
-        write!(f, " The planners are {}; `mcts:500` is `mcts` with 500 calls per decision", PLANNERS.join(", "))
+        write!(
+            f,
+            " The planners are {}; `mcts:500` is `mcts` with 500 calls per decision",
+            PLANNERS.join(", ")
+        )
     }
 }
 

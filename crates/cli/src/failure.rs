@@ -186,8 +186,12 @@ mod tests {
     #[test]
     fn unreadable_files_are_not_reported_absent() {
         let at = Path::new("games/a");
-        check(&Failure::read(at, ErrorKind::NotFound.into()), MALFORMED, "games/a: there is no such file; \
-            check the path");
+        check(
+            &Failure::read(at, ErrorKind::NotFound.into()),
+            MALFORMED,
+            "games/a: there is no such file; \
+            check the path",
+        );
         check(
             &Failure::read(at, ErrorKind::PermissionDenied.into()),
             ENVIRONMENT,

@@ -137,7 +137,8 @@ impl Bodies {
         };
         let read = async {
             let units = u32::try_from(size.div_ceil(UNIT)).expect("no body is that large");
-            let taken = self.memory.clone().acquire_many_owned(units).await.expect("the semaphore is never closed");
+            let taken =
+                self.memory.clone().acquire_many_owned(units).await.expect("the semaphore is never closed");
             (axum::body::to_bytes(body, size).await, taken)
         };
         match tokio::time::timeout(body_time, read).await {

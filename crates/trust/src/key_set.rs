@@ -214,7 +214,8 @@ impl KeySet {
             return Err(vec![format!("{place}: not a set of keys")]);
         };
         if next.version != self.version.saturating_add(1) || next.previous != Some(digest) {
-            problems.push(format!("{place}: the set does not follow {}, whose digest is {digest}", self.file()));
+            problems
+                .push(format!("{place}: the set does not follow {}, whose digest is {digest}", self.file()));
         }
         for RevokedKey { name, key, .. } in &self.revoked {
             if !next.revoked.iter().any(|revoked| revoked.key == *key) {

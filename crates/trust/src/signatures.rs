@@ -247,9 +247,10 @@ impl Signatures {
         match self.statements.get(file) {
             Some(Ok(statement)) => self.judge_statement(file, statement, anchor),
             Some(Err(fault)) => Signed { problems: vec![fault.clone()], ..Signed::default() },
-            None => {
-                Signed { problems: vec![format!("{file}: the statement does not exist")], ..Signed::default() }
-            }
+            None => Signed {
+                problems: vec![format!("{file}: the statement does not exist")],
+                ..Signed::default()
+            },
         }
     }
 
@@ -276,9 +277,10 @@ impl Signatures {
             Anchor::Set(anchor) => {
                 let newest = self.newest(anchor, &mut problems);
                 let Some(keys) = statement.keys else {
-                    problems
-                        .push(format!("{file}: the statement does not specify a set of keys, so it may be \
-                                       outdated"));
+                    problems.push(format!(
+                        "{file}: the statement does not specify a set of keys, so it may be \
+                                       outdated"
+                    ));
                     return refuse(problems, Some(&newest));
                 };
                 let Some(set) = self.ancestor(&newest, keys.version, keys.digest) else {

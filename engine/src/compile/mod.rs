@@ -200,8 +200,10 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
             let message = match earlier == last {
                 true => format!("`{key}` is given twice on this line"),
                 false => {
-                    format!("`{key}` is given twice on this line: `{earlier}` and `{last}`; the last \
-                             value counts")
+                    format!(
+                        "`{key}` is given twice on this line: `{earlier}` and `{last}`; the last \
+                             value counts"
+                    )
                 }
             };
             let problem = Diagnostic::warning("duplicate-parameter", param.span(), message);

@@ -189,7 +189,8 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
     let key = param.key.text.as_str();
     if BOOK_KEEPING.contains(&key) {
         let message = format!("`{key}` is set by the engine");
-        let problem = Diagnostic::error("bad-parameter", param.key.span, message).help("remove the parameter");
+        let problem =
+            Diagnostic::error("bad-parameter", param.key.span, message).help("remove the parameter");
         return Err(problem.remove(param.span(), key));
     }
     let value = convert(key, &param.value.text);

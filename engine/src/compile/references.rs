@@ -95,7 +95,8 @@ impl Subject<'_> {
         let text = param.value.text.as_str();
         if !matches!(convert(key, text), Value::Text(_)) {
             let problem = wrong_type(param, Expected::Text);
-            let help = format!("`{text}` is read as a constant or a number: give the sprite a different name");
+            let help =
+                format!("`{text}` is read as a constant or a number: give the sprite a different name");
             problems.push(if names.find(text).is_some() { problem.help(help) } else { problem });
             return found;
         }
@@ -112,7 +113,8 @@ impl Subject<'_> {
         let count = list.split(',').count();
         if count > MAX_LIST {
             let message = format!("`{key}` lists {count} sprites; the limit is {MAX_LIST}");
-            problems.push(Diagnostic::error("too-large", param.value.span, message).help("list fewer sprites"));
+            problems
+                .push(Diagnostic::error("too-large", param.value.span, message).help("list fewer sprites"));
             return found;
         }
         if list != text {

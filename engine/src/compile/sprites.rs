@@ -120,11 +120,14 @@ fn inherit<'a>(
         for param in &line.params {
             own_params.retain(|inherited| inherited.key.text != param.key.text);
             if own_params.len() == MAX_PARAMETERS {
-                let message =
-                    format!("a sprite has at most {MAX_PARAMETERS} parameters, including inherited parameters");
+                let message = format!(
+                    "a sprite has at most {MAX_PARAMETERS} parameters, including inherited parameters"
+                );
                 let problem = Diagnostic::error("too-large", param.key.span, message);
-                problems.push(problem.help("no class has that many parameters: remove the unintended \
-                                            parameters"));
+                problems.push(problem.help(
+                    "no class has that many parameters: remove the unintended \
+                                            parameters",
+                ));
                 break;
             }
             own_params.push(param);

@@ -122,7 +122,8 @@ impl Game {
                  {MAX_CELLS} cells in total"
             );
             return fail(
-                Diagnostic::error("too-large", everything, message).help("make the level smaller, or split it"),
+                Diagnostic::error("too-large", everything, message)
+                    .help("make the level smaller, or split it"),
             );
         }
         let mut reader = LevelReader {
@@ -270,7 +271,8 @@ impl LevelReader<'_> {
             return;
         }
         for &(start, line) in lines.iter().filter(|(_, line)| length(line) != columns) {
-            let message = format!("this row has {} characters, but the first row has {columns}", length(line));
+            let message =
+                format!("this row has {} characters, but the first row has {columns}", length(line));
             // Mark the part that is cut off, or the whole row if it is too short.
             let (from, help) = match line.char_indices().nth(columns) {
                 Some((from, _)) => (from, "the rest is cut off: shorten this row, or lengthen the first row"),
@@ -317,8 +319,13 @@ impl LevelReader<'_> {
                         "did you mean `{unused}`, which this level never uses? or is `{shown}` meant in the LevelMapping?"
                     ),
                 ),
-                (None, _, Some(near)) => (Some(near), format!("did you mean `{near}`, like the cells \
-                    around it?")),
+                (None, _, Some(near)) => (
+                    Some(near),
+                    format!(
+                        "did you mean `{near}`, like the cells \
+                    around it?"
+                    ),
+                ),
                 _ if self.unplaced(symbol).is_some() => {
                     let name = self.unplaced(symbol).unwrap_or_default();
                     (
@@ -330,15 +337,18 @@ impl LevelReader<'_> {
                 }
                 _ if symbol.is_ascii_graphic() && symbol != '#' => (
                     None,
-                    format!("add a line `{shown} > …` to the LevelMapping, or use a character from the \
-                             LevelMapping"),
+                    format!(
+                        "add a line `{shown} > …` to the LevelMapping, or use a character from the \
+                             LevelMapping"
+                    ),
                 ),
                 _ => (None, "use a character that is in the LevelMapping".to_owned()),
             };
             let message = match count {
                 _ if symbol == '#' => {
                     "`#` is not in the LevelMapping, and cannot be added, because it starts a \
-                     comment".to_owned()
+                     comment"
+                        .to_owned()
                 }
                 1 => format!("`{shown}` is not in the LevelMapping"),
                 _ => format!("`{shown}` is not in the LevelMapping, and occurs {count} times in the level"),
@@ -451,8 +461,9 @@ impl LevelReader<'_> {
         let most = if self.game.0.as_reference { MAX_ATTEMPTS } else { MAX_SPRITES };
         if self.sprites > most {
             let message = format!("the level places {} sprites; the limit is {most}", self.sprites);
-            self.problems
-                .push(Diagnostic::error("too-large", Span::new(0, 0), message).help("make the level smaller"));
+            self.problems.push(
+                Diagnostic::error("too-large", Span::new(0, 0), message).help("make the level smaller"),
+            );
         }
         if let [_, (extra, _), ..] = self.avatars[..] {
             let message = format!("the level places {} avatars", self.avatars.len());

@@ -91,7 +91,11 @@ pub(super) const SPRITE_PARAMETERS: &[Meaning] = &[
         &[],
         "remove the parameter: the class says whether a sprite moves, and `Immovable` does not",
     ),
-    means("alternatekeys keys controls", &[], "remove the parameter: the player chooses among the actions of the class"),
+    means(
+        "alternatekeys keys controls",
+        &[],
+        "remove the parameter: the player chooses among the actions of the class",
+    ),
 ];
 
 pub(super) const EFFECT_PARAMETERS: &[Meaning] = &[
@@ -117,7 +121,11 @@ pub(super) const EFFECT_PARAMETERS: &[Meaning] = &[
     means("limitspeed speedlimit speed", &["limspeed"], ""),
     means("damage hp health healthpoints", &["value"], ""),
     means("killother removeother", &["killSecond"], ""),
-    means("friction", &[], "remove the parameter: friction is a parameter of sprites with `physicstype=CONT`"),
+    means(
+        "friction",
+        &[],
+        "remove the parameter: friction is a parameter of sprites with `physicstype=CONT`",
+    ),
     means(
         "win lose",
         &[],

@@ -59,9 +59,7 @@ impl fmt::Display for Limit {
             Limit::NoAvatar => "the score changed after the avatar was removed permanently",
             Limit::FlatSprite => "a sprite of height 0 moved",
             Limit::NoPaths => "a path was requested in a game without `obs=`",
-            Limit::NoType => {
-                "a sprite of an unknown type, or of a type without a class, was requested"
-            }
+            Limit::NoType => "a sprite of an unknown type, or of a type without a class, was requested",
             Limit::NoSprite => "an effect was executed without the sprites that it needs",
             Limit::EndlessTransform => "a type was transformed into itself endlessly",
             Limit::UnfitSprite => "the parameters of a sprite do not fit its class",

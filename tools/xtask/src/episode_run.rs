@@ -35,7 +35,8 @@ pub(crate) fn subjects(games: &Path, only: &[String]) -> anyhow::Result<Vec<Subj
 
 fn subject(name: String, folder: &Path) -> anyhow::Result<Subject> {
     let file = ["game.txt", "game.vgdl"].iter().map(|file| folder.join(file)).find(|path| path.exists());
-    let file = file.with_context(|| format!("{}: contains neither game.txt nor game.vgdl", folder.display()))?;
+    let file =
+        file.with_context(|| format!("{}: contains neither game.txt nor game.vgdl", folder.display()))?;
     let game = Game::from_source_as_reference(&fs::read_to_string(&file)?)
         .with_context(|| file.display().to_string())?;
     let level = game.level(&fs::read_to_string(folder.join("lvl0.txt"))?)?;

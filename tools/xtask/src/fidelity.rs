@@ -101,7 +101,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     for (cell, ours) in cells.iter_mut().zip(played) {
         cell.ours = ours;
     }
-    if report(&cells, &paper) { Ok(()) } else { bail!("our planners play differently from those of the reference") }
+    if report(&cells, &paper) {
+        Ok(())
+    } else {
+        bail!("our planners play differently from those of the reference")
+    }
 }
 
 fn play_cell(args: &Args, cell: &Cell, game: &Game, levels: &[Level]) -> anyhow::Result<Vec<Result>> {

@@ -72,7 +72,8 @@ impl Validator for NoEarlyDeath {
         let share = |count: u64| count as f64 / seeds as f64;
         let verdict = if share(doomed) > self.share {
             let shown = results.iter().filter(|result| !result.survived && result.complete);
-            let longest = shown.max_by_key(|result| result.longest.actions.len()).expect("at least one seed is doomed");
+            let longest =
+                shown.max_by_key(|result| result.longest.actions.len()).expect("at least one seed is doomed");
             let reason = self.failure_reason(longest.longest.actions.len(), doomed, seeds);
             Verdict::fail_with(reason, longest.longest.clone())
         } else if share(doomed + open) > self.share {

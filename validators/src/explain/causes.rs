@@ -119,7 +119,11 @@ impl Explanation<'_> {
         let Unpaid { target, removals, resource, each, most, removing, taking } = unpaid;
         let (game, name) = (self.analysis.game(), self.name(*resource).to_owned());
         let target = self.name(*target).to_owned();
-        let text = format!("{} must be removed, and each removal takes {}", count(*removals, &target), count(*each, &name));
+        let text = format!(
+            "{} must be removed, and each removal takes {}",
+            count(*removals, &target),
+            count(*each, &name)
+        );
         let rule = removing.first().map(|&line| Line::interaction(game, line));
         self.links.push(Evidence { rule, ..Evidence::new(text) });
         if let Some(&line) = taking.iter().find(|line| !removing.contains(line)) {
@@ -186,15 +190,20 @@ impl Explanation<'_> {
             }
             Missing::Unmade(unmade, obstacles) => {
                 let name = self.name(*unmade);
-                let text =
-                    format!("a rule on {} needs {}, but no such sprite can exist", self.the(*target), article(name));
+                let text = format!(
+                    "a rule on {} needs {}, but no such sprite can exist",
+                    self.the(*target),
+                    article(name)
+                );
                 self.links.push(Evidence { rule, ..Evidence::new(text) });
                 obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
             }
             Missing::Inside => {
                 let text = format!("this {} never gets to the edge of the screen", self.name(*target));
-                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise("open a path to the edge \
-                    of the screen"));
+                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(
+                    "open a path to the edge \
+                    of the screen",
+                ));
             }
             Missing::Nowhere(first, second) => {
                 let second = second.map_or("the edge of the screen".to_owned(), |second| self.acting(second));

@@ -41,8 +41,10 @@ impl Judgement {
                     format!("no win found with {spent} forward-model calls; {found}")
                 }
                 Criterion::EarlyDeath => {
-                    format!("no sequence of actions found that survives the first ticks, with {spent} \
-                             forward-model calls")
+                    format!(
+                        "no sequence of actions found that survives the first ticks, with {spent} \
+                             forward-model calls"
+                    )
                 }
                 Criterion::Skill => "too few wins for a verdict".to_owned(),
                 _ => {

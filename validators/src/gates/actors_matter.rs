@@ -57,10 +57,14 @@ impl GameValidator for ActorsMatter {
             if seen.crossed && near {
                 met += 1;
             } else {
-                let text =
-                    format!("level {}: no sprite that moves by itself comes near the player's path", won.number);
-                notes.push(Evidence::new(text).advise("let the path of such a sprite cross the path to \
-                    the goal"));
+                let text = format!(
+                    "level {}: no sprite that moves by itself comes near the player's path",
+                    won.number
+                );
+                notes.push(Evidence::new(text).advise(
+                    "let the path of such a sprite cross the path to \
+                    the goal",
+                ));
             }
         }
         if levels == 0 {

@@ -59,7 +59,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                     "`{}`: the results belong to the release with root {on}, not {root}",
                     folder.in_message()
                 ),
-                None => format!("`{}`: these are not results on a release; evaluate a release folder", folder.in_message()),
+                None => format!(
+                    "`{}`: these are not results on a release; evaluate a release folder",
+                    folder.in_message()
+                ),
             })
             .collect();
         if !problems.is_empty() {

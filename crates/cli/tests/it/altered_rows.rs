@@ -139,7 +139,8 @@ fn action_of(event: &Value) -> Action {
     serde_json::from_value(event["action"].clone()).unwrap()
 }
 
-const OF_ANOTHER: &[&str] = &["line 1: ", "the episode was played on game", "it was played on another", "starts in"];
+const OF_ANOTHER: &[&str] =
+    &["line 1: ", "the episode was played on game", "it was played on another", "starts in"];
 const NOT_REPLAYED: &[&str] = &["but the log records", "is recorded as", "after the end of the episode"];
 
 /// Alters files in one of many ways.
@@ -355,7 +356,10 @@ fn altered_bytes_are_refused() {
         }
         rows.write(&altered);
         let (status, said) = rows.check("log", &[]);
-        assert!(status == Some(1) && said.contains("no row of the log has the digest of these results"), "{number}: {said}");
+        assert!(
+            status == Some(1) && said.contains("no row of the log has the digest of these results"),
+            "{number}: {said}"
+        );
     }
 }
 

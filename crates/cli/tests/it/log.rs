@@ -169,8 +169,13 @@ fn a_sealed_month_waits_for_its_beacon() {
         "1",
     ];
     check(&["--witness", "w.example=w.pub"], 1, "the witness `w.example` has not signed");
-    says(folder, &[&witness[..], &["--seen", "seen-2"]].concat(), 2, "pass the checkpoint that the \
-                                    witness signed last");
+    says(
+        folder,
+        &[&witness[..], &["--seen", "seen-2"]].concat(),
+        2,
+        "pass the checkpoint that the \
+                                    witness signed last",
+    );
     run(folder, &witness, 0);
     check(&["--witness", "w.example=w.pub", "--seen", "seen-2", "--save", "witnessed"], 0, "sound");
     run(folder, &[&witness[..], &["--seen", "witnessed"]].concat(), 0);
@@ -249,11 +254,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     append(&["--commitment", "2027-02.toml", "--first"], 2, "did you forget --parent?");
     let changed = february(&commitment).replace("candidates = 2.0", "candidates = 3.0");
     fs::write(folder.join("2027-02.toml"), changed).unwrap();
-    append(
-        &["--commitment", "2027-02.toml", "--parent", "tiny"],
-        2,
-        "more than that line was changed",
-    );
+    append(&["--commitment", "2027-02.toml", "--parent", "tiny"], 2, "more than that line was changed");
     fs::write(folder.join("2027-02.toml"), february(&commitment)).unwrap();
     assert!(text(&run(folder, &["trust", "log", "show", "log"], 0).stdout).contains("1 entry, not checked"));
 

@@ -71,10 +71,7 @@ fn refusals_name_a_way_on() {
     for (more, words) in [
         (&["--player", "mcts:10", "--track", "masked"][..], "the player plans with the rules and the state"),
         (&["--player", "reflex", "--track", "discover"], "use `touch-everything`, which plays without rules"),
-        (
-            &["--player", "touch-everything", "--track", "vision"],
-            "choose `told`, `masked` or `discover`",
-        ),
+        (&["--player", "touch-everything", "--track", "vision"], "choose `told`, `masked` or `discover`"),
         (&["--player", "human", "--track", "vision"], "`mailbox:DIR` puts a PNG file beside each prompt"),
         (&["--player", "cmd:sh", "--track", "vision"], "plays through `mailbox:DIR`"),
         (&["--player", "planner:mcts", "--track", "told"], "pass --rules vgdl"),

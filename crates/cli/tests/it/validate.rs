@@ -643,8 +643,13 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
     let said = text(&run(hedge.path(), &["validate", ".", "--budget", "40000"], 1).stdout);
     let headline = "not shown to pass winnable: no win found with ";
     assert!(said.contains(headline), "{said}");
-    assert!(said.contains("the level can be won without `duckling wall > stepBack`: a search wins it \
-                           in"), "{said}");
+    assert!(
+        said.contains(
+            "the level can be won without `duckling wall > stepBack`: a search wins it \
+                           in"
+        ),
+        "{said}"
+    );
 }
 
 /// A quiet answer has what fails, and nothing of what passes.

@@ -244,9 +244,7 @@ impl<'a> Query<'a> {
             return Ok(Value::Null);
         }
         let text = format(self.text()).map_err(|_| {
-            Refusal::Failed(
-                "some lines cannot be parsed: fix the problems before formatting".to_owned(),
-            )
+            Refusal::Failed("some lines cannot be parsed: fix the problems before formatting".to_owned())
         })?;
         if text == self.text() {
             return Ok(json!([]));

@@ -186,8 +186,11 @@ fn key(
     let usual = spec.provider.key_variable();
     let wanted = |variable: &str| {
         let key = Key::read(variable, environment)?;
-        let problem = format!("{} requires a key, but {variable} is not set; export the key under that \
-                               name", spec.server.host);
+        let problem = format!(
+            "{} requires a key, but {variable} is not set; export the key under that \
+                               name",
+            spec.server.host
+        );
         key.map(Some).ok_or(EvaluationError::Malformed(problem))
     };
     match &options.key_variable {

@@ -231,7 +231,9 @@ fn compare_predictions(event: &Event, subject: &Subject, steps: usize) -> Result
     }
     match graded(&subject.analysis, kinds, predicted.as_ref()) == *grade {
         true => Ok(()),
-        false => Err("the recorded grade of the predictions differs from the grade under the rules".to_owned()),
+        false => {
+            Err("the recorded grade of the predictions differs from the grade under the rules".to_owned())
+        }
     }
 }
 
@@ -249,7 +251,9 @@ fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(),
         ));
     }
     match status {
-        Status::Over if !is_over => Err("the log records that the game is over, but the game is not over".to_owned()),
+        Status::Over if !is_over => {
+            Err("the log records that the game is over, but the game is not over".to_owned())
+        }
         Status::StepLimit if is_over => {
             Err("the log records that the step limit was reached, but the game is over".to_owned())
         }

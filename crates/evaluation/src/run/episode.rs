@@ -152,7 +152,9 @@ pub(crate) fn play_watched(
     match journal.events().first() {
         None => journal.push(play.start_event())?,
         Some(first) if *first == play.start_event() => {}
-        Some(_) => return Err(journal.malformed("this is the log of a different episode; use another folder")),
+        Some(_) => {
+            return Err(journal.malformed("this is the log of a different episode; use another folder"));
+        }
     }
     if let Some(halt) = play.replay_log(journal)? {
         return Ok((PlayResult::Halted(halt), None));

@@ -74,12 +74,16 @@ pub(super) fn check(shown: &Shown<'_>, spec: &PlannerSpec) -> Result<(), Unanswe
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
         return Err("the planner needs the rules as VGDL: pass --rules vgdl to `arcade evaluate`, or set \
-                    `rules` to `vgdl` in the settings of prompts".to_owned());
+                    `rules` to `vgdl` in the settings of prompts"
+            .to_owned());
     };
     let (description, _) = parse(vgdl);
-    let game =
-        Game::compile(&description).map_err(|problems| format!("the VGDL in the prompt does not compile: \
-            {problems}"))?;
+    let game = Game::compile(&description).map_err(|problems| {
+        format!(
+            "the VGDL in the prompt does not compile: \
+            {problems}"
+        )
+    })?;
     is_shown(&Analysis::of(&game), shown)?;
     let Position { game, level } = Position::of(description, shown)?;
     let facing = shown.you.and_then(|you| you.facing).and_then(direction);

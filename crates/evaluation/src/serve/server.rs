@@ -111,8 +111,12 @@ impl Drop for Running {
 
 fn router(player: PromptPlayer, bounds: Bounds) -> Router {
     let no_route = || async {
-        refusal(StatusCode::NOT_FOUND, "unknown_url", "unknown endpoint; use POST /v1/chat/completions or \
-                                        GET /v1/models")
+        refusal(
+            StatusCode::NOT_FOUND,
+            "unknown_url",
+            "unknown endpoint; use POST /v1/chat/completions or \
+                                        GET /v1/models",
+        )
     };
     let no_method = || async {
         refusal(

@@ -102,7 +102,7 @@ pub(super) fn table(study: &Study) -> Option<Table> {
     let table = Table::of(
         "marks",
         "Compared with the marks of the release",
-        "Players that never change played every level when the release was minted. The rows called "mark" \
+        "Players that never change played every level when the release was minted. The rows of marks \
          give their results on the levels of this report. Tier: how much a level demands of its player, \
          from 1 to 4. Commitment: the number of actions chosen without looking again. 95% intervals for \
          games like these (for one game: for exactly its levels). Marks may have had a different limit of \

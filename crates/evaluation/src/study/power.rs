@@ -44,7 +44,10 @@ pub fn power(planned: Design) -> Vec<PowerRow> {
     let plans = [
         ("as planned", planned),
         ("one run on each level", Design { runs: 1, ..planned }),
-        ("the same number of episodes, one run, on more games", Design { games: games * runs, runs: 1, ..planned }),
+        (
+            "the same number of episodes, one run, on more games",
+            Design { games: games * runs, runs: 1, ..planned },
+        ),
         (
             "the same number of episodes, each on a different game",
             Design { games: games * levels * runs, levels: 1, runs: 1 },

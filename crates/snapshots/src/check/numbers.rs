@@ -27,7 +27,10 @@ pub(crate) fn problems(card: &LevelCard, level: &Level) -> Vec<String> {
     let found = (level.columns(), level.rows());
     expect(
         sides == found,
-        format!("the card states a board of {} by {}, but the board has {} by {}", sides.0, sides.1, found.0, found.1),
+        format!(
+            "the card states a board of {} by {}, but the board has {} by {}",
+            sides.0, sides.1, found.0, found.1
+        ),
     );
     expect(is_share(card.difficulty), format!("the difficulty {} is outside 0 to 1", card.difficulty));
     let ticks = card.witness_ticks;
@@ -168,8 +171,14 @@ mod tests {
         };
         check_ladder(&ladder, &[]);
         check_ladder(&Ladder { ease: Some(0.9), ..ladder.clone() }, &["the difficulty `medium`"]);
-        check_ladder(&Ladder { ease: Some(1e300), ..ladder.clone() }, &["the ease is outside", "the \
-            difficulty"]);
+        check_ladder(
+            &Ladder { ease: Some(1e300), ..ladder.clone() },
+            &[
+                "the ease is outside",
+                "the \
+            difficulty",
+            ],
+        );
         check_ladder(&Ladder { difficulty: Difficulty::Unbeaten, ..ladder.clone() }, &["some player wins"]);
         check_ladder(&Ladder { rungs: vec![result(0)], ..ladder.clone() }, &["no player wins"]);
         let odd = PlayerResult { reward: Some(2.0), win_ticks: None, ..result(2) };

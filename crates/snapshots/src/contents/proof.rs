@@ -227,8 +227,10 @@ impl ItemProof {
             match content(path)? {
                 None => problems.push(format!("{path}: missing")),
                 Some(found) if found != file.digest => {
-                    problems
-                        .push(format!("{path}: altered (the digest is {found}, but the proof states {})", file.digest));
+                    problems.push(format!(
+                        "{path}: altered (the digest is {found}, but the proof states {})",
+                        file.digest
+                    ));
                 }
                 Some(_) => {}
             }

@@ -56,7 +56,9 @@ impl FromStr for Shard {
             text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
         match numbers {
             Some((number, of)) if 1 <= number && number <= of && of <= 10_000 => Ok(Shard { number, of }),
-            _ => Err("expected K/N for the K-th of N shards, with K from 1 to N and N up to 10000".to_owned()),
+            _ => {
+                Err("expected K/N for the K-th of N shards, with K from 1 to N and N up to 10000".to_owned())
+            }
         }
     }
 }
@@ -294,8 +296,13 @@ impl Shards {
                 let place = self.jobs.get(&path(name)).map(|(folder, item)| folder.join(&item.path));
                 MergeError::Unsound { path: place.unwrap_or_default(), what }
             };
-            let job = self.get(name)?.ok_or_else(|| place("not a job of this plan: mint the job \
-                again".into()))?;
+            let job = self.get(name)?.ok_or_else(|| {
+                place(
+                    "not a job of this plan: mint the job \
+                again"
+                        .into(),
+                )
+            })?;
             let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, plan.recipe));
             wrong.map_or(Ok(()), |what| {
                 Err(place(format!("{what}; no mint gives this result: mint the job again")))

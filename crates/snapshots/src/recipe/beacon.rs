@@ -45,8 +45,11 @@ impl BeaconPart {
             return wrong("beacon.source", "takes a text of 1 to 80 bytes, such as \"drand quicknet\"");
         }
         match self.value {
-            Some(_) => wrong("beacon.value", "is filled in by `arcade release --beacon FILE`: remove the \
-                              value from the recipe"),
+            Some(_) => wrong(
+                "beacon.value",
+                "is filled in by `arcade release --beacon FILE`: remove the \
+                              value from the recipe",
+            ),
             None => Ok(()),
         }
     }

@@ -153,8 +153,10 @@ impl Recipe {
             if least < 5 || most < least || most > 100 {
                 return wrong(
                     key,
-                    format!("is [{least}, {most}]; the range needs two numbers from 5 to 100, the smaller \
-                             first"),
+                    format!(
+                        "is [{least}, {most}]; the range needs two numbers from 5 to 100, the smaller \
+                             first"
+                    ),
                 );
             }
         }

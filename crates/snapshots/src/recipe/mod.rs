@@ -140,7 +140,9 @@ impl Recipe {
             Some(_) if secret.recipe == Some(alone.committed()) => {
                 "only the parent is new, because the commitment has no parent; omit --parent"
             }
-            Some(_) => "is --parent a different release? Pass the parent of the commitment, undo other changes",
+            Some(_) => {
+                "is --parent a different release? Pass the parent of the commitment, undo other changes"
+            }
         }
     }
 
@@ -361,7 +363,10 @@ pub(crate) mod tests {
         check(&format!("{GOOD}[corpus.criteria]\nrandom_wins = 2.0"), "`corpus.criteria.random_wins` is 2");
         check(&format!("{GOOD}least_interactions = 1000"), "`generated.least_interactions` is 1000");
         check(&format!("{GOOD}levels = 0"), "`generated.levels` is 0");
-        check(&format!("{GOOD}kinds = ['herding']"), "`generated.kinds` lists the kind `herding`, which has no generator");
+        check(
+            &format!("{GOOD}kinds = ['herding']"),
+            "`generated.kinds` lists the kind `herding`, which has no generator",
+        );
         check(&format!("{GOOD}kinds = ['luer']"), "luer");
         let ask = "ask = ['not-idle', 'not-random', 'winnable', 'progression']";
         check(

@@ -108,7 +108,8 @@ impl Secret {
             return Err("the `seed` is not 64 lower-case hexadecimal digits".to_owned());
         };
         if self.recipe.is_none() {
-            return Err("the secret has no `recipe`, the digest of the recipe that the secret was drawn for".to_owned());
+            return Err("the secret has no `recipe`, the digest of the recipe that the secret was drawn for"
+                .to_owned());
         }
         if seed == self.nonce {
             return Err("the `seed` and the `nonce` are the same".to_owned());

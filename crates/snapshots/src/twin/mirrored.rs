@@ -103,7 +103,8 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     let game = analysis.game();
     if !game.description().parameters.is_empty() {
         return Err("the rules have parameters (a GameSpace): replace the parameters with their \
-                    values".to_owned());
+                    values"
+            .to_owned());
     }
     for stype in game.sprite_types().filter(|&stype| analysis.facts(stype).possible) {
         let Some(class) = game.class(stype) else { continue };

@@ -19,8 +19,13 @@ const MAX_EDITS: usize = 100_000;
 /// Rejects texts that are too large for a game or a level.
 fn bounded(source: &str, levels: &[String]) -> Result<(), Refusal> {
     let too_large = |what: &str, limit: usize| {
-        Refusal::new(StatusCode::PAYLOAD_TOO_LARGE, format_args!("{what} is larger than the limit of \
-            {limit} bytes"))
+        Refusal::new(
+            StatusCode::PAYLOAD_TOO_LARGE,
+            format_args!(
+                "{what} is larger than the limit of \
+            {limit} bytes"
+            ),
+        )
     };
     match () {
         () if source.len() > MAX_SOURCE => Err(too_large("a game", MAX_SOURCE)),

@@ -92,8 +92,12 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     let verification = verify(root).map_err(Refusal::failed)?;
     let mut problems = verification.problems.clone();
     if verification.root != released.manifest.root {
-        problems.insert(0, "The release changed after the studio opened it: open the release \
-                            again.".to_owned());
+        problems.insert(
+            0,
+            "The release changed after the studio opened it: open the release \
+                            again."
+                .to_owned(),
+        );
     }
     let is_sound = problems.is_empty();
     let mut said = if is_sound { words(&verification) } else { Vec::new() };
@@ -175,10 +179,9 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let damaged = lineage.ancestors.iter().filter(is_damaged);
     let mut problems: Vec<String> = damaged
         .map(|ancestor| match &ancestor.link {
-            Some(link) => format!(
-                "The earlier release `{}` was altered: its files do not match its root.",
-                link.name
-            ),
+            Some(link) => {
+                format!("The earlier release `{}` was altered: its files do not match its root.", link.name)
+            }
             None => "The chain of parents is circular.".to_owned(),
         })
         .collect();

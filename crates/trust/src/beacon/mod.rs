@@ -96,8 +96,10 @@ impl Drawn {
         let signature = hex(&proof.signature).ok_or_else(|| not_hex("signature"))?;
         let value: [u8; 32] = Sha256::digest(&signature).into();
         if Digest::from_bytes(value) != self.value {
-            return Err("its `value` is not the SHA-256 of its `signature`: fetch both from the source again"
-                .to_owned());
+            return Err(
+                "its `value` is not the SHA-256 of its `signature`: fetch both from the source again"
+                    .to_owned(),
+            );
         }
         match network {
             Some(network) => network.check(round, &signature, proof),

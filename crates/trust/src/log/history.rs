@@ -108,8 +108,10 @@ impl History {
             return problems;
         }
         if self.roots.contains_key(release) {
-            problems.push(format!("the commitment for `{release}` comes too late: the root of the release \
-                                   is already in the log"));
+            problems.push(format!(
+                "the commitment for `{release}` comes too late: the root of the release \
+                                   is already in the log"
+            ));
         }
         if let Some(Err(fault)) = new.beacon.as_ref().map(|round| check_source(&round.source)) {
             problems.push(format!("the commitment for `{release}`: {fault}"));
@@ -160,10 +162,10 @@ impl History {
         }
         match (commitment, self.commitments.get(release)) {
             (None, None) => {}
-            (None, Some(_)) => {
-                problems.push(format!("the log has a commitment for `{release}`, but the release itself \
-                                       has no commitment"))
-            }
+            (None, Some(_)) => problems.push(format!(
+                "the log has a commitment for `{release}`, but the release itself \
+                                       has no commitment"
+            )),
             (Some(_), None) => {
                 problems.push(format!("`{release}` is sealed, but no commitment came before its root"))
             }
@@ -203,9 +205,10 @@ impl History {
     fn known(&self, release: &str, root: &Digest) -> Option<String> {
         match self.roots.get(release) {
             Some(found) if found.root == *root => None,
-            Some(found) => {
-                Some(format!("the entry is about `{release}` with root {root}, but the log has {}", found.root))
-            }
+            Some(found) => Some(format!(
+                "the entry is about `{release}` with root {root}, but the log has {}",
+                found.root
+            )),
             None => Some(format!("the entry is about `{release}`, which is not in the log")),
         }
     }
@@ -266,9 +269,9 @@ pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
             "the log has no release of {month} or later: its newest release is {newest}, so the log may \
              be frozen; get the log from a different source"
         )),
-        None => {
-            Some(format!("the log has no monthly release, but {month} was expected; get the log from a \
-                          different source"))
-        }
+        None => Some(format!(
+            "the log has no monthly release, but {month} was expected; get the log from a \
+                          different source"
+        )),
     }
 }

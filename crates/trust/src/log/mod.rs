@@ -61,8 +61,11 @@ impl Log {
                 true => error,
                 false => TrustError::document(
                     place.in_message().to_string(),
-                    format!("is missing: the log was truncated, because its checkpoint states {} \
-                             entries", checkpoint.size),
+                    format!(
+                        "is missing: the log was truncated, because its checkpoint states {} \
+                             entries",
+                        checkpoint.size
+                    ),
                 ),
             })?;
             let found = tiles::split(&bytes, width);

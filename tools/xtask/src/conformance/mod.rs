@@ -148,7 +148,10 @@ impl Subject {
         let places =
             [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
         let Some(place) = places.iter().find(|place| place.exists()) else {
-            bail!("{}: no folder or file of the game `{name}`, but there are traces of this game", games.display());
+            bail!(
+                "{}: no folder or file of the game `{name}`, but there are traces of this game",
+                games.display()
+            );
         };
         let source = match place.is_dir() {
             true => {

@@ -130,8 +130,10 @@ pub(super) fn choose(
             );
         }
         if args.dry_run {
-            bail!("--adaptive has no forecast, because its choices depend on which episodes are won; use \
-                   --plan for a fixed choice with a forecast");
+            bail!(
+                "--adaptive has no forecast, because its choices depend on which episodes are won; use \
+                   --plan for a fixed choice with a forecast"
+            );
         }
         if target_error.is_none() && episodes.is_none() {
             bail!("--adaptive needs a stopping condition: pass --target-error, --episodes, or both");

@@ -33,20 +33,20 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
         (RequestedPlayer::Planner(spec), Track::Masked | Track::Discover | Track::Vision) => {
             match spec.name() {
                 "random" | "random-with-nil" | "do-nothing" => Ok(()),
-                _ => {
-                    refuse("the player plans with the rules and the state, whatever prompts show; leave \
-                            out --track")
-                }
+                _ => refuse(
+                    "the player plans with the rules and the state, whatever prompts show; leave \
+                            out --track",
+                ),
             }
         }
         (RequestedPlayer::Replay(_), _) => refuse("the player repeats an episode; leave out --track"),
         (RequestedPlayer::Human(_), Track::Vision) => {
             refuse("a terminal cannot show images; `mailbox:DIR` puts a PNG file beside each prompt")
         }
-        (RequestedPlayer::Human(_), Track::Discover) => {
-            refuse("the answer to the last question has several lines; use `mailbox:DIR`, where people \
-                    write whole answers")
-        }
+        (RequestedPlayer::Human(_), Track::Discover) => refuse(
+            "the answer to the last question has several lines; use `mailbox:DIR`, where people \
+                    write whole answers",
+        ),
         (RequestedPlayer::Touching, Track::Vision) => {
             refuse("the player cannot read images; choose `told`, `masked` or `discover`")
         }

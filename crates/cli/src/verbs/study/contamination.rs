@@ -99,8 +99,10 @@ fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
         bail!("{place}: `{name}` is open, so nothing was withheld; {how}");
     }
     if MemoryPart::of(manifest).is_none() {
-        bail!("{place}: `{name}` has no withheld siblings or wins, because its recipe has no `[memory]`; \
-               {how}");
+        bail!(
+            "{place}: `{name}` has no withheld siblings or wins, because its recipe has no `[memory]`; \
+               {how}"
+        );
     }
     let coins = Coins { games: released.games.iter().map(coin).collect() };
     if coins.counts() == (0, 0) {

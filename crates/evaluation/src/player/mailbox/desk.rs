@@ -136,9 +136,7 @@ impl Desk {
         }
         if text.len() >= MAX_ANSWER {
             let (bytes, limit) = (text.len(), MAX_ANSWER / 1024);
-            return Ok(Delivery::Refused(format!(
-                "the answer has {bytes} bytes; the limit is {limit} KiB"
-            )));
+            return Ok(Delivery::Refused(format!("the answer has {bytes} bytes; the limit is {limit} KiB")));
         }
         let folder = self.episode(&prompt.episode);
         if !folder.join(prompt.address.prompt_data()).exists() {

@@ -205,8 +205,13 @@ impl EpisodeFolder {
             for name in names(&self.path)? {
                 let Some((other, "answer.txt")) = split(&name) else { continue };
                 if other != address {
-                    self.set_aside(&name, &format!("the file answers {other}, but the open prompt is \
-                        {address}"))?;
+                    self.set_aside(
+                        &name,
+                        &format!(
+                            "the file answers {other}, but the open prompt is \
+                        {address}"
+                        ),
+                    )?;
                 }
             }
             let name = address.answer();
@@ -230,7 +235,10 @@ impl EpisodeFolder {
                     }
                     Err(error) => {
                         let at = error.utf8_error().valid_up_to();
-                        self.set_aside(&name, &format!("the file is not UTF-8 (byte {at}); save it as UTF-8"))?;
+                        self.set_aside(
+                            &name,
+                            &format!("the file is not UTF-8 (byte {at}); save it as UTF-8"),
+                        )?;
                         last = None;
                     }
                 },
@@ -311,7 +319,9 @@ fn look(path: &Path) -> Result<Look, EvaluationError> {
     }
     if found.len() > MAX_ANSWER as u64 {
         let (bytes, limit) = (found.len(), MAX_ANSWER / 1024);
-        return Ok(Look::Wrong(format!("the file has {bytes} bytes; the limit for an answer is {limit} KiB")));
+        return Ok(Look::Wrong(format!(
+            "the file has {bytes} bytes; the limit for an answer is {limit} KiB"
+        )));
     }
     match disk::read_no_follow(path, MAX_ANSWER as u64) {
         Ok(None) => Ok(Look::Wrong("the file is still being written".to_owned())),

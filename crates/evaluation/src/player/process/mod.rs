@@ -490,7 +490,10 @@ fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<P
     let answer: BTreeMap<String, Value> =
         serde_json::from_slice(answer).map_err(|error| format!("{error}; {EXPECTED}"))?;
     let own = |name: String| {
-        names.get(&name).cloned().ok_or_else(|| format!("`{name}` is not a kind from the question; {EXPECTED}"))
+        names
+            .get(&name)
+            .cloned()
+            .ok_or_else(|| format!("`{name}` is not a kind from the question; {EXPECTED}"))
     };
     let facts = TouchFact::ALL.into_iter().map(|fact| {
         let missing = || format!("the list `{}` is missing; {EXPECTED}", fact.name());

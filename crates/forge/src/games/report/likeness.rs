@@ -21,7 +21,8 @@ impl Distances {
             let others = || (0..measured.len()).filter(|&other| other != at);
             let of_set = measured[at].form.nearest(others().map(|other| &measured[other].form));
             let of_set = of_set.map(|(place, distance)| {
-                let name = &measured[others().nth(place).expect("the position is within the set")].surveyed.name;
+                let name =
+                    &measured[others().nth(place).expect("the position is within the set")].surveyed.name;
                 Nearest { name: name.clone(), distance }
             });
             let of_corpus = measured[at].form.nearest(corpus);

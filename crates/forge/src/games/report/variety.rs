@@ -38,10 +38,11 @@ pub(super) fn variety(measured: &[Measured<'_>]) -> Section {
     let largest = pairs.first().map(|(_, games)| Share::new(*games, of));
     let kinds: Vec<Pair> =
         pairs.iter().map(|&((avatar, goal), games)| Pair { avatar, goal, games }).collect();
-    let mut section = Section::new("variety", "How varied are the games?", "Number of games with each feature.")
-        .data("kinds", &kinds)
-        .data("largest", &largest)
-        .figure("kinds", "kinds of avatar × goal", Value::CountOf(kinds.len() as u64, of, "game"));
+    let mut section =
+        Section::new("variety", "How varied are the games?", "Number of games with each feature.")
+            .data("kinds", &kinds)
+            .data("largest", &largest)
+            .figure("kinds", "kinds of avatar × goal", Value::CountOf(kinds.len() as u64, of, "game"));
     if let Some(share) = largest {
         section = section.shown("of the most frequent kind", share.into());
     }

@@ -74,8 +74,10 @@ fn note(pool: &[Difficulty], expressible: &[Difficulty]) -> String {
     let labels: Vec<String> = expressible.iter().map(ToString::to_string).collect();
     let labels = if labels.is_empty() { "none".to_owned() } else { labels.join(", ") };
     let pool = pool.len();
-    format!("{note} Labels that the game can express (at least 5% of an unconstrained pool of {pool}): \
-             {labels}.")
+    format!(
+        "{note} Labels that the game can express (at least 5% of an unconstrained pool of {pool}): \
+             {labels}."
+    )
 }
 
 /// Returns a table with one row per requested label, which counts the levels by measured label.

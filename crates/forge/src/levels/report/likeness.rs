@@ -43,11 +43,15 @@ pub(super) fn diversity(
 ) -> Section {
     let nearest = distances.known();
     let unique = Share::new(forms(levels, likeness).len() as u64, levels.len() as u64);
-    Section::new("diversity", "How different are the levels?", "Distances range from 0 (the same level) to 1.")
-        .share("unique", "unique up to symmetry", unique)
-        .mean("distance", "distance of two levels", Mean::over("level", &distances.means))
-        .share("near_duplicates", format!("near-duplicates: within {NEAR} of another level"), near(&nearest))
-        .quantiles("nearest", "distance to the most similar other", &nearest)
+    Section::new(
+        "diversity",
+        "How different are the levels?",
+        "Distances range from 0 (the same level) to 1.",
+    )
+    .share("unique", "unique up to symmetry", unique)
+    .mean("distance", "distance of two levels", Mean::over("level", &distances.means))
+    .share("near_duplicates", format!("near-duplicates: within {NEAR} of another level"), near(&nearest))
+    .quantiles("nearest", "distance to the most similar other", &nearest)
 }
 
 /// Describes the distances to the game's own levels; `None` if it has none.

@@ -223,7 +223,8 @@ impl Archive {
         let mut manifest = Manifest::parse(&manifest_bytes).map_err(|error| error.in_manifest(&place))?;
         let mut problems = manifest_problems(&manifest, &manifest_bytes)?;
         if name != manifest.name {
-            let what = format!("the folder is `{}`, but the release is `{}`", name.escape_debug(), manifest.name);
+            let what =
+                format!("the folder is `{}`, but the release is `{}`", name.escape_debug(), manifest.name);
             problems.push(Problem { path: MANIFEST_FILE.into(), flaw: Flaw::NotAsPacked(what) });
         }
         let mut files = BTreeMap::new();

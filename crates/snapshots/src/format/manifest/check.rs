@@ -24,10 +24,20 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
         )));
     }
     match (manifest.kind, manifest.commitment) {
-        (ReleaseKind::Sealed, None) => return Err(unsound("the manifest is sealed, but has no \
-            commitment".into())),
-        (ReleaseKind::Open, Some(_)) => return Err(unsound("the manifest is open, but has a \
-            commitment".into())),
+        (ReleaseKind::Sealed, None) => {
+            return Err(unsound(
+                "the manifest is sealed, but has no \
+            commitment"
+                    .into(),
+            ));
+        }
+        (ReleaseKind::Open, Some(_)) => {
+            return Err(unsound(
+                "the manifest is open, but has a \
+            commitment"
+                    .into(),
+            ));
+        }
         _ => {}
     }
     if manifest.withheld.is_some() {

@@ -30,8 +30,11 @@ pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
     datasheet
         .replace(SOLVED, SEALED)
         .replace(SEALED, "sealed and revealed: the seed and the winning episodes are now public")
-        .replace(UNCHECKED, "- Only minting the release again proves that the games come from the \
-                             committed seed.\n")
+        .replace(
+            UNCHECKED,
+            "- Only minting the release again proves that the games come from the \
+                             committed seed.\n",
+        )
 }
 
 /// Returns the whole datasheet as Markdown.
@@ -40,7 +43,9 @@ pub(super) fn datasheet(minted: &Minted) -> String {
     let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
     let parent = manifest
         .parent
-        .map_or("none; the release was not compared with earlier releases".to_owned(), |root| format!("`{root}`"));
+        .map_or("none; the release was not compared with earlier releases".to_owned(), |root| {
+            format!("`{root}`")
+        });
     let kind = match manifest.kind {
         ReleaseKind::Open => "open: its seed is public",
         ReleaseKind::Sealed => SEALED,

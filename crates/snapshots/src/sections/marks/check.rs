@@ -37,7 +37,11 @@ pub(super) fn problems(
     };
     if manifest.generation != GENERATION {
         let carries = carries(&text, &manifest.canary);
-        return Ok(if carries { Vec::new() } else { vec![named("the release's canary is missing".to_owned())] });
+        return Ok(if carries {
+            Vec::new()
+        } else {
+            vec![named("the release's canary is missing".to_owned())]
+        });
     }
     let marks = match Marks::read(&text) {
         Ok(marks) => marks,

@@ -107,8 +107,13 @@ impl MarksPart {
             let most = if spec.name() == PLANNING { MOST_PLAN_CALLS } else { MOST_CALLS };
             if calls > most || calls == 0 && spec.spends_its_budget() {
                 let help = format!("takes planners with 1 to {most} calls per decision");
-                return wrong("marks.players", format!("contains `{player}`; the list {help}, such as \
-                              `olets:200`"));
+                return wrong(
+                    "marks.players",
+                    format!(
+                        "contains `{player}`; the list {help}, such as \
+                              `olets:200`"
+                    ),
+                );
             }
         }
         Ok(())

@@ -194,7 +194,10 @@ impl PuzzleKind {
             }
         }
         if !(1.0..=20.0).contains(&part.candidates) {
-            return wrong(candidates, format!("is {}; the value must be from 1 to 20 for each game", part.candidates));
+            return wrong(
+                candidates,
+                format!("is {}; the value must be from 1 to 20 for each game", part.candidates),
+            );
         }
         if !(3..=most_things).contains(&part.things) {
             let help = match most_things {
@@ -231,11 +234,17 @@ mod tests {
         check(&format!("{puzzles}columns = [10, 16]\n[tiers]\n4 = 1.0"), "at most 128 cells");
         let endless = "columns = [8, 4294967296]\nrows = [8, 4294967296]\n[tiers]\n4 = 1.0";
         check(&format!("{puzzles}{endless}"), "at most 128 cells");
-        check(&format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")), "the value must be from 1 to 15");
+        check(
+            &format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")),
+            "the value must be from 1 to 15",
+        );
         let locks = format!("{}[tiers]\n4 = 1.0", puzzles.replace("[puzzles]", "[locks]"));
         check(&locks.replace("games = 2", "games = 2\nthings = 4"), "`locks.things` is for `[puzzles]` only");
-        check(&format!("{puzzles}things = 6\n[tiers]\n4 = 1.0"), "`puzzles.things` is 6; the value must \
-                        be from 3 to 5");
+        check(
+            &format!("{puzzles}things = 6\n[tiers]\n4 = 1.0"),
+            "`puzzles.things` is 6; the value must \
+                        be from 3 to 5",
+        );
         check(&locks.replace("= 2", "= 5"), "`locks.games` is 5; the value must be from 1 to 3");
         check(
             &locks.replace("games = 2", "games = 2\nrows = [16, 17]\ncolumns = [16, 16]"),

@@ -265,7 +265,12 @@ fn ends() {
     let sound = compress(&tar);
     check_bytes(&file, &sound, "", "");
     assert!(verify(&file).expect("readable").problems.is_empty());
-    check_bytes(&file, &[&sound[..], b"x"].concat(), "mole.tar.zst: different from the packed form", "bytes after the seal");
+    check_bytes(
+        &file,
+        &[&sound[..], b"x"].concat(),
+        "mole.tar.zst: different from the packed form",
+        "bytes after the seal",
+    );
     check_bytes(
         &file,
         &[&sound[..], &sound[..]].concat(),

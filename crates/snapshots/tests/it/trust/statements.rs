@@ -35,7 +35,10 @@ fn check(alter: impl FnOnce(&mut Small), problems: &[&str]) {
 #[test]
 fn manifest_and_recipe_agree() {
     check(|_| {}, &[]);
-    check(|release| release.manifest.name = "2027-01".into(), &["the `name` differs from that of the recipe"]);
+    check(
+        |release| release.manifest.name = "2027-01".into(),
+        &["the `name` differs from that of the recipe"],
+    );
     check(
         |release| release.manifest.parent = Some(Digest::of(b"x")),
         &["its `parent` is not", "`known` lists no release, but there is a parent"],
