@@ -79,7 +79,7 @@ impl GameValidator for ActorsMatter {
         );
         let narrow = !sweeps.is_empty() && swept < gates.sweep;
         if narrow { &mut problems } else { &mut notes }.push(Evidence::new(text));
-        let text = format!("on {met} of {levels} levels, they meet the player's path");
+        let text = format!("on {met} of {levels} levels, a sprite that moves by itself meets the player's path");
         let away = (met as f64) < gates.met_levels * f64::from(levels);
         if away { &mut problems } else { &mut notes }.push(Evidence::new(text));
         if actors.deadly && case.analysis.aims().avatar_must_live && losses > 0 {
@@ -221,7 +221,7 @@ mod tests {
         let patrol = "wwwwwwwwwwww\nwA    w    w\nwww w w w ww\nw          w\nwwwwww  s  w\nw          w\nw ww www w w\nwp  w     pw\nwwwwwwwwwwww\n";
         check(Criterion::ActorsMatter, GAME, &[patrol], None);
         let pocket = "wwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                        pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwww\nw                      wwsww\nwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
-        check(Criterion::ActorsMatter, GAME, &[pocket], Some("sweeps 1.0 cells"));
+        check(Criterion::ActorsMatter, GAME, &[pocket], Some("sweep 1.0 cells"));
         check(Criterion::ActorsMatter, GAME, &["wwwwww\nwA  pw\nwwwwww\n"], None);
     }
 }
