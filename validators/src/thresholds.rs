@@ -153,11 +153,14 @@ impl Criteria {
             ("skill_overall", self.skill_overall),
         ] {
             if !(0.0..=1.0).contains(&share) {
-                return wrong(key, format!("is {share}; it takes a share from 0 to 1"));
+                return wrong(key, format!("is {share}; the value must be a fraction from 0 to 1"));
             }
         }
         if self.decision == 0 || self.decision > 1_000_000 {
-            return wrong("decision", format!("is {}; it takes 1 to 1000000 calls", self.decision));
+            return wrong(
+                "decision",
+                format!("is {}; the value must be from 1 to 1000000 calls", self.decision),
+            );
         }
         for (key, count, most) in [
             ("early_ticks", self.early_ticks as u64, 100),
@@ -171,7 +174,7 @@ impl Criteria {
             ("patience", self.patience as u64, 1000),
         ] {
             if count == 0 || count > most {
-                return wrong(key, format!("is {count}; it takes 1 to {most}"));
+                return wrong(key, format!("is {count}; the value must be from 1 to {most}"));
             }
         }
         if let Some((key, message)) = self.gates.problem() {

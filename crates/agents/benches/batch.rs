@@ -78,7 +78,7 @@ impl Racer {
             let plans: Vec<Action> = (0..LANES * ticks).map(|_| *actions.choose(&Action::ALL)).collect();
             pool.install(|| {
                 let before = Instant::now();
-                batch.play(&plans).expect("as many for each");
+                batch.play(&plans).expect("every lane has the same number of actions");
                 batch.reset_over();
                 seconds += before.elapsed().as_secs_f64();
             });
@@ -100,7 +100,7 @@ fn corpus() -> Vec<(String, Game, Vec<Level>)> {
     let mut folders: Vec<_> = entries.map(|entry| entry.expect("a folder").path()).collect();
     folders.sort();
     let load = |folder: &std::path::PathBuf| {
-        let name = folder.file_name().expect("it has a name").to_string_lossy().into_owned();
+        let name = folder.file_name().expect("the game folder has a name").to_string_lossy().into_owned();
         let source = fs::read_to_string(folder.join("game.vgdl")).expect("a game");
         let game = Game::from_source(&source).expect("a valid game");
         let texts =

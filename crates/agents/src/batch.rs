@@ -104,7 +104,7 @@ pub enum BatchError {
     #[error("a batch of episodes needs at least one level")]
     NoLevels,
     /// The number of actions differs from the number of states.
-    #[error("{actions} actions are given for {lanes} states; give one for each")]
+    #[error("{actions} actions were given for {lanes} states; pass one action for each state")]
     Actions {
         /// The number of actions given.
         actions: usize,
@@ -113,7 +113,8 @@ pub enum BatchError {
     },
     /// The number of actions is not a multiple of the number of states.
     #[error(
-        "{actions} actions cannot be divided into plans for {lanes} states; give the same number for each"
+        "{actions} actions cannot be divided into plans for {lanes} states; pass the same number of \
+         actions for each state"
     )]
     Plans {
         /// The number of actions given.
@@ -122,7 +123,7 @@ pub enum BatchError {
         lanes: usize,
     },
     /// The lane does not exist.
-    #[error("state {lane} does not exist: there are {lanes}, counted from 0")]
+    #[error("state {lane} does not exist; there are {lanes} states, counted from 0")]
     NoLane {
         /// The index of the lane.
         lane: usize,

@@ -99,7 +99,7 @@ impl PlannerSpec {
 
     /// Returns a new player for the planner, with its own random streams.
     pub fn player(&self, seed: Seed) -> Player {
-        Player::of(&self.name, seed).expect("the name was known when it was read")
+        Player::of(&self.name, seed).expect("a parsed planner has a known name")
     }
 }
 
@@ -146,7 +146,7 @@ impl fmt::Display for UnknownPlanner {
             let Budget(most) = Budget::MOST;
             return write!(
                 f,
-                "`{}` is not a planner; the colon is followed by a number of calls up to {most}: `{name}:500`",
+                "`{}` is not a planner; after the colon, write a number of calls up to {most}: `{name}:500`",
                 self.0
             );
         }
@@ -155,7 +155,11 @@ impl fmt::Display for UnknownPlanner {
             Some(near) => write!(f, "; did you mean `{near}`?")?,
             None => f.write_str(".")?,
         }
-        write!(f, " There are {}; `mcts:500` is `mcts` with 500 calls a decision", PLANNERS.join(", "))
+        write!(
+            f,
+            " The planners are {}; `mcts:500` is `mcts` with 500 calls per decision",
+            PLANNERS.join(", ")
+        )
     }
 }
 

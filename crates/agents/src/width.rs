@@ -143,7 +143,7 @@ impl Width {
     ) -> u64 {
         let game = analysis.game();
         let progress = Progress::of(analysis);
-        let (features, presence) = self.presence.take().expect("made before");
+        let (features, presence) = self.presence.take().expect("the features were made before");
         let mut atoms = Atoms::new(features.len());
         features.each(root, |atom| _ = atoms.insert(atom));
         let mut nodes = vec![Node {
@@ -157,7 +157,7 @@ impl Width {
         let mut queue = VecDeque::from([0]);
         let mut calls = 0;
         'look: while let Some(at) = queue.pop_front() {
-            let state = nodes[at].state.take().expect("open nodes have one");
+            let state = nodes[at].state.take().expect("open nodes have a state");
             let steps: f64 = discount(self.config.discount, nodes[at].depth);
             for action in choices(game, &state) {
                 if calls >= budget {
@@ -184,7 +184,7 @@ impl Width {
                 let open = new && !child.is_over();
                 nodes.push(Node { state: None, parent: at, action, depth, value, worth: value + curious });
                 if open {
-                    nodes.last_mut().expect("just pushed").state = Some(child);
+                    nodes.last_mut().expect("a node was just pushed").state = Some(child);
                     queue.push_back(nodes.len() - 1);
                 } else {
                     self.pool.push(child);
@@ -271,7 +271,7 @@ impl Planner for Width {
             let never = vec![0; features.len()];
             self.presence = Some((features, never));
         }
-        let (features, presence) = self.presence.as_mut().expect("just made");
+        let (features, presence) = self.presence.as_mut().expect("the features were just made");
         features.each(state, |atom| presence[atom] = presence[atom].saturating_add(1));
         if state.is_over() {
             self.analysis = Some(analysis);

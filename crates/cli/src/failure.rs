@@ -84,7 +84,7 @@ impl Failure {
         match self {
             Failure::Environment(error) => Failure::environment(
                 error,
-                format_args!("the {what} was stopped by an error; fix it and continue with --resume"),
+                format_args!("the {what} was stopped by an error; fix the error and continue with --resume"),
             ),
             other => other,
         }
@@ -96,10 +96,10 @@ impl Failure {
         let name = path.in_message();
         match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => {
-                malformed!("{name}: there is no such file")
+                malformed!("{name}: there is no such file; check the path")
             }
             ErrorKind::InvalidFilename => {
-                malformed!("{name}: there is no such file, and the name is invalid")
+                malformed!("{name}: the name is invalid, so there is no such file; check the path")
             }
             ErrorKind::IsADirectory => malformed!("{name} is a folder: pass a file in it"),
             // `disk` reports this kind for pipes, devices and sockets.
@@ -216,7 +216,12 @@ mod tests {
     #[test]
     fn unreadable_files_are_not_reported_absent() {
         let at = Path::new("games/a");
-        check(&Failure::read(at, ErrorKind::NotFound.into()), MALFORMED, "games/a: there is no such file");
+        check(
+            &Failure::read(at, ErrorKind::NotFound.into()),
+            MALFORMED,
+            "games/a: there is no such file; \
+            check the path",
+        );
         check(
             &Failure::read(at, ErrorKind::PermissionDenied.into()),
             ENVIRONMENT,

@@ -17,9 +17,9 @@ pub(crate) fn command() -> Command {
     let command = numeric_flags_take_negative_numbers(Cli::command());
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
     let verbs = verbs_in_short(&command);
-    let options = "--json           One JSON document on standard output, nothing else there\n  -q, --quiet  \
-                       No progress, no warnings, and the shortest answer\n  --jobs <N>       Number of \
-                   threads; all cores if not given\n  --memory <SIZE>  Memory for all searches together, \
+    let options = "--json           Print one JSON document on standard output, and nothing else\n  -q, --quiet      \
+                       Print no progress, no warnings, and the shortest answer\n  --jobs <N>       Number of \
+                   threads [default: all cores]\n  --memory <SIZE>  Maximum memory for all searches together, \
                    such as 4GiB\n  -h, --help       Print help, also after a command; -V, --version prints \
                    the version";
     command.help_template(format!(
@@ -252,8 +252,8 @@ fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
         return None;
     };
     let known = [
-        ("evaluate", "--limit", "limit an evaluation by --levels, --games or --max-requests"),
-        ("play", "--text", "--ascii plays with plain characters"),
+        ("evaluate", "--limit", "use --levels, --games or --max-requests to limit an evaluation"),
+        ("play", "--text", "use --ascii to play with plain characters"),
     ];
     let is_it = |(verb, name, _): &&(&str, &str, &str)| {
         flag == name && arguments.iter().any(|argument| argument == verb)

@@ -55,7 +55,7 @@ fn of_game_class(name: &str) -> &'static str {
         "GameSpace" => {
             "**GameSpace**\n\nA game whose values may be names of parameters, which its ParameterSet declares."
         }
-        _ => "**BasicGame**\n\nThe first line of a game, with settings of the whole game.",
+        _ => "**BasicGame**\n\nThe first line of a game. It may set options for the whole game.",
     }
 }
 
@@ -66,10 +66,12 @@ pub(crate) fn of_section(section: Section) -> &'static str {
         }
         Section::LevelMapping => "The sprites that each level character places: `c > name name …`.",
         Section::InteractionSet => {
-            "The effects of meetings: `first partner … > effect key=value …`. The effect acts on the first sprite."
+            "The effects of collisions: `first partner … > effect key=value …`. The effect acts on the \
+             first sprite."
         }
         Section::TerminationSet => {
-            "The conditions that end the game: `Class key=value …`. The first one that holds decides."
+            "The conditions that end the game: `Class key=value …`. The first condition that holds \
+             determines the outcome."
         }
         Section::ParameterSet => "The parameters of a GameSpace: `NAME > values=min:step:max value=x`.",
     }

@@ -96,7 +96,7 @@ pub(crate) fn spread<C: Clone>(
             apart(a).cmp(&apart(b)).then(objectives)
         };
         let at = (0..left.len()).max_by(|&a, &b| better(&left[a], &left[b]).then(b.cmp(&a)));
-        let next = left.swap_remove(at.expect("some are left"));
+        let next = left.swap_remove(at.expect("candidates are left"));
         left.retain(|(.., elite)| !is_near(&next.2.candidate, &elite.candidate));
         picked.push(next);
     }

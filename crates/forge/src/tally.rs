@@ -212,16 +212,16 @@ impl Tally {
         let columns = [
             "judge",
             "asked",
-            "said no",
+            "rejected",
             "simulator calls (millions)",
             "on accepted levels",
             "on rejected levels",
             "on levels of rejected games",
-            "calls a game",
+            "calls per game",
         ];
-        let note = "Forward-model calls by what became of the judged candidates: accepted, rejected by this \
-                    judge or a later one, or accepted as a level of a game that was rejected. Gates count \
-                    only the calls of their own searches.";
+        let note = "Forward-model calls by the fate of the judged candidates: accepted, rejected by this \
+                    judge or a later judge, or accepted as a level of a rejected game. Gates count only \
+                    the calls of their own searches.";
         let mut judges: Vec<(&String, &JudgeCost)> = self.judges.iter().collect();
         judges.sort_by_key(|(name, cost)| (std::cmp::Reverse(cost.calls()), *name));
         let mut table = Table::new("judges", "Judges", note, &columns);

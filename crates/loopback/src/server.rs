@@ -69,7 +69,7 @@ async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bound
             Ok(place) => place,
             Err(_) => {
                 seats.free_one();
-                places.clone().acquire_owned().await.expect("it is never closed")
+                places.clone().acquire_owned().await.expect("the semaphore is never closed")
             }
         };
         let asker = seats.take();
@@ -94,7 +94,7 @@ async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bound
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unread {
     /// The body is larger than this number of bytes.
-    #[error("a request has at most {0} bytes")]
+    #[error("the request is larger than the limit of {0} bytes")]
     TooLarge(usize),
     /// The connection was interrupted.
     #[error("the request was cut off: {0}")]
@@ -138,7 +138,8 @@ impl Bodies {
         };
         let read = async {
             let units = u32::try_from(size.div_ceil(UNIT)).expect("no body is that large");
-            let taken = self.memory.clone().acquire_many_owned(units).await.expect("it is never closed");
+            let taken =
+                self.memory.clone().acquire_many_owned(units).await.expect("the semaphore is never closed");
             (axum::body::to_bytes(body, size).await, taken)
         };
         match tokio::time::timeout(body_time, read).await {

@@ -13,7 +13,7 @@ create_exception!(
     infinite_arcade,
     ArcadeError,
     PyException,
-    "The suite cannot do what was asked: the message says why."
+    "The requested operation failed; the message gives the reason."
 );
 create_exception!(
     infinite_arcade,

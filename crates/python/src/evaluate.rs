@@ -227,7 +227,7 @@ impl Series {
         game, id, levels, *, group = 0, run = 0, seed, max_steps, commit = "1", track = None, prompts = None, reasks = 1,
         folder = None
     ))]
-    #[allow(clippy::too_many_arguments, reason = "they are the settings of an evaluation")]
+    #[allow(clippy::too_many_arguments, reason = "the arguments are the settings of an evaluation")]
     fn new(
         game: &Game,
         id: &str,
@@ -248,7 +248,7 @@ impl Series {
         let prompts = prompts_of(track, prompts)?;
         let order = Order { subject, settings, prompts, run, first: group, reasks };
         if order.tasks().is_empty() {
-            return Err(invalid(format_args!("there is no series {group} among the levels of {id}")));
+            return Err(invalid(format_args!("the levels of {id} have no series {group}")));
         }
         let (sender, reports) = channel();
         let (answers, receiver) = channel();
@@ -331,7 +331,7 @@ impl Series {
 
     /// Provides the answer to the last request. `finish` is `stop`, `length`, `refusal` or `other`.
     #[pyo3(signature = (text, *, finish = "stop", reasoning = None, input_tokens = None, output_tokens = None, served_by = None, latency_ms = 0.0))]
-    #[allow(clippy::too_many_arguments, reason = "they are the parts of an answer")]
+    #[allow(clippy::too_many_arguments, reason = "the arguments are the parts of an answer")]
     fn answer(
         &mut self,
         text: String,
@@ -410,7 +410,7 @@ impl Series {
 fn events(log: &str) -> PyResult<Vec<Event>> {
     let event = |(number, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
-            bad_log(format_args!("line {} is not an event of an episode: {error}", number + 1))
+            bad_log(format_args!("line {} is not a valid event of an episode: {error}", number + 1))
         })
     };
     log.lines().enumerate().map(event).collect()
@@ -424,7 +424,7 @@ fn events(log: &str) -> PyResult<Vec<Event>> {
 /// states whether the log is complete.
 #[pyfunction]
 #[pyo3(signature = (game, id, levels, log, *, level = None, run = 0, seed = None, max_steps = None, commit = "1", track = None))]
-#[allow(clippy::too_many_arguments, reason = "they are the settings of an evaluation")]
+#[allow(clippy::too_many_arguments, reason = "the arguments are the settings of an evaluation")]
 pub(crate) fn replay_log(
     py: Python<'_>,
     game: &Game,

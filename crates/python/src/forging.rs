@@ -43,7 +43,7 @@ pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -
 /// witnesses, and the cost.
 #[pyfunction]
 #[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, sprites = Vec::new()))]
-#[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
+#[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
 pub(crate) fn generate_levels(
     py: Python<'_>,
     game: &Game,
@@ -117,7 +117,8 @@ pub(crate) fn generate_games(
     let kinds: Vec<Kind> = kinds.iter().map(kind).collect::<PyResult<_>>()?;
     if !kinds.is_empty() && method != Method::Constructive {
         return Err(invalid(format!(
-            "kinds are those of hand-written kernels, whose games are only drawn: leave out the method `{method}`, or the kinds"
+            "kinds select hand-written kernels, which the method `{method}` does not use: omit the method \
+             or the kinds"
         )));
     }
     py.detach(|| {

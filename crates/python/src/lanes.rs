@@ -208,10 +208,10 @@ impl Lanes {
         let Some(first) = levels.first() else { return Err(invalid("there is no level to play")) };
         let game = first.get().game.clone();
         if levels.iter().any(|level| level.get().game.0.game.digest() != game.0.game.digest()) {
-            return Err(invalid("all levels of a vector environment are of one game"));
+            return Err(invalid("all levels of a vector environment must belong to one game"));
         }
         if count == 0 || max_steps == 0 {
-            return Err(invalid("an environment takes at least one lane and one step"));
+            return Err(invalid("an environment needs at least one lane and one step"));
         }
         let sight = match observation {
             "planes" => Sight::Planes,
@@ -219,7 +219,7 @@ impl Lanes {
             "rgb" => Sight::Rgb(cell),
             _ => {
                 let message =
-                    format_args!("there is no observation `{observation}`; choose planes, symbols or rgb");
+                    format_args!("unknown observation `{observation}`; choose planes, symbols or rgb");
                 return Err(invalid(message));
             }
         };
@@ -345,7 +345,7 @@ impl Lanes {
     /// Sets the level that a lane plays, starting with its next episode.
     fn choose(&mut self, lane: usize, level: usize) -> PyResult<()> {
         if level >= self.setting.roots.len() {
-            return Err(invalid(format_args!("there is no level {level} among those of the environment")));
+            return Err(invalid(format_args!("the environment has no level {level}")));
         }
         self.lanes.get_mut(lane).ok_or_else(|| invalid("there is no such lane"))?.root = level;
         Ok(())
@@ -384,9 +384,9 @@ impl Lanes {
         Ok(())
     }
 
-    /// Plays one step in every lane. If new episodes start in the same step, `last` receives the last
-    /// observations of the episodes that ended. Returns the number of episodes that ended.
-    #[allow(clippy::too_many_arguments, reason = "one array each")]
+    /// Plays one step in every lane. If lanes reset in the same step, `last` receives the last observations of the episodes that
+    /// ended. Returns the number of episodes that ended.
+    #[allow(clippy::too_many_arguments, reason = "each argument is an array")]
     fn step(
         &mut self,
         py: Python<'_>,
@@ -464,7 +464,7 @@ impl Lanes {
         let Lanes { setting, lanes, actions: named, .. } = self;
         let wrong = |action: &i64| usize::try_from(*action).map_or(true, |at| at >= named.len());
         if chosen.is_empty() || chosen.iter().any(wrong) {
-            return Err(invalid("these are not actions of the game"));
+            return Err(invalid("some of these are not actions of the game"));
         }
         Ok(py.detach(|| {
             let (game, mut at, mut ended) = (&setting.rules().game, 0, 0);

@@ -26,7 +26,7 @@ pub(crate) fn recipe(name: &str) -> Option<&'static str> {
 /// Mints a release, or shard `K/N` of a release, from the text of its recipe.
 #[pyfunction]
 #[pyo3(signature = (recipe, out, *, parent = None, secret = None, shard = None, resume = false, jobs = None))]
-#[allow(clippy::too_many_arguments, reason = "they are the flags of the command")]
+#[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
 pub(crate) fn mint(
     py: Python<'_>,
     recipe: &str,
@@ -44,7 +44,7 @@ pub(crate) fn mint(
         match &parent {
             Some(parent) => follow(&mut recipe, parent).map_err(failed)?,
             None if recipe.parent.is_some() => {
-                return Err(failed("the recipe has a parent: pass its folder"));
+                return Err(failed("the recipe has a parent: pass the parent's folder"));
             }
             None => {}
         }

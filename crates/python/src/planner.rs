@@ -27,7 +27,7 @@ impl Planner {
         let spec: PlannerSpec = name.parse().map_err(invalid)?;
         let (seed, budget) = (seed_of(seed), spec.budget().unwrap_or(Budget(budget)));
         if budget > Budget::MOST {
-            return Err(invalid(format!("budget={} is more than {}", budget.0, Budget::MOST.0)));
+            return Err(invalid(format!("budget={} exceeds the limit of {}", budget.0, Budget::MOST.0)));
         }
         Ok(Planner { player: OpenLoop::new(spec.player(seed), budget, seed), spec })
     }

@@ -72,7 +72,7 @@ fn broken(caption: &str, letters: usize) -> Vec<String> {
     let mut full = true;
     for word in rest.split_whitespace() {
         let many = lines.len();
-        let last = lines.last_mut().expect("there is one");
+        let last = lines.last_mut().expect("the caption has a line");
         let fits = last.chars().count() + 1 + word.chars().count() <= letters;
         if !full && (fits || many == LINES) {
             last.push(' ');

@@ -246,10 +246,10 @@ mod tests {
 
     #[test]
     fn a_figure_is_stated_once_and_told_twice() {
-        let validity = Section::new("validity", "Are they levels?", "")
+        let validity = Section::new("validity", "Are the levels valid?", "")
             .share("passes", "every criterion met", Share::new(1, 2))
             .gain("order", "order", None)
-            .tally("obstacles", "fail first", &BTreeMap::from([("length".to_owned(), 1)]), Some(2))
+            .tally("obstacles", "first failure", &BTreeMap::from([("length".to_owned(), 1)]), Some(2))
             .data("fit", &[1]);
         let report = SetReport::default()
             .data("count", &2)
@@ -261,7 +261,7 @@ mod tests {
                 ("skill", "wins", "gain"),
             ]);
         let names: Vec<&str> = report.sections[0].figures.iter().map(|figure| figure.name.as_str()).collect();
-        assert_eq!(names, ["every criterion met", "fail first: length"]);
+        assert_eq!(names, ["every criterion met", "first failure: length"]);
         assert_eq!(report.headlines.iter().map(|figure| figure.name.as_str()).collect::<Vec<_>>(), ["pass"]);
         let json: serde_json::Value = serde_json::from_str(&report.to_json().unwrap()).unwrap();
         assert_eq!((&json["skill"], &json["count"]), (&serde_json::Value::Null, &2.into()));

@@ -219,7 +219,7 @@ impl Table {
             writer.write_record(fields).expect("memory can be written, and every row has the same fields");
         }
         let bytes = writer.into_inner().expect("memory can be written");
-        String::from_utf8(bytes).expect("what was written is text")
+        String::from_utf8(bytes).expect("the writer writes UTF-8")
     }
 
     /// Formats the table as a LaTeX `table` that requires no packages.

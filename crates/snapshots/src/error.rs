@@ -69,7 +69,7 @@ pub enum SnapshotError {
     #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.in_message())]
     Busy(PathBuf),
     /// The output path ends in `..` or `.` or is the root of the file system.
-    #[error("`{}` does not end in a folder name: name the folder to create, as in --out releases/new", .0.in_message())]
+    #[error("`{}` does not end in a folder name: specify the folder to create, as in --out releases/new", .0.in_message())]
     Nameless(PathBuf),
     /// A release may not contain this relative path.
     #[error("`{}` cannot be in a snapshot: {problem}; rename it", path.escape_debug())]

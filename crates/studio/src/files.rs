@@ -48,7 +48,7 @@ pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refu
         let text = read_text(&folder.join(file), MAX_LEVEL_TEXT)?;
         left = left.checked_sub(text.len()).ok_or_else(|| {
             Refusal::bad(format_args!(
-                "the levels of this game have more than {MAX_ALL_LEVELS} bytes together"
+                "the levels of this game are larger than {MAX_ALL_LEVELS} bytes in total"
             ))
             .help("move some of them to another folder")
         })?;
@@ -92,7 +92,7 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
         // Writing would replace a link by a file, without changing the link's target.
         Ok(found) if !found.is_file() => {
             Err(Refusal::forbidden(format_args!("{} is not a regular file", shown(file)))
-                .help("replace it with a regular file to change it here"))
+                .help("replace the link or device with a regular file to change it here"))
         }
         Ok(_) => read_text(file, MAX_LEVEL_TEXT.max(MAX_SOURCE)).map(Some),
     }
@@ -103,7 +103,7 @@ pub(crate) fn check_folder(folder: &Path) -> Result<(), Refusal> {
     match fs::symlink_metadata(folder) {
         Ok(found) if found.is_symlink() => {
             Err(Refusal::forbidden(format_args!("{} is a link to another folder", shown(folder)))
-                .help("open that folder itself to change the game"))
+                .help("open the other folder to change the game"))
         }
         _ => Ok(()),
     }

@@ -57,17 +57,17 @@ impl Guard {
         };
         let own = |host: &str| self.hosts.iter().any(|own| host.eq_ignore_ascii_case(own));
         if !matches!(all(&header::HOST)[..], [host] if own(host)) {
-            return forbidden("this server answers only under its own address");
+            return forbidden("this server answers only requests to its own address");
         }
         let own_origin = |origin: &&str| origin.strip_prefix("http://").is_some_and(own);
         if !all(&header::ORIGIN).iter().all(own_origin) {
-            return forbidden("this server does not answer pages from other origins");
+            return forbidden("this server rejects requests from pages of other origins");
         }
         if path != "/api" && !path.starts_with("/api/") {
             return None;
         }
         if !all(&FETCH_SITE).iter().all(|site| ["same-origin", "none"].contains(site)) {
-            return forbidden("this server does not answer pages from other sites");
+            return forbidden("this server rejects requests from pages of other sites");
         }
         if !matches!(all(&TOKEN)[..], [token] if equal(token, &self.token)) {
             return forbidden("the token is missing or wrong");
@@ -109,5 +109,5 @@ pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Ne
 
 /// Rejects a method that a path does not support.
 pub(crate) async fn no_method() -> Response {
-    Refusal::new(StatusCode::METHOD_NOT_ALLOWED, "this path has no such method").into_response()
+    Refusal::new(StatusCode::METHOD_NOT_ALLOWED, "this path does not support the method").into_response()
 }

@@ -104,7 +104,7 @@ impl Server {
 async fn page(uri: Uri) -> Response {
     let path = uri.path();
     if path == "/api" || path.starts_with("/api/") {
-        return Refusal::missing("there is no such question").into_response();
+        return Refusal::missing("there is no such API endpoint").into_response();
     }
     let name = match path.trim_start_matches('/') {
         "" => "index.html",

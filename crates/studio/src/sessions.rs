@@ -95,7 +95,7 @@ impl Session {
         let Budget(calls) = spec.budget().unwrap_or(Budget(USUAL_CALLS));
         if calls > MOST_CALLS {
             return Err(Refusal::bad(format_args!(
-                "a planner has at most {MOST_CALLS} calls per decision here"
+                "the limit in the studio is {MOST_CALLS} calls per decision"
             )));
         }
         let known = self.planner.take().filter(|(known, _)| known == spec.name());
@@ -159,7 +159,7 @@ impl Sessions {
             numbered.all.iter().find(|(number, _)| number.to_string() == name).map(|(_, found)| found.clone())
         };
         let Some(session) = found else {
-            return Err(Refusal::missing("this game was closed, because newer ones took its place")
+            return Err(Refusal::missing("this game was closed, because newer games took its place")
                 .help("start it again"));
         };
         work(&mut session.lock().unwrap_or_else(PoisonError::into_inner))

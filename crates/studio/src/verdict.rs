@@ -123,7 +123,7 @@ impl Subject<'_> {
         let criteria = Criteria { ask, budget, ..Criteria::full() }.check().map_err(Refusal::failed)?;
         let panel = Panel::new(criteria, Effort::Full);
         let mut report = panel.judge(Judging::level(&self.compiled.game, self.level, self.seed));
-        Ok(report.judgements.pop().expect("one criterion was asked"))
+        Ok(report.judgements.pop().expect("one criterion was requested"))
     }
 }
 

@@ -187,7 +187,7 @@ impl GameEntry {
 
     /// Returns the path of a file by name. The file is the game itself or a level.
     pub(crate) fn path_of(&self, name: &str) -> Result<PathBuf, Refusal> {
-        let unknown = |help: &str| Refusal::missing("the game has no file of that name").help(help);
+        let unknown = |help: &str| Refusal::missing("the game has no file with this name").help(help);
         match &self.place {
             Place::Texts { .. } => {
                 Err(Refusal::forbidden("this game cannot be changed").help("copy it first"))
@@ -208,7 +208,7 @@ impl GameEntry {
             },
             Place::File { file, .. } if file.file_name().is_some_and(|own| own == name) => Ok(file.clone()),
             Place::File { .. } => Err(unknown(
-                "a game that is a single file has no levels beside it; put it into a folder as game.vgdl",
+                "a game in a single file cannot have new levels; move the file into a folder as game.vgdl",
             )),
         }
     }

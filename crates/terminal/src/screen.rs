@@ -18,8 +18,8 @@ const IDLE: Duration = Duration::from_millis(500);
 pub enum PlayError {
     /// Standard input or standard error is not a terminal.
     #[error(
-        "there is no terminal to play in (standard input and standard error must be one); \
-         `arcade render` draws boards and episodes without one"
+        "playing requires a terminal for standard input and standard error; `arcade render` draws boards \
+         and episodes without a terminal"
     )]
     NoTerminal,
     /// The terminal has fewer columns or rows than a board needs.

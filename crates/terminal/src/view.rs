@@ -177,7 +177,7 @@ fn manner(session: &Session) -> String {
     let ticks = session.episode().actions.len();
     let who = match &session.player {
         Player::Person => String::new(),
-        Player::Planner { name, budget, .. } => format!("{name} plays, {} calls a tick; ", budget.0),
+        Player::Planner { name, budget, .. } => format!("{name} plays, {} calls per tick; ", budget.0),
         Player::Recording(actions) => {
             format!("recording, {ticks} of {}; ", base::count(actions.len(), "tick"))
         }
@@ -189,7 +189,7 @@ fn manner(session: &Session) -> String {
     } else if session.paused {
         "paused".to_owned()
     } else {
-        format!("{} ticks a second", session.pace)
+        format!("{} ticks per second", session.pace)
     };
     format!("{who}{when}")
 }

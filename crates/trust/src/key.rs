@@ -114,13 +114,13 @@ const NOT_PUBLIC: &str = "not a minisign public key: use the file `NAME.pub` tha
 /// Parses a signature. Each signature has only one accepted textual form.
 fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     if text.len() as u64 > MAX_KEY_FILE {
-        return Err("it is not a minisign signature: it is too long".to_owned());
+        return Err("it is not a minisign signature: the text is too long".to_owned());
     }
     // Different programs write different comments, but the same signature lines.
     let found = SignatureBox::from_string(text).map_err(|error| error.to_string().to_lowercase())?;
     match found.to_string().trim_end() == text.replace("\r\n", "\n").trim_end() {
         true => Ok(found),
-        false => Err("it is not a minisign signature: it has more than four plain lines".to_owned()),
+        false => Err("it is not a minisign signature: the text is not exactly four lines".to_owned()),
     }
 }
 
@@ -186,7 +186,7 @@ impl SecretKey {
         let point = ed25519_compact::KeyPair::from_seed(seed).pk;
         match *point == key.bytes()[32..] {
             true => Ok(key),
-            false => Err(TrustError::Key("the secret key is damaged: use a backup of it".to_owned())),
+            false => Err(TrustError::Key("the secret key is damaged: restore it from a backup".to_owned())),
         }
     }
 

@@ -114,7 +114,7 @@ impl KeySet {
         if self.threshold == 0 || self.threshold as usize > self.keys.len() {
             let count = self.keys.len();
             return Err(format!(
-                "its threshold is {}, but it has {}: choose 1 to {count}",
+                "its threshold is {}, but it has {}: choose a threshold from 1 to {count}",
                 self.threshold,
                 base::count(count, "key")
             ));
@@ -125,7 +125,7 @@ impl KeySet {
             let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
             if name.is_empty() || name.len() > 40 || !name.chars().all(plain) {
                 return Err(format!(
-                    "the name `{}` of a key is not 1 to 40 lower-case letters, digits and `-`",
+                    "the key name `{}` must consist of 1 to 40 lower-case letters, digits and `-`",
                     name.escape_debug()
                 ));
             }
@@ -135,14 +135,14 @@ impl KeySet {
             let point =
                 PublicKey::parse(key).map_err(|error| format!("the key of `{name}` is {error}"))?.point();
             if !points.insert(point) {
-                return Err(format!("the key of `{name}` is in it twice"));
+                return Err(format!("the key of `{name}` occurs twice"));
             }
         }
         for RevokedKey { name, key, .. } in &self.revoked {
             let key =
                 PublicKey::parse(key).map_err(|error| format!("the revoked key of `{name}` is {error}"))?;
             if !points.insert(key.point()) {
-                return Err(format!("the revoked key of `{name}` is in it twice, or not revoked"));
+                return Err(format!("the revoked key of `{name}` occurs twice, or is still in force"));
             }
         }
         Ok(())
@@ -217,7 +217,8 @@ impl KeySet {
             return Err(vec![format!("{place}: not a set of keys")]);
         };
         if next.version != self.version.saturating_add(1) || next.previous != Some(digest) {
-            problems.push(format!("{place}: it does not follow {}, whose digest is {digest}", self.file()));
+            problems
+                .push(format!("{place}: the set does not follow {}, whose digest is {digest}", self.file()));
         }
         for RevokedKey { name, key, .. } in &self.revoked {
             if !next.revoked.iter().any(|revoked| revoked.key == *key) {

@@ -217,7 +217,7 @@ impl Signatures {
             };
             if statement.root != *root || statement.release != release {
                 let (name, other) = (&statement.release, statement.root);
-                faults.push(format!("{file}: it is about `{name}` with root {other}"));
+                faults.push(format!("{file}: the statement is about `{name}` with root {other}"));
                 continue;
             }
             let signed = self.judge_statement(file, statement, anchor);
@@ -252,9 +252,10 @@ impl Signatures {
         match self.statements.get(file) {
             Some(Ok(statement)) => self.judge_statement(file, statement, anchor),
             Some(Err(fault)) => Signed { problems: vec![fault.clone()], ..Signed::default() },
-            None => {
-                Signed { problems: vec![format!("{file}: there is no such statement")], ..Signed::default() }
-            }
+            None => Signed {
+                problems: vec![format!("{file}: the statement does not exist")],
+                ..Signed::default()
+            },
         }
     }
 
@@ -266,7 +267,7 @@ impl Signatures {
             Signed { problems, keys, commit, lockfile, ..Signed::default() }
         };
         let Ok(message) = statement.to_bytes() else {
-            return refuse(vec![format!("{file}: it is not in canonical form")], None);
+            return refuse(vec![format!("{file}: the statement is not in canonical form")], None);
         };
         let mut problems = Vec::new();
         let (set, newest) = match anchor {
@@ -281,14 +282,16 @@ impl Signatures {
             Anchor::Set(anchor) => {
                 let newest = self.newest(anchor, &mut problems);
                 let Some(keys) = statement.keys else {
-                    problems
-                        .push(format!("{file}: it does not specify a set of keys, so it may be outdated"));
+                    problems.push(format!(
+                        "{file}: the statement does not specify a set of keys, so it may be \
+                                       outdated"
+                    ));
                     return refuse(problems, Some(&newest));
                 };
                 let Some(set) = self.ancestor(&newest, keys.version, keys.digest) else {
                     problems.push(format!(
-                        "{file}: it names the set of keys {} with digest {}, which does not lead to or from the one that \
-                         you trust, {} ({})",
+                        "{file}: the statement specifies the set of keys {} with digest {}, which is not \
+                         connected with the set that you trust, {} ({})",
                         keys.version,
                         keys.digest,
                         anchor.version,
@@ -319,8 +322,8 @@ impl Signatures {
             let others: Vec<String> =
                 self.of(file).iter().filter_map(|text| crate::key::signer_of(text)).collect();
             let others = match others.as_slice() {
-                [] => "there is no signature next to it".to_owned(),
-                ids => format!("the signatures next to it are by {}", ids.join(", ")),
+                [] => "there is no signature next to the statement".to_owned(),
+                ids => format!("the signatures next to the statement are by {}", ids.join(", ")),
             };
             problems.push(format!(
                 "{file}: not signed by the key {}; {others}{}{}",
@@ -404,7 +407,7 @@ pub fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, TrustError> {
         Ok(Some(bytes)) => Ok(bytes),
         Ok(None) => Err(TrustError::document(
             shown(),
-            format!("has more than {limit} bytes, which no such file has: check the path"),
+            format!("is larger than {limit} bytes, the limit for such a file: check the path"),
         )),
         Err(error) if error.kind() == ErrorKind::IsADirectory => {
             Err(TrustError::document(shown(), "is a folder: pass a file in it"))

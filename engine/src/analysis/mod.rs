@@ -230,7 +230,7 @@ impl Analysis {
     /// Panics if `avatar` is not among [`Analysis::avatars`].
     pub fn touch(&self, avatar: SpriteType, other: SpriteType) -> &Touch {
         let at = self.avatars.iter().position(|known| known.stype == avatar);
-        &self.touches[at.expect("one of the avatar types")][other.index()]
+        &self.touches[at.expect("the type is an avatar type")][other.index()]
     }
 
     /// Returns the worst harm that contact with a type does to the avatar, over all avatar types.

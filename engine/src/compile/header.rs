@@ -39,8 +39,9 @@ impl Header {
                 }
                 ("no_players", Value::Int(1)) => {}
                 ("no_players", Value::Int(players)) if players > 1 => {
-                    let message =
-                        format!("games of several players are not supported, and this one is for {players}");
+                    let message = format!(
+                        "games for several players are not supported, but this game is for {players}"
+                    );
                     let help = "make it a game of one player: remove `no_players`, and all avatars but one";
                     problems.push(unsupported(param, message).help(help));
                 }

@@ -200,7 +200,10 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
             let message = match earlier == last {
                 true => format!("`{key}` is given twice on this line"),
                 false => {
-                    format!("`{key}` is given twice on this line: `{earlier}`, and `{last}`, which counts")
+                    format!(
+                        "`{key}` is given twice on this line: `{earlier}` and `{last}`; the last \
+                             value counts"
+                    )
                 }
             };
             let problem = Diagnostic::warning("duplicate-parameter", param.span(), message);
@@ -228,7 +231,7 @@ fn refuse_large(description: &Description) -> Result<(), Diagnostics> {
 fn too_many(description: &Description, what: &str, count: usize, most: usize) -> Diagnostic {
     let message = format!("the game has {count} {what}; the limit is {most}");
     let problem = Diagnostic::error("too-large", description.header.class.span, message);
-    problem.help("split it into several games")
+    problem.help("split the game into several games")
 }
 
 /// Reports undeclared names that are similar to a declared but unused name. The declaration counts as
@@ -300,7 +303,7 @@ fn report_sprites_that_never_exist(
                 .map(|info| info.name.as_str())
                 .filter(|known| !description.sprite_lines().iter().any(|(_, line)| line.name.text == *known));
             let problem =
-                problem.help(format!("add it to the LevelMapping, or remove `{name}` and its rules"));
+                problem.help(format!("add `{name}` to the LevelMapping, or remove it and its rules"));
             problems.push(problem.suggest(name, undeclared));
         }
     }
@@ -346,7 +349,7 @@ fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases
         let Some(code) = free.next() else {
             let message = "the LevelMapping has more characters than can be distinguished";
             let problem = Diagnostic::error("too-large", line.span, message);
-            problems.push(problem.help("use fewer, or split the game into several"));
+            problems.push(problem.help("use fewer characters, or split the game into several games"));
             break;
         };
         found.0.push(Alias { code, unit, character: line.symbol });
@@ -372,7 +375,7 @@ fn mapping(
         if !seen.insert(line.symbol) {
             let message = format!("`{}` is mapped twice", line.symbol);
             let problem = Diagnostic::error("duplicate-mapping", line.span, message);
-            problems.push(problem.help("remove one of the two lines, or give it another character"));
+            problems.push(problem.help("remove one of the two lines, or use a different character"));
         }
         let code = match u8::try_from(line.symbol) {
             Ok(code @ ..128) => Some(code),
@@ -472,7 +475,7 @@ impl<'a> Names<'a> {
             let below: Vec<&str> = of_it.map(|other| other.name.as_str()).take(shown).collect();
             // If no subtype has a class, the problem is already reported for the type's own line.
             if !below.is_empty() {
-                let message = format!("`{}` has no class, so there can be no such sprite", name.text);
+                let message = format!("`{}` has no class, so no sprite of this type can exist", name.text);
                 let problem = Diagnostic::error("no-class", name.span, message);
                 problems.push(problem.help(format!("use one of its subtypes: {}", below.join(", "))));
             }

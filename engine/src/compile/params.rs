@@ -174,7 +174,7 @@ pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize)
     let key = param.key.text.as_str();
     let message = format!("{} has no parameter `{key}`", class.name());
     let problem = Diagnostic::error("unknown-parameter", param.key.span, message);
-    let problem = problem.help(format!("remove it: {} does nothing with it", class.name()));
+    let problem = problem.help(format!("remove the parameter: {} does not use it", class.name()));
     let problem = problem.mean_after(
         found,
         Place::SpriteParameter,
@@ -189,7 +189,8 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
     let key = param.key.text.as_str();
     if BOOK_KEEPING.contains(&key) {
         let message = format!("`{key}` is set by the engine");
-        let problem = Diagnostic::error("bad-parameter", param.key.span, message).help("remove it");
+        let problem =
+            Diagnostic::error("bad-parameter", param.key.span, message).help("remove the parameter");
         return Err(problem.remove(param.span(), key));
     }
     let value = convert(key, &param.value.text);

@@ -96,7 +96,8 @@ impl Subject<'_> {
         let text = param.value.text.as_str();
         if !matches!(convert(key, text), Value::Text(_)) {
             let problem = wrong_type(param, Expected::Text);
-            let help = format!("`{text}` is read as a constant or a number: give the sprite another name");
+            let help =
+                format!("`{text}` is read as a constant or a number: give the sprite a different name");
             problems.push(if names.find(text).is_some() { problem.help(help) } else { problem });
             return found;
         }
@@ -113,12 +114,13 @@ impl Subject<'_> {
         let count = list.split(',').count();
         if count > MAX_LIST {
             let message = format!("`{key}` lists {count} sprites; the limit is {MAX_LIST}");
-            problems.push(Diagnostic::error("too-large", param.value.span, message).help("list fewer"));
+            problems
+                .push(Diagnostic::error("too-large", param.value.span, message).help("list fewer sprites"));
             return found;
         }
         if list != text {
             let message = format!("`{key}` ends with a comma");
-            let problem = Diagnostic::error("wrong-type", param.value.span, message).help("remove it");
+            let problem = Diagnostic::error("wrong-type", param.value.span, message).help("remove the comma");
             problems.push(problem.replace(param.value.span, list));
         }
         let mut start = param.value.span.start;
@@ -139,7 +141,7 @@ impl Subject<'_> {
             if self.class == C::Spreader && self.leaf {
                 let message = format!("without `stype=`, `{}` would spread into its own type", self.name);
                 let problem = Diagnostic::error("spawns-itself", self.span, message);
-                problems.push(problem.help(format!("{dies}; choose another type with `stype=`")));
+                problems.push(problem.help(format!("{dies}; choose a different type with `stype=`")));
             }
             return;
         };
@@ -151,7 +153,7 @@ impl Subject<'_> {
             if word.text == self.name && iterates {
                 let message = format!("`{}` would make sprites of its own type", self.name);
                 let problem = Diagnostic::error("spawns-itself", param.value.span, message);
-                problems.push(problem.help(format!("{dies}; let it make another type")));
+                problems.push(problem.help(format!("{dies}; let it make a different type")));
             }
         }
     }

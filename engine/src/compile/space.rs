@@ -44,7 +44,7 @@ pub(super) fn settled<'a>(
     for (name, span, _) in space.parameters.iter().filter(|(name, ..)| !space.used.contains(name)) {
         let message = format!("`{name}` is never used as a value");
         let problem = Diagnostic::warning("unused-parameter", *span, message);
-        problems.push(problem.help("write it where a value is wanted, or remove it"));
+        problems.push(problem.help("use the parameter as a value, or remove it"));
     }
     Cow::Owned(game)
 }
@@ -93,7 +93,10 @@ impl<'a> Space<'a> {
             let span = given("values").map_or(line.name.span, Param::span);
             let message = format!("`{}` needs `values=min:step:max`, or `values=True:False`", line.name.text);
             let problem = Diagnostic::error("bad-parameter-values", span, message);
-            problems.push(problem.help("write three numbers, the step leading from the first to the last"));
+            problems.push(problem.help(
+                "write three numbers with a step that leads from the first value \
+                                        to the last",
+            ));
             return Values::Int(1);
         };
         // The reference fails only if it draws from an empty range, which `value=` makes unnecessary.
@@ -113,7 +116,7 @@ impl<'a> Space<'a> {
                 let message =
                     format!("`{}` has no `value=`, so the game is not fully specified", line.name.text);
                 let problem = Diagnostic::error("missing-parameter", line.name.span, message);
-                problems.push(problem.help(format!("add `value={}`, or another one", range.text(0))));
+                problems.push(problem.help(format!("add `value={}`, or a different value", range.text(0))));
             }
             return range;
         };
@@ -124,7 +127,7 @@ impl<'a> Space<'a> {
             _ => boolean(text).map(Values::Bool),
         };
         found.unwrap_or_else(|| {
-            let message = format!("`{text}` is not a value of this kind");
+            let message = format!("`{text}` is not a value of this parameter");
             let problem = Diagnostic::error("bad-parameter-values", value.value.span, message);
             problems.push(problem.help(format!("write `value={}`, for example", range.text(0))));
             range

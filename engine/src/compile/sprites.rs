@@ -120,10 +120,14 @@ fn inherit<'a>(
         for param in &line.params {
             own_params.retain(|inherited| inherited.key.text != param.key.text);
             if own_params.len() == MAX_PARAMETERS {
-                let message =
-                    format!("a sprite has at most {MAX_PARAMETERS} parameters, inherited ones included");
+                let message = format!(
+                    "a sprite has at most {MAX_PARAMETERS} parameters, including inherited parameters"
+                );
                 let problem = Diagnostic::error("too-large", param.key.span, message);
-                problems.push(problem.help("no class has that many: remove those that are not intended"));
+                problems.push(problem.help(
+                    "no class has that many parameters: remove the unintended \
+                                            parameters",
+                ));
                 break;
             }
             own_params.push(param);
@@ -153,7 +157,7 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
         match (&line.class, inherited) {
             (Some(own), Some((class, parent))) if line.children.is_empty() => {
                 let message = match own.text == class.text {
-                    true => format!("`{name}` is a subtype of `{parent}` and has its class anyway"),
+                    true => format!("`{name}` is a subtype of `{parent}`, and so inherits its class"),
                     false => {
                         let (class, own) = (&class.text, &own.text);
                         format!("`{name}` is a subtype of `{parent}`: its class is {class}, not {own}")
@@ -212,7 +216,7 @@ fn duplicates(resolved: &[Resolved<'_>], problems: &mut Vec<Diagnostic>) {
         if resolved[..at].iter().any(|other| other.name == sprite.name) {
             let message = format!("`{}` is declared twice", sprite.name);
             let problem = Diagnostic::error("duplicate-sprite", line.name.span, message);
-            problems.push(problem.help("remove one of the two, or give it another name"));
+            problems.push(problem.help("remove one of the two lines, or choose a different name"));
         }
         if sprite.name.eq_ignore_ascii_case("EOS") || sprite.name.eq_ignore_ascii_case("TIME") {
             let message = format!("`{}` is a reserved word in interactions", sprite.name);
@@ -268,7 +272,7 @@ fn type_info<'a>(
         if !(factor > 0.0 && factor <= f64::from(MAX_REACH)) {
             let given = sprite.params.iter().find(|param| param.key.text == key);
             let span = given.map(|param| param.value.span).unwrap_or_default();
-            let message = format!("`{key}` is a number of cells above 0 and at most {}", MAX_REACH);
+            let message = format!("`{key}` must be a number of cells above 0 and up to {}", MAX_REACH);
             let problem = Diagnostic::error("bad-parameter", span, message);
             let problem = problem.help(format!("leave it out to get `{key}=1`"));
             problems.push(match given {

@@ -46,7 +46,7 @@ pub fn convert(file: &str) -> Conversion {
         None => (file, Vec::new()),
     };
     if let Some(python) = &python {
-        let to = format!("the game in it, and {} of its levels", levels.len());
+        let to = format!("the game in the string, and {} of its levels", levels.len());
         changes.push(Change { line: python.line, from: "a string of Python".to_owned(), to });
     }
     let source = without_tabs(source, &mut changes);
@@ -71,7 +71,10 @@ pub fn convert(file: &str) -> Conversion {
     problems.extend(left);
     for &other in python.iter().flat_map(|python| &python.others) {
         let at = source.len();
-        let message = format!("the game that starts in line {other} is not converted: only the first one is");
+        let message = format!(
+            "the game that starts in line {other} is not converted, because only the \
+                               first game is"
+        );
         problems.push(Diagnostic::error("other-dialect", Span::new(at, at), message));
     }
     changes.sort_by_key(|change| change.line);
@@ -140,7 +143,7 @@ fn header(description: &mut Description, changes: &mut Changes<'_>) {
             true
         }
         "frame_rate" | "title" | "name" | "MAX_SPRITES" | "seed" => {
-            changes.without(param, "it isn't part of the rules");
+            changes.without(param, "the parameter is not part of the rules");
             false
         }
         _ => true,
@@ -166,11 +169,11 @@ fn sprite_line(sprite: &mut SpriteLine, changes: &mut Changes<'_>) {
                 true
             }
             ("color", _) if !matches!(constant(&param.value.text), Some(Constant::Color(_))) => {
-                changes.without(param, "a colour that has no name here; it only affects images");
+                changes.without(param, "this colour has no name in VGDL, and affects images only");
                 false
             }
             ("alternate_keys", _) => {
-                changes.without(param, "it isn't part of the rules");
+                changes.without(param, "the parameter is not part of the rules");
                 false
             }
             _ => true,
@@ -249,7 +252,7 @@ fn effects(description: &mut Description, changes: &mut Changes<'_>) {
                 true
             }
             "friction" if param.value.text.parse::<f64>() == Ok(0.0) => {
-                changes.without(param, "there is no friction in any effect");
+                changes.without(param, "effects have no friction");
                 false
             }
             _ => true,

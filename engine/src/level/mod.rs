@@ -101,7 +101,7 @@ impl Game {
                 format!("the level is {} bytes long; the size limit is {MAX_LEVEL_TEXT}", text.len());
             return fail(
                 Diagnostic::error("too-large", everything, message)
-                    .help("split it, or is this a level file?"),
+                    .help("split the level, or check that this is a level file"),
             );
         }
         let lines = level_lines(text);
@@ -119,10 +119,12 @@ impl Game {
         }
         if columns > MAX_SIDE || rows > MAX_SIDE || columns * rows > MAX_CELLS {
             let message = format!(
-                "the level has {columns} columns and {rows} rows; the limits are {MAX_SIDE} a side and {MAX_CELLS} cells"
+                "the level has {columns} columns and {rows} rows; the limits are {MAX_SIDE} per side and \
+                 {MAX_CELLS} cells in total"
             );
             return fail(
-                Diagnostic::error("too-large", everything, message).help("make it smaller, or split it"),
+                Diagnostic::error("too-large", everything, message)
+                    .help("make the level smaller, or split it"),
             );
         }
         let mut reader = LevelReader {
@@ -256,10 +258,11 @@ impl LevelReader<'_> {
         if let Some(second) = second.filter(|&second| others.all(|other| other == second)) {
             let span = Span::new(lines[0].0, lines[0].0 + lines[0].1.len());
             let fill = Edit::new(Span::new(span.end, span.end), " ".repeat(second.saturating_sub(columns)));
-            let message = format!("the first row has {columns} characters, all others have {second}");
+            let message = format!("the first row has {columns} characters, but all other rows have {second}");
             let others = if columns < second { "cut off" } else { "padded with spaces" };
             let help = format!(
-                "the level is as wide as its first row, so the others are {others}: make it as long as they are"
+                "the level is as wide as its first row, so the other rows are {others}: make the first \
+                 row as long as the others"
             );
             let problem = Diagnostic::warning("ragged-level", span, message).help(help);
             self.problems.push(match columns < second {
@@ -269,10 +272,11 @@ impl LevelReader<'_> {
             return;
         }
         for &(start, line) in lines.iter().filter(|(_, line)| length(line) != columns) {
-            let message = format!("this row has {} characters, the first one has {columns}", length(line));
+            let message =
+                format!("this row has {} characters, but the first row has {columns}", length(line));
             // Mark the part that is cut off, or the whole row if it is too short.
             let (from, help) = match line.char_indices().nth(columns) {
-                Some((from, _)) => (from, "the rest is cut off: shorten this row, or lengthen the first one"),
+                Some((from, _)) => (from, "the rest is cut off: shorten this row, or lengthen the first row"),
                 None => (0, "missing cells count as spaces: extend the row, with spaces if intended"),
             };
             let span = Span::new(start + from, start + line.len());
@@ -316,7 +320,13 @@ impl LevelReader<'_> {
                         "did you mean `{unused}`, which this level never uses? or is `{shown}` meant in the LevelMapping?"
                     ),
                 ),
-                (None, _, Some(near)) => (Some(near), format!("did you mean `{near}`, as around it?")),
+                (None, _, Some(near)) => (
+                    Some(near),
+                    format!(
+                        "did you mean `{near}`, like the cells \
+                    around it?"
+                    ),
+                ),
                 _ if self.unplaced(symbol).is_some() => {
                     let name = self.unplaced(symbol).unwrap_or_default();
                     (
@@ -328,13 +338,18 @@ impl LevelReader<'_> {
                 }
                 _ if symbol.is_ascii_graphic() && symbol != '#' => (
                     None,
-                    format!("add a line `{shown} > …` to the LevelMapping, or use a character that is in it"),
+                    format!(
+                        "add a line `{shown} > …` to the LevelMapping, or use a character from the \
+                             LevelMapping"
+                    ),
                 ),
                 _ => (None, "use a character that is in the LevelMapping".to_owned()),
             };
             let message = match count {
                 _ if symbol == '#' => {
-                    "`#` is not in the LevelMapping, and cannot be: it starts a comment".to_owned()
+                    "`#` is not in the LevelMapping, and cannot be added, because it starts a \
+                     comment"
+                        .to_owned()
                 }
                 1 => format!("`{shown}` is not in the LevelMapping"),
                 _ => format!("`{shown}` is not in the LevelMapping, and occurs {count} times in the level"),
@@ -447,21 +462,23 @@ impl LevelReader<'_> {
         let most = if self.game.0.as_reference { MAX_ATTEMPTS } else { MAX_SPRITES };
         if self.sprites > most {
             let message = format!("the level places {} sprites; the limit is {most}", self.sprites);
-            self.problems
-                .push(Diagnostic::error("too-large", Span::new(0, 0), message).help("make it smaller"));
+            self.problems.push(
+                Diagnostic::error("too-large", Span::new(0, 0), message).help("make the level smaller"),
+            );
         }
         if let [_, (extra, _), ..] = self.avatars[..] {
             let message = format!("the level places {} avatars", self.avatars.len());
             let problem = Diagnostic::error("extra-avatars", extra, message).label("not the first one");
             self.problems.push(problem.help(
-                "keep one: games of several players are not supported, and the reference engine would remove all but the first",
+                "keep one avatar: games for several players are not supported, and the reference engine \
+                 would remove all avatars but the first",
             ));
         }
         if self.avatars.is_empty() {
             let end = text.trim_end().len();
             let first = text.chars().next().map_or(0, char::len_utf8);
             let help = match self.avatar_symbol() {
-                Some(symbol) => format!("put `{symbol}` where it starts"),
+                Some(symbol) => format!("put `{symbol}` in the avatar's starting cell"),
                 None => self.lacking_avatar(),
             };
             let problem =

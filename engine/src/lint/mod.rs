@@ -67,7 +67,7 @@ impl Linter<'_> {
             let span = Span::new(line.first.span.start, line.effect.span.end);
             let message = format!("this rule never fires: {reason}");
             let problem = Diagnostic::warning("never-fires", span, message);
-            problems.push(problem.help("remove it, or make its condition possible"));
+            problems.push(problem.help("remove the rule, or make its condition possible"));
         }
     }
 
@@ -129,7 +129,7 @@ impl Linter<'_> {
             && amount > 0
             && !self.gained(resource)
         {
-            return Some(format!("it needs {amount} `{}`, and nothing gives any", name(resource)));
+            return Some(format!("it needs {amount} `{}`, but no rule gives any", name(resource)));
         }
         let (second, other) = (second?, encounter.second?);
         if first.iter().any(|&stype| self.roams(stype)) || second.iter().any(|&stype| self.roams(stype)) {
@@ -271,8 +271,8 @@ impl Linter<'_> {
                 };
                 let problem = Diagnostic::warning("ignored-parameter", param.span(), message);
                 problems.push(problem.help(match key.as_str() {
-                    "jump_strength" => "remove it, or choose a class that jumps",
-                    _ => "remove it, or add `physicstype=CONT`",
+                    "jump_strength" => "remove the parameter, or choose a class that jumps",
+                    _ => "remove the parameter, or add `physicstype=CONT`",
                 }));
             }
         }

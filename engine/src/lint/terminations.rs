@@ -79,7 +79,8 @@ pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
     let message = match certain || stays {
         true => format!("the level is {outcome} in its first tick: with {counts}, a {class} holds"),
         false => format!(
-            "the level is over in its first tick unless that changes a count: with {counts}, a {class} holds"
+            "the level is over in its first tick, unless this tick changes a count: with {counts}, a \
+             {class} holds"
         ),
     };
     let problem = Diagnostic::warning("ends-at-once", Span::new(0, 0), message);
@@ -95,7 +96,7 @@ pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
     };
     Some(problem.help(match left {
         true => "a SpriteCounter holds while at most `limit=` sprites are left: with `limit=0`, it holds when all are gone",
-        false => "place some of the sprites that it counts, or change its `limit=`",
+        false => "place some of the counted sprites, or change the `limit=`",
     }))
 }
 
@@ -168,7 +169,7 @@ impl Linter<'_> {
                 problems.push(problem.help(match (&end.condition, limit_of(line) == line.class.span) {
                     (Condition::Timeout { .. }, true) => "add `limit=` and a number of ticks",
                     (Condition::Timeout { .. }, false) => "set a `limit=` of some ticks",
-                    _ => "let levels place some of the sprites that it counts, or set another `limit=`",
+                    _ => "let levels place some of the counted sprites, or set a different `limit=`",
                 }));
             }
         }
@@ -214,7 +215,7 @@ impl Linter<'_> {
             let reason = "no termination has `win=False`".to_owned();
             let help = match self.deadly_rule() {
                 Some((avatar, rule)) => format!(
-                    "`{rule}` removes the player's `{avatar}`, and nothing is lost by that: add \
+                    "`{rule}` removes the player's `{avatar}`, but the game goes on: add \
                      `SpriteCounter stype={avatar} win=False`"
                 ),
                 None => "add a Timeout, or another termination with `win=False`".to_owned(),
@@ -253,7 +254,7 @@ impl Linter<'_> {
         let (verb, limit) = match (&goal.condition, goal.attainable) {
             (_, Attainable::InPlay | Attainable::AtOnce) => {
                 let reason = "another termination holds at the start of every level".to_owned();
-                return Some((reason, "let levels place some of the sprites that it counts".to_owned()));
+                return Some((reason, "let levels place some of the counted sprites".to_owned()));
             }
             (Counted::Tick(_), _) => return None,
             (Counted::AtMost(_, limit), _) | (Counted::Exactly(_, limit @ ..=0), _) => ("lowers", *limit),
@@ -262,7 +263,7 @@ impl Linter<'_> {
         };
         if limit < 0 {
             let reason = format!("the number of {} is never below 0", names());
-            return Some((reason, "set another `limit=`".to_owned()));
+            return Some((reason, "set a different `limit=`".to_owned()));
         }
         if verb == "lowers"
             && let Some(short) = stypes.iter().find_map(|&stype| self.unobtainable(stype))
@@ -276,7 +277,7 @@ impl Linter<'_> {
             let swapped = Some(self.game).filter(|_| verb == "lowers" && goal.can_lose());
             let help = match swapped.and_then(swapped::swapped_threat) {
                 Some((rule, meant)) => format!("did you mean `{meant}` instead of `{rule}`?"),
-                None => format!("add a rule that {verb} it, or another termination"),
+                None => format!("add a rule that {verb} it, or a different termination"),
             };
             (reason, help)
         })

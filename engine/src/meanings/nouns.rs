@@ -47,7 +47,7 @@ pub(super) const CLASSES: &[Meaning] = &[
     means(
         "wall walls obstacle barrier solid block blocks solidblock rock unmovable nonmovable",
         &["Immovable"],
-        "use `Immovable`, with the effect `stepBack` for those that it stops",
+        "use `Immovable`, with the effect `stepBack` for the sprites that it stops",
     ),
     means(
         "static stationary floor ground tile background decoration scenery object sprite entity thing fixed structure terrain basic \
@@ -58,7 +58,7 @@ pub(super) const CLASSES: &[Meaning] = &[
     means(
         "goal exit target finish flag home destination win",
         &["Immovable"],
-        "use `Immovable`: what reaching it does is said by rules",
+        "use `Immovable`, and write rules for reaching it",
     ),
     means(
         "trap hazard spike spikes lava pit hole danger",
@@ -68,7 +68,7 @@ pub(super) const CLASSES: &[Meaning] = &[
     means(
         "switch button lever pressureplate",
         &["Immovable"],
-        "use `Immovable`: what touching it does is said by rules, such as `transformToAll`",
+        "use `Immovable`, and write rules for touching it, such as `transformToAll`",
     ),
     means(
         "player avatar hero character playeravatar useravatar playercharacter playable controllable controllableavatar gridavatar \
@@ -90,7 +90,8 @@ pub(super) const CLASSES: &[Meaning] = &[
     means(
         "rotatingavatar rotatingflippingavatar noisyrotatingflippingavatar turningavatar rotateavatar tankavatar",
         &[],
-        "use `OrientedAvatar`, which turns first and walks then: no avatar turns relative to itself on the grid",
+        "use `OrientedAvatar`, which turns first and then walks: no avatar turns relative to itself on \
+         the grid",
     ),
     means(
         "aimedflakavatar",
@@ -199,7 +200,8 @@ pub(super) const TERMINATIONS: &[Meaning] = &[
     means(
         "resourcecounter resourcecount resourcecollected hasresource inventorycounter resourcelimit",
         &[],
-        "count what is left, as in `SpriteCounter stype=coin limit=0 win=True`: no termination counts what a sprite holds",
+        "count the remaining sprites, as in `SpriteCounter stype=coin limit=0 win=True`: no termination \
+         counts held resources",
     ),
     means(
         "spritecount countsprites counter spritescounter nosprites spritekilled allkilled killall spritesleft spriteless spritecounterless \
@@ -213,5 +215,5 @@ pub(super) const TERMINATIONS: &[Meaning] = &[
         &["MultiSpriteCounter"],
         "",
     ),
-    means("noveltytermination", &[], "remove it: the game then ends by its other terminations only"),
+    means("noveltytermination", &[], "remove the line: the game then ends only by its other terminations"),
 ];

@@ -10,17 +10,17 @@ pub(super) const GAME_PARAMETERS: &[Meaning] = &[
     means(
         "framerate fps tickrate",
         &[],
-        "remove it: the rules do not depend on the pace, which `arcade play --fps` sets",
+        "remove the parameter: the rules do not depend on the pace, which `arcade play --fps` sets",
     ),
     means(
         "title name author description maxsprites seed",
         &[],
-        "remove it, or write it as a comment, after `#`",
+        "remove the parameter, or write it as a comment, after `#`",
     ),
     means(
         "timelimit maxsteps timeout limit",
         &[],
-        "remove it, and add a line `Timeout limit=500 win=False` to the TerminationSet",
+        "remove the parameter, and add a line `Timeout limit=500 win=False` to the TerminationSet",
     ),
 ];
 
@@ -59,39 +59,43 @@ pub(super) const SPRITE_PARAMETERS: &[Meaning] = &[
     means(
         "visible show shown",
         &[],
-        "remove it, or write `invisible=True` to hide the sprite from the player's eyes",
+        "remove the parameter, or write `invisible=True` to hide the sprite from the player's eyes",
     ),
     means(
         "points point score scorechange reward worth",
         &[],
-        "remove it: points are given by rules, such as `coin avatar > killSprite scoreChange=1`",
+        "remove the parameter: points are given by rules, such as `coin avatar > killSprite scoreChange=1`",
     ),
     means(
         "collectible collectable pickup",
         &[],
-        "remove it: picking up is a rule, such as `coin avatar > killSprite`",
+        "remove the parameter: picking up is a rule, such as `coin avatar > killSprite`",
     ),
     means(
         "pushable movable moveable",
         &[],
-        "remove it: pushing is a rule, such as `crate avatar > bounceForward`",
+        "remove the parameter: pushing is a rule, such as `crate avatar > bounceForward`",
     ),
     means(
         "blocking blocksmovement walkable passable obstacle issolid collidable",
         &[],
-        "remove it: stopping is a rule, such as `avatar wall > stepBack`",
+        "remove the parameter: stopping is a rule, such as `avatar wall > stepBack`",
     ),
     means(
         "deadly harmful damage lethal dangerous kills",
         &[],
-        "remove it: harm is a rule, such as `avatar trap > killSprite`",
+        "remove the parameter: harm is a rule, such as `avatar trap > killSprite`",
     ),
     means(
         "static immovable fixed",
         &[],
-        "remove it: the class says whether a sprite moves, and `Immovable` does not",
+        "remove the parameter: the class says whether a sprite moves, and `Immovable` does not",
     ),
-    means("alternatekeys keys controls", &[], "remove it: the player chooses among the actions of the class"),
+    means(
+        "alternatekeys keys controls",
+        &[],
+        "remove the parameter: the player chooses among the actions of the class",
+    ),
 ];
 
 pub(super) const EFFECT_PARAMETERS: &[Meaning] = &[
@@ -117,11 +121,15 @@ pub(super) const EFFECT_PARAMETERS: &[Meaning] = &[
     means("limitspeed speedlimit speed", &["limspeed"], ""),
     means("damage hp health healthpoints", &["value"], ""),
     means("killother removeother", &["killSecond"], ""),
-    means("friction", &[], "remove it: friction is a parameter of sprites with `physicstype=CONT`"),
+    means(
+        "friction",
+        &[],
+        "remove the parameter: friction is a parameter of sprites with `physicstype=CONT`",
+    ),
     means(
         "win lose",
         &[],
-        "remove it: only terminations end the game, such as `SpriteCounter stype=goal limit=0 win=True`",
+        "remove the parameter: only terminations end the game, such as `SpriteCounter stype=goal limit=0 win=True`",
     ),
 ];
 
@@ -134,10 +142,10 @@ pub(super) const TERMINATION_PARAMETERS: &[Meaning] = &[
     means("sprite type target object stype1 sprites spritetype name", &["stype", "stype1"], ""),
     means("stype", &["stype1"], ""),
     means("victory wins success outcome won winner iswin", &["win"], ""),
-    means("lose loss lost gameover loses", &[], "remove it, and write `win=False`"),
+    means("lose loss lost gameover loses", &[], "remove the parameter, and write `win=False`"),
     means(
         "bonus score scorechange points reward",
         &[],
-        "remove it: terminations give no points; write `scoreChange=` on the rule that decides the game",
+        "remove the parameter: terminations give no points; write `scoreChange=` on the rule that decides the game",
     ),
 ];

@@ -55,7 +55,8 @@ pub(super) const EFFECTS: &[Meaning] = &[
     means(
         "turn rotate randomdirection changedirectionrandomly turnrandomly",
         &[],
-        "use `reverseDirection`, which turns the first sprite back, or `flipDirection`, which turns it by chance",
+        "use `reverseDirection`, which turns the first sprite back, or `flipDirection`, which turns it in \
+         a random direction",
     ),
     means(
         "teleport teleports warp teleportto teleportsprite teleportexit transport useportal enterportal",
@@ -124,32 +125,33 @@ pub(super) const EFFECTS: &[Meaning] = &[
     means(
         "follow follows chase chases attract",
         &[],
-        "an effect is about a meeting; for a sprite that hunts another one use the class `Chaser`",
+        "effects apply when sprites meet; for a sprite that hunts another sprite, use the class `Chaser`",
     ),
     means(
         "flee escape avoid",
         &[],
-        "an effect is about a meeting; for a sprite that avoids another one use the class `Fleeing`",
+        "effects apply when sprites meet; for a sprite that avoids another sprite, use the class `Fleeing`",
     ),
     means(
         "shoot fire attack",
         &[],
-        "an effect is about a meeting; for an avatar that shoots use the class `ShootAvatar`",
+        "effects apply when sprites meet; for an avatar that shoots, use the class `ShootAvatar`",
     ),
     means(
         "killifotherhasless",
         &[],
-        "use `killIfOtherHasMore` for the amounts that kill, or `killIfHasLess`, which looks at the first sprite: no effect asks whether the partner has less",
+        "use `killIfOtherHasMore` for the amounts that kill, or `killIfHasLess`, which checks the first \
+         sprite: no effect checks whether the partner has less",
     ),
     means(
         "killifhasnot killifnothas killifdoesnothave killifhasno killifno killifnokey killunlesshas",
         &[],
-        "use `killIfHasLess resource=key limit=0`, which removes the first sprite if it holds none",
+        "use `killIfHasLess resource=key limit=0`, which removes the first sprite if it holds no such resource",
     ),
     means(
         "killifhas killifhaskeys killifhasresource killifhasitem",
         &[],
-        "use `killIfHasMore resource=key limit=1`, which removes the first sprite if it holds one",
+        "use `killIfHasMore resource=key limit=1`, which removes the first sprite if it holds such a resource",
     ),
     means("killifotherhas", &["killIfOtherHasMore"], ""),
     means(

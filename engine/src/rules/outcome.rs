@@ -56,18 +56,16 @@ impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Limit::Sprites => "more sprites than a state can hold",
-            Limit::Work => "one tick is more work than is allowed",
+            Limit::Work => "one tick takes more work than the limit allows",
             Limit::SpawnIntoUpdatedType => "a sprite was spawned into the type that is being updated",
             Limit::NoAvatar => "the score changed after the avatar was removed permanently",
             Limit::FlatSprite => "a sprite of height 0 moved",
             Limit::NoPaths => "a path was requested in a game without `obs=`",
-            Limit::NoType => {
-                "a sprite of an unknown type, or of a type without a class, was to be made or looked up"
-            }
+            Limit::NoType => "a sprite of an unknown type, or of a type without a class, was requested",
             Limit::NoSprite => "an effect was executed without the sprites that it needs",
             Limit::EndlessTransform => "a type was transformed into itself endlessly",
             Limit::UnfitSprite => "the parameters of a sprite do not fit its class",
-            Limit::Timers => "more timers than can be planned",
+            Limit::Timers => "more timers than a state can hold",
             Limit::Resources => "more resources held than a state can hold",
         })
     }

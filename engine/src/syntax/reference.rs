@@ -17,7 +17,7 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     if let Some(span) = layout::bare_hashes(source) {
         let problem =
             Diagnostic::error("bare-comment", span, "a line of nothing but `#` in the first column");
-        return Err(problem.help("the reference engine crashes on it; write a space or a word as well"));
+        return Err(problem.help("the reference engine crashes on such a line; add a space or a word"));
     }
     let (lines, _) = layout::lines(source);
     if let Some(problem) = lines.iter().find_map(long_line) {
@@ -132,8 +132,11 @@ impl<'a> Tree<'a> {
                     || node.grammar == Some(Section::InteractionSet) && node.heading.is_none() =>
                 {
                     let problem =
-                        Diagnostic::error("stray-line", node.line.span, "this line is in no section");
-                    return Err(problem.help("the reference engine crashes on it; indent it below a section"));
+                        Diagnostic::error("stray-line", node.line.span, "this line is not in any section");
+                    return Err(problem.help(
+                        "the reference engine crashes on such a line; indent it below \
+                        a section",
+                    ));
                 }
                 None => {}
             }

@@ -36,7 +36,7 @@ impl Heap {
 
     fn pop(&mut self) -> Option<(u32, u32)> {
         let first = *self.items.first()?;
-        let last = self.items.pop().expect("there is a first");
+        let last = self.items.pop().expect("the queue is not empty");
         let count = self.items.len();
         if count == 0 {
             return Some(first);

@@ -241,7 +241,7 @@ impl Assigner<'_> {
         let fits = |word: &String| !self.is_taken(word) && !self.old.mentions_old_name(word);
         let numbered_fits = |word: &String| !self.is_taken(word) && !self.old.0.contains(&stem(word));
         let found = qualified.into_iter().find(fits).or_else(|| numbered.into_iter().find(numbered_fits));
-        found.expect("there is no end of numbers")
+        found.expect("the numbers are endless")
     }
 
     fn free(&self, mut words: Vec<&'static str>) -> Vec<&'static str> {

@@ -39,7 +39,7 @@ impl FromStr for Body {
             "ground" => Body::Ground,
             "mover" => Body::Mover,
             "flash" => Body::Flash,
-            _ => return Err(format!("`{word}` is no body")),
+            _ => return Err(format!("`{word}` is not a body")),
         })
     }
 }
@@ -90,7 +90,7 @@ impl FromStr for Tag {
             "led" => Tag::Led,
             "goal" => Tag::Goal,
             "foe" => Tag::Foe,
-            _ => return Err(format!("`{word}` is no tag")),
+            _ => return Err(format!("`{word}` is not a tag")),
         })
     }
 }
@@ -226,7 +226,7 @@ impl Mechanic {
                 && !mechanic.ports.iter().any(|other| other.name == *port)
                 && port != "hero"
             {
-                return Err(format!("type {} is a state of {port}, which is no port", own.name));
+                return Err(format!("type {} is a state of {port}, which is not a port", own.name));
             }
         }
         Ok(mechanic)

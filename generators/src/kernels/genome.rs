@@ -50,10 +50,9 @@ impl KernelGenome {
     /// # Errors
     /// Returns an error if no kernel of these kinds has a scene.
     pub fn draw(kinds: &[Kind], seed: Seed) -> Result<KernelGenome, GenerateError> {
-        let kernel =
-            Turns::draw(kinds, seed).any(&mut seed.child("place", 0).sampler()).ok_or_else(|| {
-                GenerateError::Unsuitable("no kernel is of the kinds that are allowed".to_owned())
-            })?;
+        let kernel = Turns::draw(kinds, seed)
+            .any(&mut seed.child("place", 0).sampler())
+            .ok_or_else(|| GenerateError::Unsuitable("no kernel belongs to the allowed kinds".to_owned()))?;
         Ok(KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler()))
     }
 

@@ -457,7 +457,7 @@ impl Reader<'_> {
                 _ => None,
             })],
             "never-fires" => {
-                let resource = named(0).filter(|_| message.contains("nothing gives any"));
+                let resource = named(0).filter(|_| message.contains("no rule gives any"));
                 let mut facts: Vec<Fact> =
                     resource.map(|stype| Fact::HeldAtMost(stype, 0)).into_iter().collect();
                 if facts.is_empty() {

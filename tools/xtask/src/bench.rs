@@ -219,7 +219,7 @@ fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
         (0..16).map(|_| (0..size * ticks).map(|_| *sampler.choose(actions)).collect()).collect();
     let mut round = |count: usize| {
         for plan in plans.iter().cycle().take(count) {
-            batch.play(plan).expect("a plan for every lane");
+            batch.play(plan).expect("every lane has a plan");
             batch.reset_over();
         }
     };

@@ -28,14 +28,15 @@ pub(crate) struct Subject {
 pub(crate) fn subjects(games: &Path, only: &[String]) -> anyhow::Result<Vec<Subject>> {
     let folders = folders(games, only)?;
     if folders.is_empty() {
-        bail!("{}: no such game there", games.display());
+        bail!("{}: this folder does not contain the game", games.display());
     }
     folders.into_iter().map(|(name, folder)| subject(name, &folder)).collect()
 }
 
 fn subject(name: String, folder: &Path) -> anyhow::Result<Subject> {
     let file = ["game.txt", "game.vgdl"].iter().map(|file| folder.join(file)).find(|path| path.exists());
-    let file = file.with_context(|| format!("{}: no game.txt or game.vgdl", folder.display()))?;
+    let file =
+        file.with_context(|| format!("{}: contains neither game.txt nor game.vgdl", folder.display()))?;
     let game = Game::from_source_as_reference(&fs::read_to_string(&file)?)
         .with_context(|| file.display().to_string())?;
     let level = game.level(&fs::read_to_string(folder.join("lvl0.txt"))?)?;

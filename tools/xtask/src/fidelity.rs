@@ -108,7 +108,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     for (cell, ours) in cells.iter_mut().zip(played) {
         cell.ours = ours;
     }
-    if report(&cells, &paper) { Ok(()) } else { bail!("our planners do not play like the reference's") }
+    if report(&cells, &paper) {
+        Ok(())
+    } else {
+        bail!("our planners play differently from those of the reference")
+    }
 }
 
 fn play_cell(args: &Args, cell: &Cell, game: &Game, levels: &[Level]) -> anyhow::Result<Vec<Result>> {
@@ -175,7 +179,7 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
         }
         let apart = (score - their_score).abs() / their_score.abs();
         if SCORED_GAMES.contains(&game.as_str()) && apart > SCORE_DIFFERENCE {
-            faults.push(format!("{game}, {planner}: mean scores differ by {:.0} %", 100.0 * apart));
+            faults.push(format!("{game}, {planner}: mean scores differ by {:.0}%", 100.0 * apart));
         }
     }
     let apart = cells.iter().map(|cell| (rate(&cell.ours) - rate(&cell.theirs)).abs()).sum::<f64>();

@@ -48,7 +48,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let counts: anyhow::Result<Option<BTreeMap<String, u64>>> =
         subjects(&args.games, &[])?.into_par_iter().step_by(args.every.get()).map(count).collect();
     let Some(counts) = counts? else {
-        println!("SKIPPED: valgrind is not installed, no instructions are counted");
+        println!("SKIPPED: valgrind is not installed, so instructions are not counted");
         return Ok(());
     };
     let path = args.expected.display();
@@ -74,12 +74,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             expected.parse().with_context(|| format!("{path}: `{line}` contains no number"))?;
         let count = *counts.get(name).with_context(|| format!("{path}: there is no game `{name}`"))?;
         let change = 100.0 * (count as f64 / expected as f64 - 1.0);
-        println!("{name}: {count} instructions a tick, expected {expected} ({change:+.1} %)");
+        println!("{name}: {count} instructions per tick, expected {expected} ({change:+.1}%)");
         slower |= change > args.tolerance;
     }
     if slower {
         bail!(
-            "a tick costs over {} % more than {path} says; if that is intended, run this with --bless",
+            "a tick costs over {}% more than {path} records; if this is intended, run this command with \
+             --bless",
             args.tolerance
         );
     }

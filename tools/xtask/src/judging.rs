@@ -110,7 +110,7 @@ fn print(compared: &[Compared]) {
         *kinds.entry([in_full.name(), sequential.name()]).or_default() += 1;
     }
     let columns = ["in full", "sequential", "candidates"];
-    let note = "Accepted, or the criterion that says no first.";
+    let note = "Accepted, or the first criterion that fails.";
     let mut table = Table::new("judging", "Verdicts", note, &columns);
     for ([in_full, sequential], count) in &kinds {
         table.push(vec![TableCell::text(*in_full), TableCell::text(*sequential), TableCell::Count(*count)]);
@@ -120,7 +120,7 @@ fn print(compared: &[Compared]) {
     let share = Share::new(differ as u64, compared.len() as u64);
     let [low, high] = share.interval.map(|bound| 100.0 * bound);
     println!(
-        "other verdicts: {differ} of {}, {:.2} % (95 %: {low:.2} to {high:.2})",
+        "different verdicts: {differ} of {}, {:.2}% (95%: {low:.2} to {high:.2})",
         compared.len(),
         100.0 * share.share(),
     );

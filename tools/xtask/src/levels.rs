@@ -24,7 +24,8 @@ pub(crate) fn name_of(folder: &Path) -> String {
 /// Loads a game and its levels in the same way as the reference.
 pub(crate) fn load(folder: &Path) -> anyhow::Result<(Game, Vec<Level>)> {
     let file = ["game.vgdl", "game.txt"].map(|file| folder.join(file)).into_iter().find(|path| path.exists());
-    let file = file.with_context(|| format!("{}: no game.vgdl or game.txt", folder.display()))?;
+    let file =
+        file.with_context(|| format!("{}: contains neither game.vgdl nor game.txt", folder.display()))?;
     let read = |path: &Path| fs::read_to_string(path).with_context(|| path.display().to_string());
     let game = Game::from_source_as_reference(&read(&file)?);
     let game = game.map_err(|problems| anyhow::anyhow!("{}: {problems:?}", file.display()))?;

@@ -117,7 +117,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let winnable = rows.iter().filter(|(found, _)| *found != Found::NoWin).count();
     let won = counts.get(&Found::Won).unwrap_or(&0);
     println!(
-        "{won} of {winnable} levels whose rules can be won, {:.1} %; {:.0} s",
+        "{won} of {winnable} levels whose rules can be won, {:.1}%; {:.0} s",
         100.0 * *won as f64 / winnable.max(1) as f64,
         started.elapsed().as_secs_f64()
     );

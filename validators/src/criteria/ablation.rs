@@ -58,7 +58,7 @@ enum Effect {
 }
 
 pub(crate) const QUESTION: &str =
-    "does each rule matter: with the rule switched off, does some play end or score otherwise?";
+    "does each rule matter: without the rule, does some episode end or score differently?";
 
 pub(crate) fn judge(setting: &Setting<'_>) -> RulesMatter {
     RulesMatter { calls: setting.criteria.ablation_calls, total: setting.ablation_calls() }
@@ -81,27 +81,29 @@ impl GameValidator for RulesMatter {
             let (text, advice, list) = match found {
                 Effect::Matters => continue,
                 _ if is_guard(case.analysis, *line) => {
-                    let text = format!("no test shows that `{}` matters; it may be a guard", rule.text);
+                    let text = format!("no test shows that `{}` matters; the rule may be a guard", rule.text);
                     guards.push(Evidence::new(text).of_rule(rule));
                     continue;
                 }
                 Effect::Idle(states) => (
                     format!(
-                        "`{}` runs, but changes nothing: all {states} reachable states end and score alike without it",
+                        "`{}` runs, but changes nothing: without the rule, all {states} reachable states \
+                         end and score the same",
                         rule.text
                     ),
-                    "remove it, or make its effect count for the score or the outcome",
+                    "remove the rule, or make it matter for the score or the outcome",
                     &mut idle,
                 ),
                 Effect::Unshown { differs } => (
                     match differs {
                         true => format!(
-                            "no test shows that `{}` matters: the board differs without it, but no outcome or score",
+                            "no test shows that `{}` matters: without the rule, the board differs, but no \
+                             outcome or score does",
                             rule.text
                         ),
                         false => format!("no test shows that `{}` matters", rule.text),
                     },
-                    "these tests are no proof: play with and without it before you remove it",
+                    "these tests are not a proof: play with and without the rule before you remove it",
                     &mut unshown,
                 ),
             };
@@ -366,7 +368,8 @@ mod tests {
         let Verdict::Fail { reason, .. } = &used.verdict else { panic!("{used:?}") };
         assert_eq!(reason.0, "`dew` never appears");
         let Verdict::Fail { reason, .. } = &matter.verdict else { panic!("{matter:?}") };
-        let proved = "`avatar fern > killIfHasMore resource=dew limit=2` runs, but changes nothing: all 6 reachable states";
+        let proved = "`avatar fern > killIfHasMore resource=dew limit=2` runs, but changes nothing: \
+                      without the rule, all 6 reachable states";
         assert!(reason.0.starts_with(proved), "{reason:?}");
         let texts: Vec<&str> = matter.evidence.iter().map(|seen| seen.text.as_str()).collect();
         assert!(texts[1].starts_with("no test shows that `mud avatar > transformTo"), "{texts:?}");
@@ -397,7 +400,7 @@ mod tests {
         assert_eq!(finding.evidence[0].text, "no test shows that `fern avatar > stepBack` matters");
         let advice: Vec<&str> = finding.evidence.iter().filter_map(|seen| seen.advice.as_deref()).collect();
         assert_eq!(advice[0], "`fern` never moves by itself; did you mean `avatar fern > stepBack`?");
-        assert!(advice[1].starts_with("these tests are no proof"), "{advice:?}");
+        assert!(advice[1].starts_with("these tests are not a proof"), "{advice:?}");
     }
 
     /// A boat carries the avatar. Without the rule, a player that waits on the boat drowns, but players that hurry do

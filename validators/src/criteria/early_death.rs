@@ -72,7 +72,8 @@ impl Validator for NoEarlyDeath {
         let share = |count: u64| count as f64 / seeds as f64;
         let verdict = if share(doomed) > self.share {
             let shown = results.iter().filter(|result| !result.survived && result.complete);
-            let longest = shown.max_by_key(|result| result.longest.actions.len()).expect("one is doomed");
+            let longest =
+                shown.max_by_key(|result| result.longest.actions.len()).expect("at least one seed is doomed");
             let reason = self.failure_reason(longest.longest.actions.len(), doomed, seeds);
             Verdict::fail_with(reason, longest.longest.clone())
         } else if share(doomed + open) > self.share {
@@ -105,7 +106,7 @@ impl NoEarlyDeath {
     fn failure_reason(&self, ticks: usize, doomed: u64, seeds: u64) -> String {
         if seeds == 1 {
             return format!(
-                "every play loses within {}: all action sequences were searched",
+                "every sequence of actions loses within {}: all sequences were searched",
                 base::count(ticks, "tick")
             );
         }
@@ -256,7 +257,7 @@ mod tests {
     fn unavoidable_death_differs_from_idle_death() {
         let doomed = check(&calm(), "wwwwwwww\nwA  rr d\nwwwwwwww\n", 10_000);
         let Verdict::Fail { reason, .. } = &doomed.verdict else { panic!("{doomed:?}") };
-        assert!(reason.0.contains("within 4 ticks: all action sequences were searched"), "{reason:?}");
+        assert!(reason.0.contains("within 4 ticks: all sequences were searched"), "{reason:?}");
         assert_eq!(doomed.evidence[0].rule.as_ref().unwrap().text, "avatar rock > killSprite");
         let alive = check(&calm(), "wwwwwwww\nwA  rr d\nw      w\nwwwwwwww\n", 10_000);
         assert!(alive.verdict.is_pass());

@@ -47,7 +47,7 @@ impl Validator for NotRandom {
         let most = 100.0 * self.most;
         let failure = shortest.filter(|_| share > self.most).map(|shortest| Failure {
             reason: format!("random play wins {wins} of {plays} episodes, more than {most:.0}%"),
-            advice: "move the goal farther away, or add an obstacle that takes a plan",
+            advice: "move the goal farther away, or add an obstacle that requires a plan",
             witness: shortest.clone(),
         });
         finding(case, played, self.ticks, failure)

@@ -41,7 +41,8 @@ impl Validator for Readable {
                 let text = format!("`{name}` affects the outcome, but is hidden");
                 faults.push(Evidence { text, ..seen }.advise("remove `hidden=True`"));
             } else {
-                notes.push(Evidence { text: format!("`{name}` is hidden, and spawns others"), ..seen });
+                notes
+                    .push(Evidence { text: format!("`{name}` is hidden, and spawns other sprites"), ..seen });
             }
         }
         faults.extend(covered(analysis, level));

@@ -44,7 +44,7 @@ impl GameValidator for RuleUse {
             let text = format!("`{name}` never appears");
             let never = reaches.iter().all(|reach| reach.touched(stype).next().is_none());
             let rule = Line::sprite(game, name);
-            let advice = format!("place it in a level, or remove `{name}` and its rules");
+            let advice = format!("place `{name}` in a level, or remove the type and its rules");
             let seen = Evidence { text, rule, ..Evidence::default() }.advise(advice);
             if never { &mut dead } else { &mut unseen }.push(seen);
         }
@@ -52,19 +52,19 @@ impl GameValidator for RuleUse {
             let rule = Line::interaction(game, line);
             let written = &game.description().interactions[line];
             if written.second.iter().any(|word| word.text == EDGE) || written.first.text == EDGE {
-                let text = format!("`{}` never runs; it may be a guard at the edge", rule.text);
+                let text = format!("`{}` never runs; the rule may be a guard at the edge", rule.text);
                 guards.push(Evidence::new(text).of_rule(rule));
                 continue;
             }
             let (text, advice, list) = match meets(analysis, recording, &reaches, line) {
                 false => (
                     format!("`{}` never runs: its sprites can never meet", rule.text),
-                    "remove it, or add a level that needs it",
+                    "remove the rule, or add a level that needs it",
                     &mut dead,
                 ),
                 true => (
                     format!("`{}` was not seen to run", rule.text),
-                    "play it by hand; if it cannot run, remove it or add a level that needs it",
+                    "play the game by hand; if the rule cannot run, remove it, or add a level that needs it",
                     &mut unseen,
                 ),
             };

@@ -81,7 +81,7 @@ struct Answer {
 }
 
 pub(crate) const QUESTION: &str =
-    "do planners that look ahead win more, or score more, than those that do not?";
+    "do planners that look ahead win more, or score more, than planners that do not?";
 
 pub(crate) fn judge(setting: &Setting<'_>) -> SkillPays {
     SkillPays {

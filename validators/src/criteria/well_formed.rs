@@ -63,7 +63,7 @@ impl Validator for WellFormed {
         };
         if episode.outcome == Outcome::Stopped(Limit::NoPaths) {
             let seen = Evidence { rule: path_finder(game), ..Evidence::new("this type searches for a path") };
-            let seen = seen.advise("name the obstacles of paths in the first line: `BasicGame obs=wall`");
+            let seen = seen.advise("list the obstacles of paths in the first line: `BasicGame obs=wall`");
             return Finding::from(Verdict::fail_with(reason, episode)).seen([seen]);
         }
         let seen = Ending::of(analysis, level, &episode).evidence(game);

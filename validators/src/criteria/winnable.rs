@@ -48,7 +48,7 @@ impl Validator for Winnable {
             }
             Solution::Impossible { states, nearest } => {
                 let reason = format!("the level cannot be won: all {states} reachable states were searched");
-                let note = "the rules alone do not show why; no play wins";
+                let note = "the rules alone do not show the reason, but no sequence of actions wins";
                 Finding::from(Verdict::fail(reason))
                     .seen([Evidence::new(note)])
                     .seen(nearest_to_a_win(case, &nearest))
@@ -73,18 +73,22 @@ fn out_of_reach(Case { game, level, analysis, .. }: Case<'_>, reach: &Reach) -> 
     let evidence = wins.zip(&told).map(|(impossible_goal, sentence)| {
         let (cell, advice) = match &impossible_goal.cause {
             Cause::Permanent(sprites) => {
-                let advice = "open a path to it, or remove it";
+                let advice = "open a path to this sprite, or remove it";
                 let first = sprites.first();
                 (first.map(|(_, cell)| (cell % columns + 1, cell / columns + 1)), advice)
             }
             Cause::AtMost(_) => (None, "place more of the counted sprites, or lower the limit"),
-            Cause::Unpaid(_) => (None, "place more of the resource, or fewer of what must go"),
+            Cause::Unpaid(_) => (
+                None,
+                "place more of the resource, or fewer of the sprites that must be \
+                                        removed",
+            ),
         };
         let rule = Some(Line::termination(game, analysis.goals()[impossible_goal.goal].line));
         Evidence { text: sentence.clone(), cell, rule, ..Evidence::default() }.advise(advice)
     });
     let evidence: Vec<Evidence> = evidence.collect();
-    let why = told.first().map_or("no termination that wins can ever hold in it", String::as_str);
+    let why = told.first().map_or("no winning termination can ever hold in this level", String::as_str);
     Finding::from(Verdict::fail(format!("the level cannot be won: {}", lower(why)))).seen(evidence)
 }
 
@@ -122,9 +126,9 @@ fn nearest_to_a_win(
     let tick = Some(actions.len()).filter(|&tick| tick > 0);
     let rule = Some(Line::termination(game, goal.line));
     let board = Some(Board::of(game, &state));
-    let text = format!("the closest any play can come: {text}");
+    let text = format!("the closest reachable state to a win: {text}");
     Some(
         Evidence { text, tick, rule, board, ..Evidence::default() }
-            .advise("make a win possible from this state, or place more of what it requires"),
+            .advise("make a win possible from this state, or place more of the required sprites"),
     )
 }

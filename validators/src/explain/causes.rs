@@ -97,8 +97,8 @@ impl Explanation<'_> {
                 let target = sprites.first().map(|(stype, _)| *stype);
                 match target.is_some_and(|stype| self.is_ended(stype)) {
                     true => (
-                        format!("no rule that removes {} can run on this one", article(name)),
-                        "open a path to it, or remove it".to_owned(),
+                        format!("no rule that removes {} can run on this sprite", article(name)),
+                        "open a path to this sprite, or remove it".to_owned(),
                     ),
                     false => (
                         format!("no rule removes {}", article(name)),
@@ -119,7 +119,11 @@ impl Explanation<'_> {
         let Unpaid { target, removals, resource, each, most, removing, taking } = unpaid;
         let (game, name) = (self.analysis.game(), self.name(*resource).to_owned());
         let target = self.name(*target).to_owned();
-        let text = format!("{} must go, and each takes {}", count(*removals, &target), count(*each, &name));
+        let text = format!(
+            "{} must be removed, and each removal takes {}",
+            count(*removals, &target),
+            count(*each, &name)
+        );
         let rule = removing.first().map(|&line| Line::interaction(game, line));
         self.links.push(Evidence { rule, ..Evidence::new(text) });
         if let Some(&line) = taking.iter().find(|line| !removing.contains(line)) {
@@ -166,7 +170,7 @@ impl Explanation<'_> {
             Missing::Blocked(stype, by) => {
                 let by = Line::interaction(self.analysis.game(), *by);
                 let text = format!(
-                    "{} is put back from {} by `{}` before a later rule can remove it",
+                    "{} is put back from {} by `{}` before a later rule can remove that sprite",
                     self.acting(*stype),
                     self.the(*target),
                     by.text
@@ -180,20 +184,26 @@ impl Explanation<'_> {
                     Some(_) => format!("a rule on {} needs {}", self.the(*target), article(name)),
                     None => format!("{} makes {}", article(name), article(self.name(*target))),
                 };
-                let text = format!("{what}; the level places none, and no rule creates one");
+                let text = format!("{what}; the level does not place this type, and no rule creates it");
                 let advice = format!("place {} in the level", article(name));
                 self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(advice));
             }
             Missing::Unmade(unmade, obstacles) => {
                 let name = self.name(*unmade);
-                let text =
-                    format!("a rule on {} needs {}, but none can exist", self.the(*target), article(name));
+                let text = format!(
+                    "a rule on {} needs {}, but no such sprite can exist",
+                    self.the(*target),
+                    article(name)
+                );
                 self.links.push(Evidence { rule, ..Evidence::new(text) });
                 obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
             }
             Missing::Inside => {
-                let text = format!("that {} never gets to the edge of the screen", self.name(*target));
-                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise("let it get there"));
+                let text = format!("this {} never gets to the edge of the screen", self.name(*target));
+                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(
+                    "open a path to the edge \
+                    of the screen",
+                ));
             }
             Missing::Nowhere(first, second) => {
                 let second = second.map_or("the edge of the screen".to_owned(), |second| self.acting(second));

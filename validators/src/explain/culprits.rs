@@ -26,7 +26,7 @@ const MAX_TRIALS: u64 = 200;
 const CARRYING_SPEED: &str = "0.2";
 
 /// The beginning of the sentence about a line without which, or with which, the level can be won.
-pub(crate) const CAN_BE_WON: &str = "it can be won ";
+pub(crate) const CAN_BE_WON: &str = "the level can be won ";
 
 /// Adds to a finding of `winnable` the lines that keep the level from being won, as far as searches of games without
 /// them show it. Other findings stay unchanged. Cost: half the budget of the search.
@@ -180,7 +180,7 @@ impl Trials<'_> {
         let rules = (0..game.description().interactions.len()).map(|line| {
             let rule = Line::interaction(game, line);
             let how = format!("without `{}`", rule.text);
-            let advice = format!("change `{}`, or what the level lets it act on", rule.text);
+            let advice = format!("change `{}`, or the sprites in the level on which it acts", rule.text);
             (Some(line), Changed { game: game.without(line), line: rule, how, advice })
         });
         let losing = analysis.goals().iter().filter(|goal| !goal.win);
@@ -190,7 +190,7 @@ impl Trials<'_> {
             description.terminations.remove(goal.line);
             let how = format!("without `{}`", ending.text);
             let advice = match goal.condition {
-                Condition::Tick(_) => "raise its `limit=`, or shorten the way".to_owned(),
+                Condition::Tick(_) => "raise its `limit=`, or shorten the path".to_owned(),
                 _ => format!("let `{}` hold later", ending.text),
             };
             Some((None, Changed { game: Game::compile(&description).ok()?, line: ending, how, advice }))

@@ -38,7 +38,8 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
     let fewest = if shortest { " at the earliest" } else { "" };
     let rule = Line::termination(game, line);
     let reason = format!(
-        "the level cannot be won before `{}` ends the game; without it, it is won in {}{fewest}",
+        "the level cannot be won before `{}` ends the game; without that termination, the level is won in \
+         {}{fewest}",
         rule.text,
         base::count(ticks, "tick")
     );
@@ -54,7 +55,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
         until += 1;
     }
     let seen = Evidence {
-        text: format!("it ends the game in tick {until}, before that win"),
+        text: format!("this termination ends the game in tick {until}, before that win"),
         rule: Some(rule),
         board: Some(Board::of(game, &state)),
         ..Evidence::default()
@@ -79,7 +80,7 @@ mod tests {
         let report = panel.judge(Judging::level(&game, &level, Seed::from_text("soon")));
         let finding = report.finding(Criterion::Winnable).unwrap();
         let Verdict::Fail { reason, .. } = &finding.verdict else { panic!("{finding:?}") };
-        let meant = "the level cannot be won before `Timeout limit=4 win=False` ends the game; without it, it is won in 6 ticks";
+        let meant = "the level cannot be won before `Timeout limit=4 win=False` ends the game; without that termination, the level is won in 6 ticks";
         assert!(reason.0.starts_with(meant), "{reason:?}");
         let advice = finding.evidence[0].advice.as_deref();
         assert_eq!(advice, Some("raise its `limit=` beyond 6, or shorten the path"));

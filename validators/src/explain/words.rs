@@ -30,7 +30,7 @@ impl Judgement {
             Verdict::Unknown { spent: 0 } if *criterion == Criterion::Winnable => {
                 "no win found: the budget allows no search".to_owned()
             }
-            Verdict::Unknown { spent: 0 } => "needs a win, and none was found".to_owned(),
+            Verdict::Unknown { spent: 0 } => "needs a win, but no win was found".to_owned(),
             // Work that the budget stopped comes first.
             Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_budget_note) => {
                 finding.evidence[0].text.clone()
@@ -42,7 +42,10 @@ impl Judgement {
                     format!("no win found with {spent} forward-model calls; {found}")
                 }
                 Criterion::EarlyDeath => {
-                    format!("no play found that survives the first ticks, with {spent} forward-model calls")
+                    format!(
+                        "no sequence of actions found that survives the first ticks, with {spent} \
+                             forward-model calls"
+                    )
                 }
                 Criterion::Skill => "too few wins for a verdict".to_owned(),
                 _ => {

@@ -25,7 +25,7 @@ pub(crate) struct ActorsMatter(Gates);
 /// The minimum number of ticks that a sprite must live to be measured.
 const LIFE: usize = 20;
 
-pub(crate) const QUESTION: &str = "does what moves by itself come in the player's way?";
+pub(crate) const QUESTION: &str = "do sprites that move by themselves get in the player's way?";
 
 pub(crate) fn judge(setting: &Setting<'_>) -> ActorsMatter {
     ActorsMatter(setting.criteria.gates.clone())
@@ -57,9 +57,14 @@ impl GameValidator for ActorsMatter {
             if seen.crossed && near {
                 met += 1;
             } else {
-                let text =
-                    format!("level {}: nothing that moves by itself comes near the player's way", won.number);
-                notes.push(Evidence::new(text).advise("let its path cross the path to the goal"));
+                let text = format!(
+                    "level {}: no sprite that moves by itself comes near the player's path",
+                    won.number
+                );
+                notes.push(Evidence::new(text).advise(
+                    "let the path of such a sprite cross the path to \
+                    the goal",
+                ));
             }
         }
         if levels == 0 {
@@ -68,13 +73,14 @@ impl GameValidator for ActorsMatter {
         }
         let swept = sweeps.iter().sum::<f64>() / sweeps.len().max(1) as f64;
         let text = format!(
-            "what moves by itself sweeps {swept:.1} cells on average over {} sprites, {} required",
+            "sprites that move by themselves sweep {swept:.1} cells on average over {} sprites, {} required",
             sweeps.len(),
             gates.sweep
         );
         let narrow = !sweeps.is_empty() && swept < gates.sweep;
         if narrow { &mut problems } else { &mut notes }.push(Evidence::new(text));
-        let text = format!("on {met} of {levels} levels it meets the player's way");
+        let text =
+            format!("on {met} of {levels} levels, a sprite that moves by itself meets the player's path");
         let away = (met as f64) < gates.met_levels * f64::from(levels);
         if away { &mut problems } else { &mut notes }.push(Evidence::new(text));
         if actors.deadly && case.analysis.aims().avatar_must_live && losses > 0 {
@@ -216,7 +222,7 @@ mod tests {
         let patrol = "wwwwwwwwwwww\nwA    w    w\nwww w w w ww\nw          w\nwwwwww  s  w\nw          w\nw ww www w w\nwp  w     pw\nwwwwwwwwwwww\n";
         check(Criterion::ActorsMatter, GAME, &[patrol], None);
         let pocket = "wwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                        pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwww\nw                      wwsww\nwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
-        check(Criterion::ActorsMatter, GAME, &[pocket], Some("sweeps 1.0 cells"));
+        check(Criterion::ActorsMatter, GAME, &[pocket], Some("sweep 1.0 cells"));
         check(Criterion::ActorsMatter, GAME, &["wwwwww\nwA  pw\nwwwwww\n"], None);
     }
 }

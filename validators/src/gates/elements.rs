@@ -34,7 +34,7 @@ impl Element {
     /// Returns evidence for a problem with the element.
     pub(super) fn problem(&self, text: String) -> Evidence {
         Evidence { rule: self.line.clone(), ..Evidence::new(text) }
-            .advise("remove it, or make winning depend on it")
+            .advise("remove this rule or type, or make winning depend on it")
     }
 }
 

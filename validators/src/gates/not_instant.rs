@@ -51,9 +51,8 @@ impl GameValidator for NotInstant {
                 won.number
             );
             match share > gates.bot_wins {
-                true => {
-                    problems.push(Evidence::new(text).advise("make the nearest goal the wrong one, at times"))
-                }
+                true => problems
+                    .push(Evidence::new(text).advise("make the nearest goal the wrong choice at times")),
                 false => notes.push(Evidence::new(text)),
             }
             instant += usize::from(problems.len() > before);
@@ -70,7 +69,10 @@ impl GameValidator for NotInstant {
                  to {most} times required"
             );
             match factor < least || factor > most {
-                true => problems.push(Evidence::new(text).advise("set the limit by the longest win")),
+                true => problems.push(Evidence::new(text).advise(
+                    "set the time limit in proportion to the \
+                    longest win",
+                )),
                 false => notes.push(Evidence::new(text)),
             }
         }
@@ -111,8 +113,7 @@ impl NotInstant {
         if ticks < least_win {
             let text =
                 format!("level {number} is won in {}, fewer than {least_win}", base::count(ticks, "tick"));
-            problems
-                .push(Evidence::new(text).advise("move the goal farther away, or put something in the way"));
+            problems.push(Evidence::new(text).advise("move the goal farther away, or add an obstacle"));
         }
         let start = game.start(won.level, won.win.seed);
         let placed = periods.iter().filter(|(stype, _)| start.alive(*stype) > 0);
@@ -124,7 +125,7 @@ impl NotInstant {
                 base::count(ticks, "tick")
             );
             let rule = Line::sprite(game, name);
-            problems.push(Evidence { rule, ..Evidence::new(text) }.advise("lower its cooldown"));
+            problems.push(Evidence { rule, ..Evidence::new(text) }.advise("lower the spawner's cooldown"));
         }
         problems
     }

@@ -24,7 +24,7 @@ pub(crate) struct Progression(Gates);
 const COURSE: usize = 3;
 
 pub(crate) const QUESTION: &str =
-    "does each level bring something new, and ask for more than the one before?";
+    "does each level introduce something new, and demand more than the level before?";
 
 pub(crate) fn judge(setting: &Setting<'_>) -> Progression {
     Progression(setting.criteria.gates.clone())
@@ -75,7 +75,7 @@ impl GameValidator for Progression {
         let problems = problems.into_iter().map(Evidence::new);
         let unused = all.difference(last).map(|&line| {
             let rule = Line::interaction(case.game, line);
-            Evidence::new(format!("the last level does without `{}`", rule.text)).of_rule(rule)
+            Evidence::new(format!("the last level does not use `{}`", rule.text)).of_rule(rule)
         });
         let texts: Vec<String> = eases.iter().map(|ease| format!("{ease:.2}")).collect();
         let notes = [

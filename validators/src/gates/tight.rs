@@ -51,7 +51,7 @@ impl GameValidator for Tight {
                 100.0 * least,
                 100.0 * most
             );
-            let seen = Evidence::new(text).advise("place fewer, or ask for more");
+            let seen = Evidence::new(text).advise("place fewer resources, or require more");
             if spare < least || spare > most { &mut problems } else { &mut notes }.push(seen);
         }
         let shares = |of: &dyn Fn(&WonLevel<'_>) -> f64| mean(&later().map(of).collect::<Vec<f64>>());
@@ -64,7 +64,7 @@ impl GameValidator for Tight {
             100.0 * won,
             100.0 * gates.careless_wins
         );
-        let seen = Evidence::new(text).advise("make carelessness cost something");
+        let seen = Evidence::new(text).advise("make careless play costly");
         if won > gates.careless_wins { &mut problems } else { &mut notes }.push(seen);
         finding(problems, notes, (!spares.is_empty()).then(|| mean(&spares)))
     }

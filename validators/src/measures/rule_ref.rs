@@ -48,7 +48,7 @@ impl RuleRef {
         if let Ok(number) = text.trim().parse::<usize>() {
             return match number {
                 1.. if number <= lines.len() => Ok(named(vec![(number - 1, None)])),
-                _ => wrong(format!("its InteractionSet has lines 1 to {}", lines.len())),
+                _ => wrong(format!("the InteractionSet has lines 1 to {}", lines.len())),
             };
         }
         let (sprites, effect) = words(analysis, text);

@@ -46,7 +46,7 @@ impl Hasher for KeyHasher {
 }
 
 /// The node of each state found so far.
-#[expect(clippy::disallowed_types, reason = "used for look-ups, never iterated")]
+#[expect(clippy::disallowed_types, reason = "the map is used for look-ups and never iterated")]
 type Met = std::collections::HashMap<SearchKey, NodeId, BuildHasherDefault<KeyHasher>>;
 
 /// The maximum number of steps to replay to restore a state, which is rarely more expensive than storing the state whole.
@@ -200,7 +200,7 @@ impl<'a> Tree<'a> {
             self.forget(kept);
             return Expanded::On;
         }
-        let (mut parent, mut child) = self.buffers.take().expect("given back below");
+        let (mut parent, mut child) = self.buffers.take().expect("the buffers are returned below");
         parent.unpack_from(&kept.whole, &self.base);
         for &action in &kept.steps {
             self.analysis.game().step(&mut parent, action);

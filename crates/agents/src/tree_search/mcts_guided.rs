@@ -220,7 +220,7 @@ impl GuidedMcts {
             Outcome::Lost | Outcome::Stopped(_) => return points - config.loss * gained.weight,
             Outcome::Ongoing | Outcome::Ended => gained.weight,
         };
-        let guide = self.guide.as_ref().expect("made when the decision began");
+        let guide = self.guide.as_ref().expect("the guide is made when the decision begins");
         let mut worth = 0.0;
         if config.guidance > 0.0 {
             let done = (guide.progress(state) - root.progress).clamp(-1.0, 1.0);
@@ -300,7 +300,7 @@ impl Planner for GuidedMcts {
             self.tree.clear();
             return (self.actions[0], 0);
         }
-        let guide = self.guide.as_ref().expect("just made");
+        let guide = self.guide.as_ref().expect("the guide was just made");
         *self.visits.entry(novelty_key(state, guide)).or_default() += 1;
         let root = Root {
             score: state.score(),

@@ -24,7 +24,7 @@ fn names_have_budgets() {
         ("mcts:many", "`mcts:500`"),
         ("mcts:-1", "`mcts:500`"),
         ("mcts:18446744073709551615", "a number of calls up to 1000000000"),
-        ("", "There are do-nothing"),
+        ("", "The planners are do-nothing"),
     ] {
         let error = text.parse::<PlannerSpec>().unwrap_err().to_string();
         assert!(error.contains(words), "{text}: {error}");

@@ -50,7 +50,7 @@ pub enum Fault {
     #[error("the key `{}` occurs twice", .0.escape_debug())]
     DuplicateKey(String),
     /// Arrays and objects are nested deeper than [`MAX_DEPTH`].
-    #[error("it is nested deeper than {MAX_DEPTH} levels")]
+    #[error("the value is nested deeper than {MAX_DEPTH} levels")]
     TooDeep,
     /// The type hides its value behind a private convention of its crate, such as a TOML date.
     #[error("`{0}` is private to its crate: convert it to plain data first")]

@@ -19,8 +19,8 @@ pub(crate) struct Limits {
     /// Number of threads [default: all cores]. The output is the same for any number
     #[arg(long, value_name = "N", global = true)]
     jobs: Option<usize>,
-    /// Memory for all searches together, such as 4GiB; searches wait for each other if they need more. The output is the same for
-    /// any size
+    /// Maximum memory for all searches together, such as 4GiB; searches wait for each other if they need more.
+    /// The output is the same for any size
     #[arg(long, value_name = "SIZE", global = true)]
     memory: Option<Bytes>,
 }

@@ -191,9 +191,9 @@ impl GameInput {
                         format!("levels {}", numbers.join(", "))
                     }
                 };
-                Err(malformed!("{title} has {there}: no `{name}`"))
+                Err(malformed!("`{name}` is not a level of {title}, which has {there}"))
             }
-            None => Err(malformed!("{}: there is no such file", name.in_message())),
+            None => Err(malformed!("{}: there is no such file; check the path", name.in_message())),
         }
     }
 }

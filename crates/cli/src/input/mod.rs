@@ -44,7 +44,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
         let near = near.map(|near| format!("the corpus game `{near}`"));
         let help = match near.or_else(|| nearest_sibling(path).map(|near| format!("`{near}`"))) {
             Some(near) => format!("there is no such file, folder or corpus game; did you mean {near}?"),
-            None => "there is no such file, folder or corpus game".to_owned(),
+            None => "there is no such file, folder or corpus game; check the path".to_owned(),
         };
         bail!("{}: {help}", name.in_message());
     };

@@ -46,7 +46,7 @@ pub(super) fn file_names(folder: &Path) -> Result<Vec<String>, Failure> {
 pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
-            malformed!("{}: there is no such folder", folder.in_message())
+            malformed!("{}: there is no such folder; check the path", folder.in_message())
         }
         _ => Failure::read(folder, error),
     };

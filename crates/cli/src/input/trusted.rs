@@ -208,7 +208,7 @@ pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<S
 pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Failure> {
     if let Some(file) = file {
         let Ok(text) = String::from_utf8(read_bounded(file, MAX_KEY_FILE)?) else {
-            bail!("`{}` is not UTF-8: write the password into a text file", file.in_message());
+            bail!("`{}` is not UTF-8: save the password as a UTF-8 text file", file.in_message());
         };
         return Ok(text.lines().next().unwrap_or_default().to_owned());
     }

@@ -141,7 +141,8 @@ fn action_of(event: &Value) -> Action {
     serde_json::from_value(event["action"].clone()).unwrap()
 }
 
-const OF_ANOTHER: &[&str] = &["line 1: ", "it was played on game", "it was played on another", "starts in"];
+const OF_ANOTHER: &[&str] =
+    &["line 1: ", "the episode was played on game", "it was played on another", "starts in"];
 const NOT_REPLAYED: &[&str] = &["but the log records", "is recorded as", "after the end of the episode"];
 
 /// Alters files in one of many ways.
@@ -239,7 +240,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             let copy = files[&name].clone();
             if chance.below(2) == 0 {
                 files.insert(name.replace("run0", "run1"), copy);
-                return Expect::Refused(&["has no such episode"]);
+                return Expect::Refused(&["does not list this episode"]);
             }
             files.insert(other(chance, &name), copy);
             Expect::Refused(OF_ANOTHER)
@@ -320,7 +321,7 @@ fn altered_logs_are_refused() {
         assert_ne!(altered, rows.honest, "{number}");
         rows.write(&altered);
         let (status, said) = rows.check("log", &[]);
-        let words = "no row of the log has its digest, ";
+        let words = "no row of the log has the digest of these results, ";
         assert!(status == Some(1) && said.contains(words), "{number}: {said}");
         let digest = said.split(words).nth(1).unwrap().split(':').next().unwrap();
         rows.forge(digest.parse().unwrap());
@@ -357,7 +358,10 @@ fn altered_bytes_are_refused() {
         }
         rows.write(&altered);
         let (status, said) = rows.check("log", &[]);
-        assert!(status == Some(1) && said.contains("no row of the log has its digest"), "{number}: {said}");
+        assert!(
+            status == Some(1) && said.contains("no row of the log has the digest of these results"),
+            "{number}: {said}"
+        );
     }
 }
 

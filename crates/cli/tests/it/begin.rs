@@ -95,7 +95,7 @@ fn new_recipes_are_accepted_as_they_are() {
     let said = text(&run(folder, &["recipes", "new", "2027-01"], 0).stdout);
     let next = proposed(&said);
     assert_eq!(next.len(), 3, "{said}");
-    assert!(said.contains("add --parent FOLDER"), "{said}");
+    assert!(said.contains("add --parent with the previous release's folder"), "{said}");
     assert_eq!(text(&run(folder, &["-q", "recipes", "new", "quiet"], 0).stdout), "");
     let dry: Vec<&str> = next[0].iter().map(String::as_str).collect();
     assert_eq!(dry, ["release", "2027-01.toml", "--dry-run"]);

@@ -193,7 +193,7 @@ fn wrong_inputs_name_the_next_move() {
         0,
     );
     refused(&["foreign", "--release", "revealed"], "no episode on a level of the release");
-    refused(&[published, published, "--release", "revealed"], "another folder has the same episodes");
+    refused(&[published, published, "--release", "revealed"], "two folders have the same episodes");
 }
 
 /// The wins that coins published are revealed before the other files, under the same root.
@@ -220,7 +220,7 @@ fn solutions_are_revealed_before_the_rest() {
         assert!(!text(&content).contains(secret["seed"].as_str().unwrap()), "{name}");
     }
     let said = text(&run(folder, &["study", "contamination", "--release", "solved"], 2).stderr);
-    assert!(said.contains("the parts that the coins of `coins` withheld are missing"), "{said}");
+    assert!(said.contains("the withheld parts of `coins` are missing"), "{said}");
     run(folder, &["release", "solved", "--reveal", "held", "--out", "revealed"], 0);
     assert_eq!(files(&folder.join("revealed")), all);
     // If one of the revealed files is missing, the release does not verify.
@@ -291,16 +291,16 @@ fn what_was_withheld_is_verified() {
         let (one, other) = (files[&won].clone(), files[&second].clone());
         files.extend([(won.clone(), other), (second.clone(), one)]);
     };
-    forged(&swap, &format!("{second}: its coin publishes it"));
+    forged(&swap, &format!("{second}: the coin publishes this"));
     let repeat = |files: &mut BTreeMap<String, Vec<u8>>| {
         files.insert(second.clone(), files[&won].clone());
     };
-    forged(&repeat, &format!("{second}: it begins like the win that is published"));
+    forged(&repeat, &format!("{second}: the second win begins like the published win"));
     let other_rules = |files: &mut BTreeMap<String, Vec<u8>>| {
         let changed = text(&files[&sibling]).replace("scoreChange=1", "scoreChange=2");
         files.insert(sibling.clone(), changed.into_bytes());
     };
-    forged(&other_rules, &format!("{sibling}: its rules are not those"));
+    forged(&other_rules, &format!("{sibling}: the rules are not those"));
     let without_level = |files: &mut BTreeMap<String, Vec<u8>>| {
         files.remove(&sibling.replace("game.vgdl", "lvl0.txt"));
     };

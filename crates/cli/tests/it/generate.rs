@@ -94,7 +94,10 @@ fn impossible_requests_end_without_a_level() {
     ];
     let output = run(home.path(), &args, 1);
     let message = text(&output.stderr);
-    assert!(message.contains("no board can hold what is requested: requested 100 of orchid"), "{message}");
+    assert!(
+        message.contains("no board has room for the requested sprites: requested 100 of orchid"),
+        "{message}"
+    );
     assert!(message.contains("--with"), "{message}");
     assert!(!home.path().join("new").exists());
     let asked: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -89,20 +89,21 @@ fn a_sealed_month_waits_for_its_beacon() {
     beacon(folder, "chosen.json", "drand quicknet", 1000, &"ab".repeat(32));
     minted("chosen.json", "has no `signature` of round 1000 of drand quicknet");
     drand(folder, "chosen.json", 1000, ROUND_123);
-    minted("chosen.json", "its `signature` is not the one of round 1000 of drand quicknet");
-    append(&["--beacon", "chosen.json"], 2, "its `signature` is not the one of round 1000");
+    minted("chosen.json", "its `signature` does not belong to round 1000 of drand quicknet");
+    append(&["--beacon", "chosen.json"], 2, "its `signature` does not belong to round 1000");
     drand(folder, "round.json", 1000, ROUND_1000);
     run(folder, &[&mint[..], &["--beacon", "round.json"]].concat(), 0);
     run(folder, &["verify", "out/public"], 0);
     append(
         &["--release", "out/public"],
         2,
-        "sign it first with `arcade trust sign out/public --secret NAME.key`, or enter it without a signature with --unsigned",
+        "sign it first with `arcade trust sign out/public --secret NAME.key`, or append it without a \
+         signature with --unsigned",
     );
     append(
         &["--release", "out/public", "--unsigned"],
         2,
-        "takes round 1000 of drand quicknet, whose value is not in the log",
+        "uses round 1000 of drand quicknet, whose value is not in the log",
     );
     let copy = folder.join("copy");
     copy_tree(&folder.join("log"), &copy);
@@ -169,7 +170,13 @@ fn a_sealed_month_waits_for_its_beacon() {
         "1",
     ];
     check(&["--witness", "w.example=w.pub"], 1, "the witness `w.example` has not signed");
-    says(folder, &[&witness[..], &["--seen", "seen-2"]].concat(), 2, "pass the one signed last");
+    says(
+        folder,
+        &[&witness[..], &["--seen", "seen-2"]].concat(),
+        2,
+        "pass the checkpoint that the \
+                                    witness signed last",
+    );
     run(folder, &witness, 0);
     check(&["--witness", "w.example=w.pub", "--seen", "seen-2", "--save", "witnessed"], 0, "sound");
     run(folder, &[&witness[..], &["--seen", "witnessed"]].concat(), 0);
@@ -183,7 +190,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     says(folder, &forks, 0, "round 1 of dice, as the log states it");
     beacon(folder, "third.json", "dice", 2, &"01".repeat(32));
     run(folder, &["trust", "log", "append", "copy", "--secret", "log.key", "--beacon", "third.json"], 0);
-    says(folder, &rolled, 1, "the log has forked: its first 4 entries are not those that were seen before");
+    says(folder, &rolled, 1, "the log has forked: its first 4 entries differ from the entries seen before");
     says(
         folder,
         &["trust", "log", "check", "copy", "--key", "log.pub", "--release", "revealed"],
@@ -201,7 +208,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     fs::write(&entries, text(&bytes).replacen("\"commitment\"", "\"Commitment\"", 1)).unwrap();
     says(folder, &copy, 1, "the log is NOT sound");
     fs::remove_file(&entries).unwrap();
-    says(folder, &copy, 1, "the log is cut");
+    says(folder, &copy, 1, "the log was truncated");
 }
 
 /// A commitment cannot be withdrawn. A commitment that would make the root of its release impossible is therefore
@@ -250,11 +257,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     append(&["--commitment", "2027-02.toml", "--first"], 2, "did you forget --parent?");
     let changed = february(&commitment).replace("candidates = 2.0", "candidates = 3.0");
     fs::write(folder.join("2027-02.toml"), changed).unwrap();
-    append(
-        &["--commitment", "2027-02.toml", "--parent", "tiny"],
-        2,
-        "more than its `commitment` was changed",
-    );
+    append(&["--commitment", "2027-02.toml", "--parent", "tiny"], 2, "more than that line was changed");
     fs::write(folder.join("2027-02.toml"), february(&commitment)).unwrap();
     assert!(text(&run(folder, &["trust", "log", "show", "log"], 0).stdout).contains("1 entry, not checked"));
 
@@ -319,7 +322,7 @@ fn wrong_files_are_named() {
     fs::create_dir(folder.join("folder")).unwrap();
     for file in ["empty", "binary", "long", "folder", "missing"] {
         let next = |of_content: &'static str| match file {
-            "long" => "which no such file has: check the path",
+            "long" => "the limit for such a file: check the path",
             "folder" => "is a folder: pass a file in it",
             "missing" => "does not exist: check the path",
             _ => of_content,
@@ -340,7 +343,7 @@ fn wrong_files_are_named() {
             ),
             (
                 &["trust", "log", "append", "log", "--secret", "log.key", "--beacon", file],
-                next("write the answer of the source with its name"),
+                next("write the source's answer together with its name"),
             ),
             (
                 &["trust", "log", "append", "log", "--secret", file, "--release", "tiny", "--unsigned"],
@@ -391,7 +394,7 @@ fn wrong_files_are_named() {
         folder,
         &["trust", "keygen", "k", "--password-file", "binary"],
         2,
-        "write the password into a text file",
+        "save the password as a UTF-8 text file",
     );
     says(folder, &["trust", "keygen", "k", "--password-file", "empty"], 2, "the password is empty");
     let at_file = [
@@ -468,7 +471,7 @@ fn rows_are_replayed() {
     };
     assert_ne!(honest, altered);
     fs::write(&episode, altered).unwrap();
-    says(folder, &check, 1, "no row of the log has its digest");
+    says(folder, &check, 1, "no row of the log has the digest of these results");
     let said = text(&run(folder, &again, 2).stderr);
     assert!(!said.contains("are already in the log"), "{said}");
 }

@@ -25,7 +25,7 @@ fn a_changed_seed_is_damage() {
     fs::write(root.join("MANIFEST.json"), manifest.replacen("a coin", "a corn", 1)).unwrap();
     let output = run(folder.path(), &["regenerate", "tiny", "--out", "again"], 2);
     let said = text(&output.stderr);
-    assert!(said.contains("its root is not that of its content"), "{said}");
+    assert!(said.contains("the root does not match the content"), "{said}");
     assert_eq!(text(&output.stdout), "");
     assert!(!folder.path().join("again").exists() && !folder.path().join("again.partial").exists());
 }

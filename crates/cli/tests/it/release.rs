@@ -92,7 +92,7 @@ fn content_of_earlier_releases_is_not_minted_again() {
     fs::write(folder.join("next.toml"), recipe.replace("candidates = 2.0", "candidates = 1.0")).unwrap();
     let output = run(folder, &["release", "next.toml", "--parent", "slices", "--out", "next"], 2);
     let said = text(&output.stderr);
-    assert!(said.contains("can be taken") && said.contains("in a release before"), "{said}");
+    assert!(said.contains("can be selected") && said.contains("in an earlier release"), "{said}");
     fs::write(folder.join("slices.toml"), SLICES_RECIPE).unwrap();
     let output = run(folder, &["release", "slices.toml", "--parent", "slices", "--out", "next"], 2);
     assert!(text(&output.stderr).contains("choose another name"), "{}", text(&output.stderr));
@@ -470,7 +470,7 @@ fn replays_take_no_more_than_is_allowed() {
     // A different root is a fault under any bound.
     let root = "0".repeat(64);
     let said = text(&run(TINY.path(), &["verify", "tiny", "--max-work", "100", "--root", &root], 1).stdout);
-    assert!(said.contains("its witnesses take more than 100 units of work to replay"), "{said}");
+    assert!(said.contains("replaying the witnesses takes more than 100 units of work"), "{said}");
     assert!(said.contains("tiny: does NOT verify; problems: 2"), "{said}");
     run(TINY.path(), &["verify", "tiny", "--max-work", "100000000"], 0);
 }

@@ -143,7 +143,7 @@ fn reports_are_self_contained() {
     assert!(made == files(&home.path().join("two")), "the same results give the same bytes");
     assert_eq!((&told["episodes"], &told["ended"]), (&Value::from(16), &Value::from(14)));
     let lead = told["verdict"][0].as_str().unwrap();
-    assert!(lead.starts_with("talker (") && lead.contains(" One game says nothing"), "{lead}");
+    assert!(lead.starts_with("talker (") && lead.contains(" A single game does not show"), "{lead}");
     assert_eq!(told["files"].as_array().unwrap().len(), made.len());
 
     let file = |name: &str| text(&made[name]);
@@ -359,14 +359,14 @@ fn logs_are_compared_with_their_replay() {
         fs::read_to_string(&path).unwrap().replacen("\"validity\":\"invalid\"", "\"validity\":\"valid\"", 1);
     fs::write(&path, altered).unwrap();
     for (results, words) in [
-        ("status", &["line 14: ", "the game is over, but it is not"][..]),
+        ("status", &["line 14: ", "the game is over, but the game is not over"][..]),
         ("limit", &["line 14: ", "12 of 13 steps were taken"]),
         ("run", &["line 1: ", "the log is of run 1, but 0 was requested"]),
         ("invalid", &["line 2: ", "step 0 is recorded as invalid, but it has an action"]),
         ("score", &["line 4: ", "step 2 leads to score 0, but the log records 1"]),
-        ("after", &["line 14: ", "a step after the end"]),
-        ("fewer", &["run1.jsonl", "evaluation.json has no such episode"]),
-        ("valid", &["recorded as valid, but the last answer contradicts it"]),
+        ("after", &["line 14: ", "a step after its end"]),
+        ("fewer", &["run1.jsonl", "evaluation.json does not list this episode"]),
+        ("valid", &["recorded as valid, but the last answer contradicts the record"]),
     ] {
         let message = text(&run(home.path(), &["report", results, "--out", "report"], 2).stderr);
         for part in words {

@@ -334,7 +334,7 @@ fn adaptive_choices_are_reproducible() {
 fn malformed_scales_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (content, words) in
-        [("{}", "not a scale"), ("nothing", "not a scale"), ("{\"format\": 9}", "update it")]
+        [("{}", "not a scale"), ("nothing", "not a scale"), ("{\"format\": 9}", "update arcade")]
     {
         fs::write(folder.path().join("scale.json"), content).unwrap();
         let found = run(folder.path(), &["study", "scale", "none", "--scale", "scale.json"], 2);

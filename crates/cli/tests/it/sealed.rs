@@ -35,7 +35,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     let changed =
         run(folder, &["release", "changed.toml", "--secret", "sealed.secret.json", "--out", "x"], 2);
     let said = text(&changed.stderr);
-    assert!(said.contains("the recipe is not the one that was committed to"), "{said}");
+    assert!(said.contains("the recipe does not match its `commitment`"), "{said}");
     assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
     let without = run(folder, &["release", "sealed.toml", "--out", "x"], 2);
     assert!(text(&without.stderr).contains("--secret FILE"), "{}", text(&without.stderr));
@@ -179,7 +179,7 @@ fn commitments_are_made_to_recipes_that_can_be_minted() {
     recipe("many", "", "games = 40\nkinds = ['rescue']");
     let said = text(&run(folder, &["release", "many.toml", "--commit"], 2).stderr);
     assert!(
-        said.contains("`generated.games` is 40, but at most ") && said.contains("of the kinds rescue"),
+        said.contains("`generated.games` is 40, but the limit is ") && said.contains("of the kinds rescue"),
         "{said}"
     );
     assert!(!folder.join("many.secret.json").exists());
@@ -201,7 +201,7 @@ fn commitments_are_made_to_recipes_that_can_be_minted() {
     }
     recipe("late", "", &format!("games = 2\ncommitment = '{}'", "0".repeat(64)));
     let said = text(&run(folder, &["release", "late.toml", "--dry-run"], 2).stderr);
-    assert!(said.contains("move it above the first [table]"), "{said}");
+    assert!(said.contains("move the line above the first [table]"), "{said}");
 }
 
 /// A seed invented by a person can be guessed.
@@ -311,7 +311,7 @@ fn shards_of_a_sealed_release_are_private() {
     let datasheet = |part: &str| fs::read_to_string(folder.join(part).join("papers/DATASHEET.md")).unwrap();
     assert!(datasheet("out/public").contains("held back until it is revealed"));
     let revealed = datasheet("whole");
-    assert!(revealed.contains("sealed, and revealed") && !revealed.contains("held back"), "{revealed}");
+    assert!(revealed.contains("sealed and revealed") && !revealed.contains("held back"), "{revealed}");
     // A lost commitment can be restored from the secret.
     fs::write(folder.join("lost.toml"), recipe("x").replace("commitment = 'x'\n", "")).unwrap();
     let lost = text(&run(folder, &[&["release", "lost.toml"][..], &secret].concat(), 2).stderr);
@@ -354,7 +354,7 @@ fn another_secret_is_refused() {
     run(folder, &["release", "sealed.toml", "--commit"], 0);
     let output = run(folder, &["release", "sealed.toml", "--secret", "sealed.secret.json", "--out", "x"], 2);
     assert!(
-        text(&output.stderr).contains("not the one that the recipe's `commitment`"),
+        text(&output.stderr).contains("does not match the recipe's `commitment`"),
         "{}",
         text(&output.stderr)
     );

@@ -49,7 +49,7 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(said(&["merge", "shard1", "shard3", "--out", "x"]).contains("shards are missing: 2/3"));
     assert!(
         said(&["merge", "shard1", "shard2", "shard3", "shard1", "--out", "x"])
-            .contains("they are the same shard")
+            .contains("both folders hold the same shard")
     );
     assert!(said(&["merge", "slices", "--out", "x"]).contains("not a shard"));
     assert!(said(&["release", "slices.toml", "--shard", "4/3", "--out", "x"]).contains("K from 1 to N"));

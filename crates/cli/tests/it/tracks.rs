@@ -69,12 +69,9 @@ fn a_model_discovers_the_rules_and_is_reported_apart() {
 fn refusals_name_a_way_on() {
     let home = tempfile::tempdir().unwrap();
     for (more, words) in [
-        (&["--player", "mcts:10", "--track", "masked"][..], "it plans with the rules and the state"),
-        (&["--player", "reflex", "--track", "discover"], "`touch-everything` needs none"),
-        (
-            &["--player", "touch-everything", "--track", "vision"],
-            "it can play on `told`, `masked` and `discover`",
-        ),
+        (&["--player", "mcts:10", "--track", "masked"][..], "the player plans with the rules and the state"),
+        (&["--player", "reflex", "--track", "discover"], "use `touch-everything`, which plays without rules"),
+        (&["--player", "touch-everything", "--track", "vision"], "choose `told`, `masked` or `discover`"),
         (&["--player", "human", "--track", "vision"], "`mailbox:DIR` puts a PNG file beside each prompt"),
         (&["--player", "cmd:sh", "--track", "vision"], "plays through `mailbox:DIR`"),
         (&["--player", "planner:mcts", "--track", "told"], "pass --rules vgdl"),

@@ -122,7 +122,7 @@ fn planners_have_a_greatest_budget() {
     let most = "18446744073709551615";
     refused(&["play", "hailglass", "--budget", most], "18446744073709551615 is not in 0..=1000000000");
     let named = format!("mcts:{most}");
-    refused(&["run", "hailglass", "--planner", &named], "followed by a number of calls up to 1000000000");
+    refused(&["run", "hailglass", "--planner", &named], "write a number of calls up to 1000000000");
 }
 
 #[test]

@@ -43,7 +43,7 @@ impl fmt::Display for Refusal {
         match self {
             Refusal::TooEarly => f.write_str("the first request must be `initialize`"),
             Refusal::TooLate => f.write_str("this request is not allowed at this time"),
-            Refusal::Method(method) => write!(f, "no method `{}`", method.escape_debug()),
+            Refusal::Method(method) => write!(f, "unknown method `{}`", method.escape_debug()),
             Refusal::Params => {
                 f.write_str("the parameters do not match the method, or the document is not open")
             }
@@ -244,9 +244,7 @@ impl<'a> Query<'a> {
             return Ok(Value::Null);
         }
         let text = format(self.text()).map_err(|_| {
-            Refusal::Failed(
-                "lines that cannot be parsed have no canonical form: fix the problems first".to_owned(),
-            )
+            Refusal::Failed("some lines cannot be parsed: fix the problems before formatting".to_owned())
         })?;
         if text == self.text() {
             return Ok(json!([]));

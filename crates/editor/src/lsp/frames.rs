@@ -29,7 +29,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
             return Ok(if is_empty {
                 Frame::End
             } else {
-                Frame::Unread("the input ends in a header".to_owned())
+                Frame::Unread("the input ends within a header".to_owned())
             });
         }
         let text = line.trim_ascii();
@@ -58,7 +58,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
     let mut message = Vec::new();
     input.by_ref().take(length).read_to_end(&mut message)?;
     if (message.len() as u64) < length {
-        return Ok(Frame::Unread("the input ends in a message".to_owned()));
+        return Ok(Frame::Unread("the input ends within a message".to_owned()));
     }
     Ok(Frame::Message(message))
 }

@@ -76,7 +76,7 @@ pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     if options.limits.cost.is_some() && price.is_none() {
         let (provider, model) = (spec.provider.name(), &spec.model);
         let problem = format!(
-            "--max-cost needs a price, but none is known for `{model}`; give one with --prices FILE \
+            "--max-cost needs a price, but no price is known for `{model}`; add the price with --prices FILE \
              (provider = \"{provider}\", name = \"{model}\"), or use --max-tokens"
         );
         return Err(EvaluationError::Malformed(problem));
@@ -145,7 +145,11 @@ fn key(
     let usual = spec.provider.key_variable();
     let wanted = |variable: &str| {
         let key = Key::read(variable, environment)?;
-        let problem = format!("{} requires a key, but {variable} is not set; export it", spec.server.host);
+        let problem = format!(
+            "{} requires a key, but {variable} is not set; export the key under that \
+                               name",
+            spec.server.host
+        );
         key.map(Some).ok_or(EvaluationError::Malformed(problem))
     };
     match &options.key_variable {

@@ -43,7 +43,9 @@ pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) 
         return Ok(ChatReply::new(shorten(&error_body.message), Finish::Refusal));
     }
     let words = match (body_kind(&reply.body), &reply.location) {
-        (_, Some(target)) if (300..400).contains(&status) => format!("it redirects to {}", shorten(target)),
+        (_, Some(target)) if (300..400).contains(&status) => {
+            format!("the server redirects to {}", shorten(target))
+        }
         (Some(kind), _) => kind.to_owned(),
         (None, _) => shorten(&error_body.message),
     };
@@ -193,7 +195,10 @@ mod tests {
         let fault = classify(Provider::Compatible, &moved, SystemTime::UNIX_EPOCH).unwrap_err();
         assert_eq!(
             fault,
-            Fault::Final { status: 308, message: "it redirects to https://example.org/v1".to_owned() }
+            Fault::Final {
+                status: 308,
+                message: "the server redirects to https://example.org/v1".to_owned()
+            }
         );
     }
 

@@ -151,7 +151,9 @@ impl Remote {
             (401 | 403, Some(key)) => {
                 format!("; check that the key in {} is valid for {host}", key.variable)
             }
-            (401 | 403, None) => "; if it requires a key, name its variable with --key-variable".to_owned(),
+            (401 | 403, None) => "; if the server requires a key, pass the key's variable with \
+                                  --key-variable"
+                .to_owned(),
             (404, _) if self.spec.server.own => format!("; check the model name `{model}`"),
             (404, _) => {
                 format!("; check the model name `{model}` and the end of the base URL (usually `/v1`)")
@@ -164,7 +166,7 @@ impl Remote {
 
     fn given_up(&self, failures: Vec<Failure>, requested_wait: Option<Duration>) -> ChatError {
         let host = &self.spec.server.host;
-        let last = failures.last().expect("there was a try");
+        let last = failures.last().expect("at least one try has failed");
         let status = last.status.map(|status| format!("{status}: ")).unwrap_or_default();
         let times = if failures.len() == 1 { "once".to_owned() } else { format!("{} times", failures.len()) };
         let requested_wait = requested_wait

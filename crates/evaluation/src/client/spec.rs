@@ -82,7 +82,7 @@ fn unknown(id: &str) -> String {
     });
     let guess = guess.map(|guess| format!("; did you mean `{guess}`?")).unwrap_or_default();
     format!(
-        "`{id}` does not name the provider of the model{guess}\n  pass `openai:NAME`, `anthropic:NAME` or \
+        "`{id}` does not include the provider of the model{guess}\n  pass `openai:NAME`, `anthropic:NAME` or \
          `gemini:NAME`, or the server's address: `--base-url http://localhost:8000/v1`"
     )
 }
@@ -98,7 +98,7 @@ impl Server {
         let uri: Uri = url.trim().parse().map_err(|_| malformed("is not a URL"))?;
         let encrypted = match uri.scheme_str() {
             Some("https") if !cfg!(feature = "https") => {
-                return Err(malformed("needs https, and this program was built without that feature"));
+                return Err(malformed("needs https, but this program was built without the feature `https`"));
             }
             Some("https") => true,
             Some("http") => false,

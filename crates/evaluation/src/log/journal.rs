@@ -123,12 +123,12 @@ fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
 fn fault(line: &[u8], error: &serde_json::Error) -> String {
     let value = match serde_json::from_slice(line) {
         Ok(Value::Object(value)) => value,
-        Ok(_) => return "it isn't a JSON object".to_owned(),
-        // The parser sees a single line of the log, so the error's line number is meaningless.
-        Err(error) => return format!("it isn't valid JSON from column {} on", error.column()),
+        Ok(_) => return "the line is not a JSON object".to_owned(),
+        // The parser sees only one line.
+        Err(error) => return format!("the line is not valid JSON from column {} on", error.column()),
     };
     let Some(name) = value.get("event").and_then(Value::as_str) else {
-        return "it has no `event`".to_owned();
+        return "the field `event` is missing".to_owned();
     };
     // The parser's message begins with the fault and continues with the expected input.
     let said = error.to_string();
@@ -137,7 +137,7 @@ fn fault(line: &[u8], error: &serde_json::Error) -> String {
         "unknown variant" if named == name => format!("`{name}` isn't an event"),
         "unknown field" => format!("`{named}` isn't a field of `{name}`"),
         "missing field" => format!("`{name}` lacks the field `{named}`"),
-        _ => format!("a field of `{name}` has a wrong value"),
+        _ => format!("a field of `{name}` has an invalid value"),
     }
 }
 
@@ -149,14 +149,14 @@ mod tests {
     fn faults_of_lines() {
         let halt = "{\"event\":\"halt\",\"reason\":\"budget\",\"message\":\"\"}";
         for (line, expect) in [
-            ("hello", "it isn't valid JSON from column 1 on"),
-            (&halt[..30], "it isn't valid JSON from column 30 on"),
-            ("[1, 2]", "it isn't a JSON object"),
-            ("{\"step\": 3}", "it has no `event`"),
+            ("hello", "the line is not valid JSON from column 1 on"),
+            (&halt[..30], "the line is not valid JSON from column 30 on"),
+            ("[1, 2]", "the line is not a JSON object"),
+            ("{\"step\": 3}", "the field `event` is missing"),
             (&halt.replace("halt", "stop"), "`stop` isn't an event"),
             (&halt.replace("reason", "cause"), "`cause` isn't a field of `halt`"),
             (&halt.replace(",\"message\":\"\"", ""), "`halt` lacks the field `message`"),
-            (&halt.replace("\"budget\"", "7"), "a field of `halt` has a wrong value"),
+            (&halt.replace("\"budget\"", "7"), "a field of `halt` has an invalid value"),
         ] {
             let error = serde_json::from_str::<Event>(line).expect_err(line);
             assert_eq!(fault(line.as_bytes(), &error), expect, "{line}: {error}");

@@ -17,7 +17,7 @@ impl<'a> Answers<'a> {
     /// Adds an answer that precedes step number `step`.
     pub(super) fn reply(&mut self, reply: &'a Reply, step: usize) -> Result<(), String> {
         if reply.step != step as u64 {
-            return Err(format!("there is an answer to step {} before step {step}", reply.step));
+            return Err(format!("the answer to step {} precedes step {step}", reply.step));
         }
         self.replies.push(reply);
         Ok(())
@@ -56,7 +56,7 @@ impl<'a> Answers<'a> {
         let wrong = |what: &str| Err(format!("step {step} is recorded as {}, but {what}", validity.name()));
         let is_valid = validity == Validity::Valid;
         if !is_valid && !is_nothing {
-            return wrong("it has an action");
+            return wrong("the step has an action");
         }
         if !is_valid && is_planned {
             return wrong("a planner chose its action");
@@ -77,12 +77,12 @@ impl<'a> Answers<'a> {
         match (validity, last.class) {
             (Validity::Valid, ReplyClass::Strict | ReplyClass::Tolerant) if is_named(last) => Ok(()),
             (Validity::Valid, ReplyClass::Strict | ReplyClass::Tolerant) => {
-                wrong("the last answer names another action")
+                wrong("the last answer specifies a different action")
             }
             (Validity::Invalid, ReplyClass::Invalid)
             | (Validity::Refused, ReplyClass::Refused)
             | (Validity::Truncated, ReplyClass::Truncated) => Ok(()),
-            _ => wrong("the last answer contradicts it"),
+            _ => wrong("the last answer contradicts the record"),
         }
     }
 }

@@ -31,16 +31,16 @@ impl Commit {
         }
         if self.played < self.due {
             return Err(format!(
-                "there is a plan, but {} steps of the last one are missing",
+                "there is a new plan, but {} steps of the last plan are missing",
                 self.due - self.played
             ));
         }
         if *step != steps {
-            return Err(format!("the plan of step {steps} is recorded as that of step {step}"));
+            return Err(format!("the plan of step {steps} is recorded as the plan of step {step}"));
         }
         self.due = self.commit.due(self.max_steps.saturating_sub(steps));
         if actions.len() as u64 > self.due {
-            return Err(format!("the plan has {} actions, but {} are due", actions.len(), self.due));
+            return Err(format!("the plan has {} actions; the limit is {}", actions.len(), self.due));
         }
         (self.choice, self.played) = (Choice { actions: actions.clone(), validity: *validity }, 0);
         Ok(())
@@ -54,14 +54,14 @@ impl Commit {
             return Ok(true);
         }
         if self.played >= self.due {
-            return Err(format!("step {step} belongs to no plan"));
+            return Err(format!("step {step} does not belong to a plan"));
         }
         let asked = self.choice.action(self.played as usize);
         let planned = available(game, state, asked);
         if (planned, self.choice.validity) != (*action, *validity) {
             let (planned, found) = (self.choice.validity.name(), validity.name());
             return Err(format!(
-                "step {step} plays {action} ({found}), but its plan has {asked} ({planned})"
+                "step {step} plays {action} ({found}), but the plan has {asked} ({planned})"
             ));
         }
         self.played += 1;

@@ -101,14 +101,14 @@ fn replay_measured(subject: &Subject, log: &[Event], has_effects: bool) -> Resul
         let malformed =
             |what: String| EvaluationError::Malformed(format!("line {line}: {what}; {NEXT_STEP}"));
         match event {
-            Event::Start { .. } => return Err(malformed("there is a second start of an episode".to_owned())),
+            Event::Start { .. } => return Err(malformed("the episode has a second start".to_owned())),
             Event::Plan { .. } => {
                 plan.begin(event, replayed.actions.len() as u64).map_err(malformed)?;
                 answers.plan(event).map_err(malformed)?;
             }
             Event::Step { action, .. } => {
                 if state.is_over() || replayed.actions.len() as u64 >= *max_steps {
-                    return Err(malformed("there is a step after the end of the episode".to_owned()));
+                    return Err(malformed("the episode has a step after its end".to_owned()));
                 }
                 let is_decision = plan.step(event, &subject.game, &state).map_err(malformed)?;
                 if has_effects {
@@ -147,7 +147,7 @@ fn replay_measured(subject: &Subject, log: &[Event], has_effects: bool) -> Resul
             Event::End { .. } => {
                 compare_end(event, &replayed, *max_steps).map_err(malformed)?;
                 if line < log.len() {
-                    return Err(malformed("there are lines after the end of the episode".to_owned()));
+                    return Err(malformed("the log has lines after the end of the episode".to_owned()));
                 }
             }
             Event::Reply(reply) => answers.reply(reply, replayed.actions.len()).map_err(malformed)?,
@@ -169,24 +169,25 @@ fn begin<'a>(subject: &'a Subject, start: &Event) -> Result<(&'a SubjectLevel, S
     };
     if *schema > SCHEMA {
         return Err(format!(
-            "a log of schema {schema}; this version of arcade reads up to {SCHEMA}: update it"
+            "the log has schema {schema}, but this version of arcade reads schemas up to {SCHEMA}: update \
+             arcade"
         ));
     }
     if *semantics != SEMANTICS {
         return Err(format!(
-            "it was played under semantics {semantics}, but this version of arcade has {SEMANTICS}; read it with the version \
-             that wrote it"
+            "the episode was played under semantics {semantics}, but this version of arcade has \
+             {SEMANTICS}; read the log with the version that wrote it"
         ));
     }
     if *game_digest != subject.game.digest() {
         let given = subject.game.digest();
-        return Err(format!("it was played on game {game_digest}, not on {given}"));
+        return Err(format!("the episode was played on game {game_digest}, not on {given}"));
     }
     let found = subject.levels.iter().find(|found| found.number == *level);
     let found = found.ok_or_else(|| format!("the game has no level {level}"))?;
     let given = found.level.digest();
     if *level_digest != given {
-        return Err(format!("it was played on level {level_digest}, not on {given}"));
+        return Err(format!("the episode was played on level {level_digest}, not on {given}"));
     }
     let state = subject.game.start(&found.level, *seed);
     if state.state_hash() != *hash || cell(&subject.game, &state) != *avatar {
@@ -229,11 +230,13 @@ fn compare_predictions(event: &Event, subject: &Subject, steps: usize) -> Result
         return Err(format!("the predictions after step {steps} are recorded after step {step}"));
     }
     if predicted.is_some() != (*validity == Validity::Valid) {
-        return Err(format!("the predictions are recorded as {}, which they are not", validity.name()));
+        return Err(format!("the predictions are wrongly recorded as {}", validity.name()));
     }
     match graded(&subject.analysis, kinds, predicted.as_ref()) == *grade {
         true => Ok(()),
-        false => Err("the grade of the predictions differs from that by the rules".to_owned()),
+        false => {
+            Err("the recorded grade of the predictions differs from the grade under the rules".to_owned())
+        }
     }
 }
 
@@ -251,7 +254,9 @@ fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(),
         ));
     }
     match status {
-        Status::Over if !is_over => Err("the log records that the game is over, but it is not".to_owned()),
+        Status::Over if !is_over => {
+            Err("the log records that the game is over, but the game is not over".to_owned())
+        }
         Status::StepLimit if is_over => {
             Err("the log records that the step limit was reached, but the game is over".to_owned())
         }

@@ -26,7 +26,9 @@ impl Prompter {
             before: last.before.map(|before| (before.observation.clone(), before.action)),
             steps: last.number,
         };
-        let Value::Object(mut told) = self.told_end(&end) else { unreachable!("it is made as an object") };
+        let Value::Object(mut told) = self.told_end(&end) else {
+            unreachable!("the end is encoded as an object")
+        };
         told.insert("kinds".to_owned(), json!(self.listed(kinds)));
         let shown = self.render("discover_question.j2", data(Value::Object(told)));
         self.conversation(shown.trim_end().to_owned(), None, past, attempts)

@@ -420,7 +420,7 @@ impl Prompter {
     }
 
     fn render(&self, template: &str, data: Value) -> String {
-        let template = self.environment.get_template(template).expect("it is among the templates");
+        let template = self.environment.get_template(template).expect("the template exists");
         template.render(data).expect("the templates are ours, and a test writes with each")
     }
 }

@@ -97,7 +97,7 @@ impl Task<'_> {
         }
         match *seed == self.chance() || *seed == self.chance_by_name() {
             true => Ok(()),
-            false => Err("the `seed` of the episode in the log differs from the requested one".to_owned()),
+            false => Err("the `seed` of the episode in the log differs from the requested seed".to_owned()),
         }
     }
 
@@ -158,7 +158,9 @@ pub(crate) fn play_watched(
     match journal.events().first() {
         None => journal.push(play.start_event())?,
         Some(first) if *first == play.start_event() => {}
-        Some(_) => return Err(journal.malformed("this is the log of another episode; use another folder")),
+        Some(_) => {
+            return Err(journal.malformed("this is the log of a different episode; use another folder"));
+        }
     }
     if let Some(halt) = play.replay_log(journal)? {
         return Ok((PlayResult::Halted(halt), None));
@@ -353,7 +355,8 @@ impl<'a> Playing<'a> {
             Some(_) => {
                 let step = self.steps.saturating_sub(1);
                 return Err(journal.malformed(&format!(
-                    "step {step} differs from the log when it is replayed; the log is damaged or was written by another version of arcade"
+                    "replaying step {step} gives a different result than the log; the log is damaged or \
+                     was written by a different version of arcade"
                 )));
             }
         }

@@ -126,7 +126,7 @@ impl Evaluation {
         if !is_free(folder)? {
             let next = match folder.join(SETTINGS_FILE).exists() {
                 true => "pass --resume to continue the evaluation in it, or choose another folder",
-                false => "it contains no evaluation to resume; choose another folder",
+                false => "this folder contains no evaluation to resume; choose another folder",
             };
             return Err(EvaluationError::malformed(folder, format!("the folder is not empty; {next}")));
         }
@@ -163,8 +163,7 @@ impl Evaluation {
         let mut evaluation = Evaluation::open(folder)?;
         if let Some(difference) = difference(&evaluation.settings, settings) {
             let what = format!(
-                "the evaluation in it was started with a different {difference}; use the same one, or \
-                 another folder"
+                "the evaluation in this folder was started with a different {difference}; use the same {difference}, or another folder"
             );
             return Err(EvaluationError::malformed(folder, what));
         }
@@ -181,7 +180,7 @@ impl Evaluation {
         let text = read_text(&path, MAX_SETTINGS, RESTORE).map_err(|error| match error {
             EvaluationError::Io { source, .. } if is_absent(&source) => {
                 let what = format!(
-                    "no results of an evaluation here (no {SETTINGS_FILE}); `arcade evaluate --out DIR` writes such a folder"
+                    "no results of an evaluation here (there is no {SETTINGS_FILE}); `arcade evaluate --out DIR` writes a results folder"
                 );
                 EvaluationError::malformed(folder, what)
             }
@@ -195,7 +194,8 @@ impl Evaluation {
         let format = value.get("format").and_then(serde_json::Value::as_u64);
         if let Some(format) = format.filter(|&format| format > u64::from(FORMAT)) {
             return Err(wrong(format!(
-                "results of format {format}; this version of arcade reads up to {FORMAT}: update it"
+                "the results have format {format}, but this version of arcade reads formats up to \
+                 {FORMAT}: update arcade"
             )));
         }
         let settings: Settings = serde_json::from_value(value).map_err(unreadable)?;
@@ -266,7 +266,7 @@ impl Evaluation {
         let other = others.filter(|name| name.ends_with(".jsonl") && !names.contains(name)).min();
         other.map_or(Ok(()), |name| {
             let what = format!(
-                "{SETTINGS_FILE} has no such episode, so it is damaged or was changed: restore the results folder"
+                "{SETTINGS_FILE} does not list this episode, so the file is damaged or was changed: restore the results folder"
             );
             Err(EvaluationError::malformed(&folder.join(name), what))
         })
@@ -469,7 +469,7 @@ fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     Lock::take(&path).map_err(EvaluationError::io("lock", &path))?.ok_or_else(|| {
         EvaluationError::malformed(
             folder,
-            "another `arcade evaluate` is writing to it; wait until it ends, or choose another folder",
+            "another `arcade evaluate` is writing to this folder; wait until it ends, or choose another folder",
         )
     })
 }

@@ -240,7 +240,8 @@ impl ScaleFile {
         let format = serde_json::from_str::<Version>(&text).ok().and_then(|version| version.format);
         if let Some(format) = format.filter(|&format| format > u64::from(SCALE_FORMAT)) {
             return Err(wrong(format!(
-                "a scale of format {format}; this version of arcade reads up to {SCALE_FORMAT}: update it"
+                "the scale has format {format}, but this version of arcade reads formats up to \
+                 {SCALE_FORMAT}: update arcade"
             )));
         }
         let scale: ScaleFile = serde_json::from_str(&text)
@@ -334,7 +335,7 @@ impl ScaleFile {
         families.dedup();
         let examinee = |one: &ExamineeEntry| Examinee {
             dimension: if one.is_reader { Dimension::Reader } else { Dimension::Planner },
-            family: families.binary_search(&one.family.as_str()).expect("it is one of them"),
+            family: families.binary_search(&one.family.as_str()).expect("the family is in the list"),
         };
         Calibration {
             examinees: self.examinees.iter().map(examinee).collect(),
@@ -426,7 +427,7 @@ fn estimate(key: fmt::Arguments<'_>, one: &Estimate) -> Result<(), String> {
 
 fn once<T: Eq + Hash + Debug>(key: &str, names: impl Iterator<Item = T>) -> Result<(), String> {
     match names.duplicates().next() {
-        Some(twice) => Err(format!("`{key}` has {twice:?} twice")),
+        Some(twice) => Err(format!("`{key}` contains {twice:?} twice")),
         None => Ok(()),
     }
 }

@@ -191,9 +191,10 @@ impl Timeline {
     }
 
     fn changes(&self) -> Table {
-        let note = "The χ² of the abilities about their mean, with one degree of freedom less than there are \
-                    months; p: the probability of at least this value if the ability never changed; q: p \
-                    adjusted for the number of players. Months without a win or without a loss are left out.";
+        let note = "χ²: the statistic of the abilities about their mean, with one degree of freedom less \
+                    than the number of months. p: the probability of at least this value if the ability \
+                    never changed. q: p adjusted for the number of players. Months without a win or \
+                    without a loss are left out.";
         let columns = ["player", "part", "months", "mean ability", "last − first", "χ²", "p", "q"];
         let mut table = Table::new("changes", "Change over the months", note, &columns);
         for player in &self.players {
@@ -217,10 +218,8 @@ impl Timeline {
     }
 
     fn difficulties(&self) -> Table {
-        let note = "Mean difficulty relative to the first month, in logits, with 95% intervals: for exactly \
-                    the planners of the scale, for any planner, for any reader. Drift: how much more \
-                    difficult the month is for the anchors than the planners predict. SD: standard deviation \
-                    of the difficulties of its levels. Misfit: about 1 if the plays fit the model.";
+        let note = "Mean difficulty relative to the first month, in logits, with 95% intervals: for exactly the planners of the scale, for any planner, and for any reader. Drift: how much more difficult the month is for the anchors than the planners predict. SD: standard deviation \
+                    of the difficulties of its levels. Misfit: about 1 if the episodes fit the model.";
         let columns = [
             "month",
             "games",
@@ -263,8 +262,8 @@ impl Timeline {
     /// Returns a table of the results by player and month, with the number of wins and the number of distinct
     /// episodes.
     fn plays(&self) -> Table {
-        let note = "Wins out of the distinct episodes that were placed; a dash if the player did not play. \
-                    Suite: the versions of arcade used for the evaluations.";
+        let note = "Wins and distinct episodes that were placed. A dash: the player did not play. Suite: \
+                    the versions of arcade used for the evaluations.";
         let months = self.months.iter().map(|month| month.name.as_str());
         let columns = ["player"].into_iter().chain(months).chain(["suite"]).collect_vec();
         let mut table = Table::new("played", "Who played which month", note, &columns);

@@ -74,11 +74,17 @@ pub(super) fn check(shown: &Shown<'_>, spec: &PlannerSpec) -> Result<(), Unanswe
 /// impossible. The result does not depend on the seed.
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
-        return Err("it needs the rules as VGDL: pass --rules vgdl to `arcade evaluate`, or set `rules` to `vgdl` in the settings of prompts".to_owned());
+        return Err("the planner needs the rules as VGDL: pass --rules vgdl to `arcade evaluate`, or set \
+                    `rules` to `vgdl` in the settings of prompts"
+            .to_owned());
     };
     let (description, _) = parse(vgdl);
-    let game =
-        Game::compile(&description).map_err(|problems| format!("its VGDL does not compile: {problems}"))?;
+    let game = Game::compile(&description).map_err(|problems| {
+        format!(
+            "the VGDL in the prompt does not compile: \
+            {problems}"
+        )
+    })?;
     is_shown(&Analysis::of(&game), shown)?;
     let Position { game, level } = Position::of(description, shown)?;
     let facing = shown.you.and_then(|you| you.facing).and_then(direction);
@@ -145,7 +151,7 @@ struct Position {
 impl Position {
     fn of(mut description: Description, shown: &Shown<'_>) -> Result<Position, String> {
         if shown.you.is_none() || shown.cells.is_empty() {
-            return Err("it shows no board with an avatar (enable `grid` and `position`)".to_owned());
+            return Err("the prompt shows no board with an avatar (enable `grid` and `position`)".to_owned());
         }
         let symbols: Vec<char> = ('!'..='~').collect();
         let mut mapping: BTreeMap<&[&str], char> = BTreeMap::new();
@@ -158,7 +164,7 @@ impl Position {
                     names => match (mapping.get(names), next) {
                         (Some(&symbol), _) => symbol,
                         (None, Some(symbol)) => *mapping.entry(names).or_insert(symbol),
-                        (None, None) => return Err("it shows too many different cells".to_owned()),
+                        (None, None) => return Err("the prompt shows too many different cells".to_owned()),
                     },
                 });
             }
@@ -172,10 +178,10 @@ impl Position {
         description.mapping = mapping.into_iter().map(line).collect();
         lower_tick_limits(&mut description, shown.tick);
         let game = Game::compile(&description)
-            .map_err(|problems| format!("its board does not fit its game: {problems}"))?;
+            .map_err(|problems| format!("the board in the prompt does not fit the game: {problems}"))?;
         let level = game
             .level(&text)
-            .map_err(|problems| format!("its board is not a level of its game: {problems}"))?;
+            .map_err(|problems| format!("the board in the prompt is not a level of the game: {problems}"))?;
         Ok(Position { game, level })
     }
 }

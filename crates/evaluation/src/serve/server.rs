@@ -113,7 +113,12 @@ impl Drop for Running {
 
 fn router(player: PromptPlayer, bounds: Bounds) -> Router {
     let no_route = || async {
-        refusal(StatusCode::NOT_FOUND, "unknown_url", "there is POST /v1/chat/completions and GET /v1/models")
+        refusal(
+            StatusCode::NOT_FOUND,
+            "unknown_url",
+            "unknown endpoint; use POST /v1/chat/completions or \
+                                        GET /v1/models",
+        )
     };
     let no_method = || async {
         refusal(
@@ -180,7 +185,7 @@ async fn complete(
     match answered.await {
         Ok(Ok(document)) => Json(document).into_response(),
         Ok(Err(refusal)) => *refusal,
-        Err(_) => refusal(StatusCode::INTERNAL_SERVER_ERROR, "player_failed", "the player has failed"),
+        Err(_) => refusal(StatusCode::INTERNAL_SERVER_ERROR, "player_failed", "the player failed"),
     }
 }
 

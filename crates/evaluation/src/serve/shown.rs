@@ -65,7 +65,10 @@ impl<'a> Shown<'a> {
     /// Returns an error if the conversation lists no actions.
     pub(super) fn of(messages: &'a [ChatMessage]) -> Result<Shown<'a>, Unanswerable> {
         let missing = |what: &str| {
-            Unanswerable(format!("the prompt has no {what}; see `arcade docs prompts` for what stands where"))
+            Unanswerable(format!(
+                "the prompt has no {what}; `arcade docs prompts` describes the layout of \
+                                  prompts"
+            ))
         };
         let first = messages.first().ok_or_else(|| missing("messages"))?;
         let is_turn =

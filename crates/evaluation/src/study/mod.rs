@@ -233,8 +233,8 @@ impl Study {
         if let [first, _, ..] = tracks[..] {
             let first = first.map_or("no track".to_owned(), |track| format!("the track {track}"));
             self.notes.push(format!(
-                "Players are on different tracks, whose results are not comparable: they are compared within \
-                 a track only, and difficulty, correlations and failure modes are for {first}."
+                "Players are on different tracks, whose results are not comparable: players are compared \
+                 only within a track, and difficulty, correlations and failure modes are for {first}."
             ));
         }
         let mut stops: BTreeMap<(usize, String), u64> = BTreeMap::new();
@@ -255,8 +255,8 @@ impl Study {
         let broken = self.episodes.iter().filter(|episode| !episode.metrics.counts()).count();
         if broken > 0 {
             self.notes.push(format!(
-                "{broken} of {} episodes were aborted or are unfinished; they are excluded from all numbers \
-                 except the bounds.",
+                "{broken} of {} episodes were aborted or are unfinished, and are excluded from all \
+                 numbers except the bounds.",
                 self.episodes.len()
             ));
         }

@@ -55,8 +55,8 @@ impl Study {
             let open = tasks.len() - measured.len();
             if evaluation.settings.adaptive.is_some() {
                 notes.push(format!(
-                    "The levels of {} were chosen by what it won before (--adaptive): its win rate is not a \
-                     valid measure; `arcade study scale` places the player.",
+                    "The levels of {} were chosen by its earlier results (--adaptive), so its win rate is \
+                     not a valid measure; `arcade study scale` places the player.",
                     player.label()
                 ));
             } else if open > 0 {
@@ -249,7 +249,8 @@ impl Names {
         }
         let all = players.len();
         counts.values().any(|&count| count < all).then(|| {
-            "Not every player has played every level the same number of times: means over all levels are comparable only between players that have."
+            "Not every player has played every level the same number of times; means over all levels are \
+             comparable only between players that have."
                 .to_owned()
         })
     }

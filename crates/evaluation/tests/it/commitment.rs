@@ -194,14 +194,14 @@ fn changed_plans_are_refused() {
         let error = replay(&subject, &forged).unwrap_err().to_string();
         assert!(error.contains(expect), "{error}");
     };
-    refused(&|log| drop(log.remove(1)), "step 0 belongs to no plan");
-    refused(&|log| drop(log.remove(4)), "1 steps of the last one are missing");
+    refused(&|log| drop(log.remove(1)), "step 0 does not belong to a plan");
+    refused(&|log| drop(log.remove(4)), "1 steps of the last plan are missing");
     refused(
         &|log| {
             let Event::Plan { actions, .. } = &mut log[1] else { panic!("{:?}", log[1]) };
             actions[1] = Action::Left;
         },
-        "step 1 plays right (valid), but its plan has left (valid)",
+        "step 1 plays right (valid), but the plan has left (valid)",
     );
     refused(
         &|log| {

@@ -122,9 +122,9 @@ fn files_that_are_no_answers_are_set_aside() {
         };
         let bad: [(&str, &[u8], &str); 4] = [
             ("0000-0.answer.txt", b"ACTION: \xffright", "not UTF-8 (byte 8)"),
-            ("0000-0.answer.txt", &vec![b'a'; MAX_ANSWER + 1], "at most 256 KiB"),
-            ("0001-0.answer.txt", b"ACTION: right", "it answers 0001-0, but the open prompt is 0000-0"),
-            ("0000-1.answer.txt", b"ACTION: right", "it answers 0000-1, but the open prompt is 0000-0"),
+            ("0000-0.answer.txt", &vec![b'a'; MAX_ANSWER + 1], "the limit for an answer is 256 KiB"),
+            ("0001-0.answer.txt", b"ACTION: right", "the file answers 0001-0, but the open prompt is 0000-0"),
+            ("0000-1.answer.txt", b"ACTION: right", "the file answers 0000-1, but the open prompt is 0000-0"),
         ];
         for (name, bytes, expect) in bad {
             fs::write(home.join("whole"), bytes).unwrap();
@@ -265,7 +265,7 @@ fn foreign_folders_are_refused() {
     let refused = |seed: &str, resume: bool| open(&folder, seed, resume).map(|_| ()).unwrap_err();
     assert!(Desk::open(&folder).unwrap_err().to_string().contains("there is no mailbox here"));
     fs::write(&folder, "a file").unwrap();
-    assert!(refused("test", false).contains("a mailbox is a folder, and this is a file"));
+    assert!(refused("test", false).contains("a mailbox is a folder, but this is a file"));
     fs::remove_file(&folder).unwrap();
     fs::create_dir(&folder).unwrap();
     fs::write(folder.join("notes.txt"), "mine").unwrap();
@@ -281,12 +281,12 @@ fn foreign_folders_are_refused() {
     drop(open(&folder, "another", false).unwrap());
     fs::create_dir(folder.join("corridor-lvl0-run0")).unwrap();
     assert!(refused("another", false).contains("continue it with --resume"));
-    assert!(refused("test", true).contains("the mailbox of another evaluation, of the player `alice`"));
+    assert!(refused("test", true).contains("the mailbox of a different evaluation, of the player `alice`"));
     drop(open(&folder, "another", true).unwrap());
 
     let marker = fs::read_to_string(folder.join("mailbox.json")).unwrap();
     fs::write(folder.join("mailbox.json"), marker.replace("\"format\": 1", "\"format\": 2")).unwrap();
-    assert!(refused("another", true).contains("a mailbox of format 2"));
+    assert!(refused("another", true).contains("the mailbox has format 2"));
     fs::write(folder.join("mailbox.json"), "{}").unwrap();
     assert!(refused("another", true).contains("not a file of a mailbox"));
 }

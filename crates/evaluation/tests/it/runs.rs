@@ -225,7 +225,7 @@ fn damaged_logs_are_reported() {
     fs::write(&path, damaged.join("\n").replace("\"action\":\"nil\"", "\"action\":\"right\"") + "\n")
         .unwrap();
     let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
-    assert!(error.contains("step 0 differs from the log when it is replayed"), "{error}");
+    assert!(error.contains("replaying step 0 gives a different result than the log"), "{error}");
     fs::write(&path, "no log\n").unwrap();
     let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
     assert!(error.contains(": line 1 is not an event of an episode"), "{error}");

@@ -252,7 +252,7 @@ fn planners_refuse_games_with_hidden_state() {
         assert!(message.starts_with("`planner:mcts:20` cannot plan on this prompt: "), "{message}");
         assert!(message.contains(words), "{message}");
     };
-    check(CELLAR, &PromptSettings::default(), "it needs the rules as VGDL");
+    check(CELLAR, &PromptSettings::default(), "the planner needs the rules as VGDL");
     check(&CELLAR.replace("crate > Passive", "crate > RandomNPC"), &vgdl, "the game is random");
     check(
         &CELLAR.replace("drain > Door", "drain > Door hidden=True"),

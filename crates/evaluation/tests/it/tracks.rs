@@ -461,7 +461,7 @@ fn grades_follow_from_the_rules() {
     assert_ne!(text, changed);
     fs::write(&path, changed).unwrap();
     let error = Study::read(&[folder]).unwrap_err().to_string();
-    assert!(error.contains("the grade of the predictions differs"), "{error}");
+    assert!(error.contains("the recorded grade of the predictions differs"), "{error}");
 }
 
 #[test]

@@ -30,8 +30,8 @@ pub(super) struct Found {
     pub(super) missing: u32,
 }
 
-/// The keys of the states found so far.
-#[expect(clippy::disallowed_types, reason = "used for look-ups, never iterated")]
+/// The keys of the states met so far.
+#[expect(clippy::disallowed_types, reason = "the map is used for look-ups and never iterated")]
 type Met = std::collections::HashSet<SearchKey>;
 
 /// Searches for a shortest win layer by layer. Once half of the calls are spent, only the most promising states of a

@@ -45,7 +45,7 @@ impl Axes {
             let (low, high) = range(at);
             let width = if high > low { high - low } else { 1.0 };
             let range = ((low - width / 2.0).max(0.0), high + width / 2.0);
-            Axis::new(names().nth(at).expect("it is one of them"), range, bins)
+            Axis::new(names().nth(at).expect("the measure is in the list"), range, bins)
         };
         Axes { axes: chosen.iter().map(axis).collect(), chosen }
     }

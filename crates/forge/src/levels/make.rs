@@ -43,8 +43,8 @@ pub enum LevelsError {
         /// The consequence of the most frequent obstacle for the game or the order, if the obstacle has one.
         hint: Option<String>,
     },
-    /// No board at all could be furnished.
-    #[error("no board can hold what is requested: {0}")]
+    /// Not a single board could be furnished.
+    #[error("no board has room for the requested sprites: {0}")]
     NoBoard(String),
 }
 
@@ -61,14 +61,14 @@ fn hint(tally: &Tally) -> Option<String> {
     let (most, _) = tally.rejections.iter().max_by_key(|(_, count)| **count)?;
     let hint = match most.parse() {
         Ok(Criterion::Winnable) => {
-            "no win was found on most of them: `arcade validate` shows whether the game can be won, and if \
+            "no win was found on most levels: `arcade validate` shows whether the game can be won, and if \
              not, why"
         }
-        Ok(Criterion::NotRandom) => "random keys win most of them: the rules demand too little of the player",
-        Ok(Criterion::NotIdle) => "doing nothing wins most of them: the rules demand nothing of the player",
-        Ok(Criterion::EarlyDeath) => "the player cannot live through the first ticks of most of them",
+        Ok(Criterion::NotRandom) => "random keys win most levels: the rules demand too little of the player",
+        Ok(Criterion::NotIdle) => "doing nothing wins most levels: the rules demand nothing of the player",
+        Ok(Criterion::EarlyDeath) => "the player cannot survive the first ticks of most levels",
         _ if most == DIFFICULTY => {
-            "most of them are easier or harder for the planners: request a different difficulty"
+            "most levels are easier or harder for the planners: request a different difficulty"
         }
         _ => return None,
     };
@@ -230,7 +230,7 @@ const HOPELESS: u64 = 6;
 const DRAWS: u64 = 20;
 /// The reasons why a candidate does not become a level of the set.
 pub(super) const TWICE: &str = "the same level twice";
-pub(super) const NO_BOARD: &str = "no board holds what is asked";
+pub(super) const NO_BOARD: &str = "no board has room";
 
 /// Generates levels without a requested difficulty, evenly from the easiest to the hardest that the constructive
 /// generator aims at. They form the pool to pick from if a difficulty could not be requested. Levels that cannot be

@@ -25,12 +25,14 @@ pub(super) struct Begun<'a> {
 impl Trial<'_> {
     pub(super) const LEVELS: Stage<Self> = Stage {
         name: "levels",
-        purpose: "finds a level for each place: the first, the last, then those between",
-        cost: "seconds: most of the cost of a game",
+        purpose: "finds a level for each position: first the first and the last position, then the \
+                  positions between",
+        cost: "seconds, which is most of the cost of a game",
         criteria: CriterionSet::of(&[Criterion::Progression, Criterion::Drama, Criterion::SkillOverall]),
         reasons: &["no level N"],
         replaces: Some(
-            "a candidate for a place, by the next one: 16 a place, unless the order says otherwise",
+            "a candidate, with the next candidate for its position: 16 per position, unless the order \
+             says otherwise",
         ),
         ..Stage::once(Self::find_levels)
     };
@@ -44,8 +46,8 @@ impl Trial<'_> {
 impl<'a> Begun<'a> {
     pub(super) const INTRODUCTION: Stage<Self> = Stage {
         name: "introduction",
-        purpose: "after the last level: asks whether a win of a later level needs a mechanic that the first does not, in a course \
-                  of more than three levels",
+        purpose: "in a course of more than three levels, checks after the last level whether a win of a \
+                  later level needs a mechanic that the first level does not need",
         cost: "a replay of each win",
         criteria: CriterionSet::of(&[Criterion::Progression]),
         replaces: Some("the first level, by one of its next three candidates"),
@@ -54,8 +56,8 @@ impl<'a> Begun<'a> {
 
     pub(super) const OUTLINE: Stage<Self> = Stage {
         name: "outline",
-        purpose: "after the first two levels and the last of a longer course: asks for progression and for half of the drama, which \
-                  the other levels would not mend",
+        purpose: "after the first two levels and the last level of a longer course, checks progression \
+                  and half of the required drama, because the other levels could not compensate",
         cost: "a second",
         criteria: CriterionSet::of(&[Criterion::Progression, Criterion::Drama]),
         ..Stage::once(Self::judge_outline)
@@ -63,7 +65,7 @@ impl<'a> Begun<'a> {
 
     pub(super) const SKILL: Stage<Self> = Stage {
         name: "skill so far",
-        purpose: "asks whether `skill-overall` can still pass, if the ladder has played",
+        purpose: "checks whether `skill-overall` can still pass, if the ladder has played",
         criteria: CriterionSet::of(&[Criterion::SkillOverall]),
         ..Stage::once(Self::ask_for_a_chance_of_skill)
     };

@@ -212,7 +212,7 @@ pub(crate) mod tests {
             .find_map(|genome| {
                 Some((judge(&order(), &[], &genome).0?, genome)).map(|(made, genome)| (genome, made))
             })
-            .expect("one of them passes");
+            .expect("a candidate passes");
         assert!(made.levels.len() == 2 && made.witnesses.len() == 2);
         let check = |alter: &dyn Fn(GameOrder) -> GameOrder, known: &[GameForm], reason: &str| {
             let order = alter(order());
@@ -226,9 +226,9 @@ pub(crate) mod tests {
         check(&same, &[GameForm::of(&made.game)], NEAR_KNOWN);
         let (order, mut tally) = (order(), Tally::default());
         let gate = GameGate::new(&order, Method::Constructive, &[], "canary");
-        let objection = |_: &Candidate| Some("a cast twice");
+        let objection = |_: &Candidate| Some("duplicate cast");
         assert!(gate.judge(&genome, 0, &Seed::from_text("gate").into(), &objection, &mut tally).is_none());
-        assert_eq!((tally.rejections.get("a cast twice"), tally.levels_tried), (Some(&1), 0));
+        assert_eq!((tally.rejections.get("duplicate cast"), tally.levels_tried), (Some(&1), 0));
         check(&|order| GameOrder { least_interactions: 100, ..order }, &[], MEAGRE);
         check(&|order| GameOrder { least_mechanics: 100, ..order }, &[], MEAGRE);
         let long = |criteria: &mut Criteria| (criteria.least_ticks, criteria.most_ticks) = (1000, 2000);
@@ -318,7 +318,7 @@ pub(crate) mod tests {
             .filter(|genome| Analysis::of(&genome_game(genome)).is_stochastic())
             .filter_map(|genome| judge(&order(), &[], &genome).0)
             .find(has_chance);
-        (made.expect("one of them passes"), Seed::from_text("gate").into())
+        (made.expect("a candidate passes"), Seed::from_text("gate").into())
     }
 
     #[test]

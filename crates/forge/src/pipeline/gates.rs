@@ -13,7 +13,7 @@ use validators::{Criterion, CriterionSet, Judgement, Judging, Report};
 impl Trial<'_> {
     pub(super) const GATES: Stage<Self> = Stage {
         name: "gates",
-        purpose: "judges all levels together by every criterion of games that the order asks for",
+        purpose: "judges all levels together by every criterion of games that the order requests",
         cost: "seconds",
         criteria: CriterionSet::GAME.with(CriterionSet::GATES),
         replaces: Some(

@@ -24,8 +24,9 @@ const CALLS: u64 = 40_000;
 impl Trial<'_> {
     pub(super) const JOINT: Stage<Self> = Stage {
         name: JOINT,
-        purpose: "of an invented game: requires that one win needs two uses of every type with opposed uses, or the only use that is \
-                  no threat, on at least two levels each: without a use there is no win, or only a clearly longer one",
+        purpose: "for an invented game, requires for every type with opposed uses that on at least two \
+                  levels one win needs two uses, or the only use that is not a threat: without a use, \
+                  there is no win or only a clearly longer win",
         cost: "a second",
         reasons: &[JOINT],
         ..Stage::once(Self::ask_for_joint_use)

@@ -15,11 +15,12 @@ const MISFITS: u32 = 5;
 impl Trial<'_> {
     pub(super) const LADDER: Stage<Self> = Stage {
         name: "ladder",
-        purpose: "lets the ladder of players play every level, if `skill` or `skill-overall` is asked for, and asks the gates again",
+        purpose: "lets the ladder of players play every level if `skill` or `skill-overall` is requested, \
+                  and checks the gates again",
         cost: "more than all earlier stages",
         criteria: CriterionSet::GAME.with(CriterionSet::GATES).with(CriterionSet::of(&[Criterion::Skill])),
         reasons: &["no level N"],
-        replaces: Some("a level on which skill does not pay, at most five times a game"),
+        replaces: Some("a level on which skill does not pay, up to five times per game"),
         ..Stage::once(Self::climb)
     };
 

@@ -47,30 +47,30 @@ struct Proof {
 impl LevelTrial<'_> {
     pub(super) const NEW_LEVEL: Stage<Self> = Stage {
         name: "new level",
-        purpose: "compares the level with those of the other places",
+        purpose: "compares the level with the other levels of the game",
         reasons: &["the same level twice"],
         ..Stage::once(Self::refuse_same_level)
     };
 
     pub(super) const NEW_BOARD: Stage<Self> = Stage {
         name: "new board",
-        purpose: "of a course: rejects the board of another level mirrored, turned or shifted, up to a few \
-                  cells",
+        purpose: "in a course, rejects a board that differs from another level's board, mirrored, turned \
+                  or shifted, in only a few cells",
         reasons: &["like another level"],
         ..Stage::once(Self::refuse_same_board)
     };
 
     pub(super) const OPEN_GROUND: Stage<Self> = Stage {
         name: "open ground",
-        purpose: "of a course: rejects so much narrow ground that the game would fail even if all other \
-                  levels had none",
+        purpose: "in a course, rejects so much narrow ground that the game would fail even if no other \
+                  level had narrow ground",
         criteria: CriterionSet::of(&[Criterion::OpenGround]),
         ..Stage::once(Self::refuse_narrow_ground)
     };
 
     pub(super) const NEAREST_GOAL: Stage<Self> = Stage {
         name: "nearest goal",
-        purpose: "of a course, after its second level: rejects what a walk to the nearest goal wins",
+        purpose: "after the second level of a course, rejects levels that a walk to the nearest goal wins",
         cost: "a play",
         criteria: CriterionSet::of(&[Criterion::NotInstant]),
         ..Stage::once(Self::refuse_walk_to_goal)
@@ -78,14 +78,14 @@ impl LevelTrial<'_> {
 
     pub(super) const SHORTEST_WIN: Stage<Self> = Stage {
         name: "shortest win",
-        purpose: "where the generator knows a win: proves the shortest, or takes that one",
+        purpose: "if the generator knows a win, proves the shortest win or takes the known win",
         cost: "a fraction of the budget of `winnable`",
         ..Stage::once(Self::prove_win)
     };
 
     pub(super) const JUDGES: Stage<Self> = Stage {
         name: "judges",
-        purpose: "asks for every criterion of levels, in generated games except `skill`",
+        purpose: "judges every criterion of levels, except `skill` in generated games",
         cost: "up to the budget of `winnable`; a failed search of half a million calls counts as two candidates, or as six while the game has \
                fewer than two levels",
         criteria: CriterionSet::LEVEL,
@@ -94,14 +94,16 @@ impl LevelTrial<'_> {
 
     pub(super) const ORDER: Stage<Self> = Stage {
         name: "order",
-        purpose: "of a course: asks that the win takes at least 0.6 times the ticks of the win of every earlier level",
+        purpose: "in a course, requires that the win takes at least 0.6 times the ticks of every earlier \
+                  level's win",
         reasons: &["less than an earlier level"],
         ..Stage::once(Self::compare_with_other_levels)
     };
 
     pub(super) const LATER_MECHANIC: Stage<Self> = Stage {
         name: "later mechanic",
-        purpose: "of the first level of a course that replaces another: asks that later wins need a mechanic that its win does not",
+        purpose: "for a replacement of a course's first level, requires that later wins need a mechanic \
+                  that its own win does not need",
         cost: "a replay of each win",
         criteria: CriterionSet::of(&[Criterion::Progression]),
         ..Stage::once(Self::ask_for_something_left)
@@ -109,14 +111,15 @@ impl LevelTrial<'_> {
 
     pub(super) const LENGTH_OF_WIN: Stage<Self> = Stage {
         name: "length of win",
-        purpose: "of a course, after its second level: rejects a win that is sooner than `not-instant` allows",
+        purpose: "after the second level of a course, rejects a win that comes sooner than `not-instant` \
+                  allows",
         criteria: CriterionSet::of(&[Criterion::NotInstant]),
         ..Stage::once(Self::refuse_early_win)
     };
 
     pub(super) const DEAD_TIME: Stage<Self> = Stage {
         name: "dead time",
-        purpose: "of a course: asks that the win has no dead time",
+        purpose: "in a course, requires that the win has no dead time",
         cost: "a replay",
         criteria: CriterionSet::of(&[Criterion::NoDeadTime]),
         ..Stage::once(Self::refuse_dead_time)
@@ -124,7 +127,7 @@ impl LevelTrial<'_> {
 
     pub(super) const TIER: Stage<Self> = Stage {
         name: "tier",
-        purpose: "of a puzzle: measures what its win demands, and asks for the tier of the place",
+        purpose: "for a puzzle, measures the demands of its win, and requires the tier of the position",
         cost: "a second",
         reasons: &["tier"],
         ..Stage::once(Self::measure_tier)

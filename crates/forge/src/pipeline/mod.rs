@@ -86,7 +86,7 @@ impl RequestTrial<'_> {
 
 /// Returns a list of stages as a Markdown table.
 fn table<T>(stages: &[Stage<T>]) -> String {
-    let head = "| Stage | What it asks or does | Cost | Rejects for | Replaces |\n|---|---|---|---|---|\n";
+    let head = "| Stage | What the stage does | Cost | Rejects for | Replaces |\n|---|---|---|---|---|\n";
     stages.iter().map(Stage::row).fold(head.to_owned(), |table, row| table + &row)
 }
 

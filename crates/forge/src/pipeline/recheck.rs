@@ -23,7 +23,8 @@ const NO_CARD: &str = "no card";
 impl Trial<'_> {
     pub(super) const SECOND_JUDGES: Stage<Self> = Stage {
         name: SECOND_JUDGES,
-        purpose: "repeats every check that depends on chance with other seeds: which corrects for the choice of lucky candidates",
+        purpose: "repeats every check that depends on randomness with different seeds, which corrects for \
+                  the selection of lucky candidates",
         cost: "as much as judging the accepted levels, without searches for wins",
         reasons: &[SECOND_JUDGES],
         ..Stage::once(Self::ask_second_judges)

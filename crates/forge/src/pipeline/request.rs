@@ -82,7 +82,7 @@ impl<'a> LevelGate<'a> {
 impl RequestTrial<'_> {
     pub(super) const PANEL: Stage<Self> = Stage {
         name: "panel",
-        purpose: "asks for every criterion of levels",
+        purpose: "judges every criterion of levels",
         cost: "up to the budget of `winnable`",
         criteria: CriterionSet::LEVEL,
         ..Stage::once(Self::ask_panel)
@@ -90,7 +90,8 @@ impl RequestTrial<'_> {
 
     pub(super) const RANDOM_PLAY: Stage<Self> = Stage {
         name: "random play",
-        purpose: "plays five times as many random plays as the panel: which corrects for the selection of lucky levels",
+        purpose: "plays five times as many random episodes as the panel, which corrects for the selection \
+                  of lucky levels",
         cost: "plays",
         criteria: CriterionSet::of(&[Criterion::NotRandom]),
         ..Stage::once(Self::play_more_at_random)
@@ -98,7 +99,7 @@ impl RequestTrial<'_> {
 
     pub(super) const RULES_USED: Stage<Self> = Stage {
         name: "rules used",
-        purpose: "asks that the win uses every rule that the order names",
+        purpose: "requires that the win uses every rule that the order specifies",
         cost: "a replay",
         reasons: &["uses"],
         ..Stage::once(Self::ask_for_rules)
@@ -106,7 +107,8 @@ impl RequestTrial<'_> {
 
     pub(super) const DIFFICULTY: Stage<Self> = Stage {
         name: DIFFICULTY,
-        purpose: "measures the difficulty with two ladders, the second three times as long, if the order asks for one",
+        purpose: "measures the difficulty with two ladders, the second three times as long, if the order \
+                  requests a difficulty",
         cost: "more than the other stages",
         reasons: &[DIFFICULTY],
         ..Stage::once(Self::measure_difficulty)

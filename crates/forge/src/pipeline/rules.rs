@@ -20,7 +20,7 @@ impl Trial<'_> {
         name: "new rules",
         purpose: "compares rules, title and names with known games and with the games of the set",
         cost: "a millisecond",
-        reasons: &[NEAR_KNOWN, "a title twice", "a cast twice"],
+        reasons: &[NEAR_KNOWN, "duplicate title", "duplicate cast"],
         ..Stage::once(Self::ask_for_new_rules)
     };
 
@@ -42,8 +42,8 @@ impl Trial<'_> {
 
     pub(super) const QUICK_LOOK: Stage<Self> = Stage {
         name: "quick look",
-        purpose: "of an invented game: composes a few boards, and requires that one is won by choices that cost and one by a win that needs the \
-                  opposed uses",
+        purpose: "for an invented game, composes a few boards, and requires one win with costly choices \
+                  and one win that needs the opposed uses",
         cost: "up to 3.5 million forward-model calls",
         reasons: &[
             "no board was won",

@@ -91,7 +91,7 @@ impl<T> Stage<T> {
             None => why == reason,
         };
         let is_criterion = self.criteria.iter().any(|criterion| criterion.name() == *why);
-        assert!(is_criterion || self.reasons.iter().any(is_reason), "{} refuses for {why}", self.name);
+        assert!(is_criterion || self.reasons.iter().any(is_reason), "{} rejects for {why}", self.name);
     }
 
     /// Returns the stage's row in the table of the documentation.

@@ -44,8 +44,8 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut horizons = Section::new(
         "horizons",
         "How far players see ahead",
-        "The win rate by commitment: the number of actions that a player chooses without another look. The \
-         mark below a curve is the horizon.",
+        "The win rate by commitment, which is the number of actions that a player chooses without looking \
+         again. The mark below a curve is the horizon.",
     );
     horizons.plots = plots::horizons(study);
     horizons.tables = of(&["horizons"]);
@@ -54,7 +54,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut marks = Section::new(
         "marks",
         "Compared with the marks of the release",
-        "By what the levels demand and by commitment, compared with players that never change.",
+        "Win rates by tier and by commitment, compared with players that never change.",
     );
     marks.tables = of(&["marks"]);
     let marks = Some(marks).filter(|section| !section.tables.is_empty());
@@ -64,8 +64,8 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut levels = Section::new(
         "levels",
         "Level by level",
-        "One column for each level, grouped by game. Point at a cell to read it in full. Hatched cells were \
-         not played, or are not known.",
+        "One column for each level, grouped by game. Point at a cell to read it in full. Hatched cells \
+         were not played, or have no known value.",
     );
     levels.heats = Some(heats);
 
@@ -106,11 +106,11 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     }
 
     let whose = if study.players.iter().any(|player| !player.is_reference()) {
-        "Over the episodes of all players but baselines."
+        "All episodes, except those of baselines."
     } else {
-        "Over the episodes of all players, since all of them are baselines."
+        "All episodes, because all players are baselines."
     };
-    let mut walked = Section::new("failures", "How episodes were walked", whose);
+    let mut walked = Section::new("failures", "How players moved", whose);
     walked.plots = plots::failures(study);
     walked.tables = of(&["failure-modes", "oscillation"]);
 

@@ -36,8 +36,8 @@ impl Told {
         counted.extend(citation(evaluations));
         counted.extend(answers(study));
         counted.push(
-            "Intervals are 95% intervals. A dash is an unknown value, never 0. `arcade docs report` explains \
-             each section, `arcade docs metrics` each number."
+            "Intervals are 95% intervals. A dash is an unknown value, never 0. `arcade docs report` \
+             explains each section, and `arcade docs metrics` explains each number."
                 .to_owned(),
         );
         Told {
@@ -136,12 +136,12 @@ fn episodes(study: &Study) -> String {
     }
     let all = words::many(study.episodes.len() as u64, "episode");
     if excluded.is_empty() {
-        return format!("{all}, all of them ended: nothing is left out.");
+        return format!("{all}: all ended, and no episode is left out.");
     }
     let why: Vec<String> =
         excluded.iter().map(|(why, count)| format!("{} {why}", words::grouped(*count))).collect();
     let ended = words::grouped(ended as u64);
-    format!("{all}, of which {ended} ended and count. Left out of every number: {}.", why.join(", "))
+    format!("{all}: {ended} ended and count. Left out of every number: {}.", why.join(", "))
 }
 
 /// Returns a sentence about the levels on which the players can be compared.
@@ -183,14 +183,14 @@ fn answers(study: &Study) -> Option<String> {
         let useless = useless.map(|(count, why)| format!("in {} {why}", words::grouped(count))).join(", ");
         let steps = words::grouped(all.total());
         let useless = match useless.as_str() {
-            "" => format!("All {steps} decisions (baselines aside) had a usable answer"),
-            some => format!("Of {steps} decisions (baselines aside), no action was taken {some}"),
+            "" => format!("All {steps} decisions (without baselines) had a usable answer"),
+            some => format!("In {steps} decisions (without baselines), no action was taken {some}"),
         };
         match all.tolerant {
             0 => format!("{useless}."),
             some => {
                 let some = words::grouped(some);
-                format!("{useless}; {some} were read from an answer that is not in the requested format.")
+                format!("{useless}; {some} were read from answers that are not in the requested format.")
             }
         }
     })

@@ -66,7 +66,7 @@ pub fn level_report(
             made_in(seconds)
         ),
         manual: "generate-levels",
-        items: ["The levels".to_owned(), format!("As they are in the first tick.{more}")],
+        items: ["The levels".to_owned(), format!("The levels in their first tick.{more}")],
         pictures: shots,
         examples,
         ranges: ranges.collect(),

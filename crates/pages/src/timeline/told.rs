@@ -20,7 +20,7 @@ pub(super) fn subtitle(timeline: &Timeline) -> String {
     let months = timeline.players.iter().flat_map(|player| &player.ability.months);
     let episodes = months.map(|month| month.episodes).sum();
     format!(
-        "{} of {}, {} of {}, at most {} steps each",
+        "{} of {}, {} of {}, up to {} steps each",
         many(levels, "level"),
         many(games, "game"),
         many(episodes, "different episode"),
@@ -42,12 +42,12 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
         let changed = changed.into_iter().filter(|player| player.is_examinee == is_examinee).collect_vec();
         told.push(match &changed[..] {
             [] => format!(
-                "Of {} {who} with two months or more, none changed by more than the errors of the months can \
-                 explain.",
+                "Among {} {who} with two months or more, no player changed by more than the errors of the \
+                 months can explain.",
                 words::grouped(tested)
             ),
             some => format!(
-                "Of {} {who} with two months or more, {} changed by more than the errors of the months can \
+                "Among {} {who} with two months or more, {} changed by more than the errors of the months can \
                  explain: {}.",
                 words::grouped(tested),
                 some.len(),
@@ -72,15 +72,17 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
     let flagged =
         measured.iter().filter(|month| month.is_drift_flagged).map(|month| month.name.as_str()).join(", ");
     told.push(match (measured.len(), flagged.is_empty()) {
-        (0, _) => "No readers that stay the same (anchors) played the later months, so drift cannot be seen."
+        (0, _) => "No readers that stay the same (anchors) played the later months, so drift cannot be \
+                   measured."
             .to_owned(),
         (count, true) => format!(
             "Anchors see no drift in the {} that they could compare with the first.",
             many(count as u64, "month")
         ),
         (count, false) => format!(
-            "Anchors see a drift in {flagged}, of the {} that they could compare with the first; without any, one in \
-             twenty would be flagged, but not by itself: all are compared with the same first month.",
+            "Anchors see a drift in {flagged}, of the {} that they could compare with the first. Without \
+             any drift, one month in twenty would be flagged, but not independently: all months are \
+             compared with the same first month.",
             many(count as u64, "month")
         ),
     });
@@ -108,7 +110,7 @@ pub(super) fn refusals(timeline: &Timeline) -> Vec<String> {
         }
         if player.ability.unknown > 0 {
             told.push(format!(
-                "{name}: {} left out, on levels that are not on the scale.",
+                "{name}: {} on levels that are not on the scale were left out.",
                 many(player.ability.unknown, "episode")
             ));
         }

@@ -122,7 +122,7 @@ fn snapped(stamp: &Stamp, width: u32, height: u32) -> Option<(i32, i32, u32, u32
 fn tile(tile: &Tile, width: u32, height: u32) -> Pixmap {
     let size = IntSize::from_wh(width, height).expect("a seen stamp has a size");
     let mut pixmap =
-        Pixmap::new(size.width(), size.height()).expect("a stamp is not much larger than its picture");
+        Pixmap::new(size.width(), size.height()).expect("a stamp is not much larger than its image");
     let scale = Transform::from_scale(width as f32, height as f32);
     for Shape { outline, paint, colour } in &tile.shapes {
         let Some(path) = path(outline) else { continue };

@@ -302,7 +302,7 @@ fn parsed(line: &'static str) -> Figure {
     let name = head.trim_matches(['+', '#', '=', '!', '>']);
     let glyph = drawing.strip_prefix("glyph ").map(|wanted| {
         let is = |glyph: &&Glyph| format!("{glyph:?}") == wanted;
-        *Glyph::ALL.iter().find(is).unwrap_or_else(|| unreachable!("`{wanted}` is no glyph"))
+        *Glyph::ALL.iter().find(is).unwrap_or_else(|| unreachable!("`{wanted}` is not a glyph"))
     });
     let parts = if glyph.is_some() { Vec::new() } else { drawing.split(';').flat_map(part).collect() };
     Figure {
@@ -331,7 +331,7 @@ fn part(text: &str) -> Vec<Part> {
         ("mouth", &[x, y, width]) => return vec![Part::Mouth([x, y], width)],
         _ => {}
     }
-    let [paint, tint, form, numbers @ ..] = &words[..] else { unreachable!("`{text}` is no part") };
+    let [paint, tint, form, numbers @ ..] = &words[..] else { unreachable!("`{text}` is not a part") };
     let (paint, mirrored) = (paint.trim_end_matches('='), paint.ends_with('='));
     let paint = match paint {
         "S" => None,
@@ -364,7 +364,7 @@ fn outline(form: &str, numbers: &[f32]) -> Outline {
             let end = (form == "b").then_some(Segment::Close);
             Outline([Segment::Move(points[0])].into_iter().chain(curves).chain(end).collect())
         }
-        _ => unreachable!("`{form}` {numbers:?} is no outline"),
+        _ => unreachable!("`{form}` {numbers:?} is not an outline"),
     }
 }
 
@@ -387,7 +387,7 @@ fn tint_of(letter: &str) -> Tint {
         "o" => [0xff, 0x8c, 0x2e],
         "u" => [0x3f, 0x7f, 0xd0],
         "p" => [0xff, 0x9f, 0xb0],
-        _ => unreachable!("`{letter}` is no colour"),
+        _ => unreachable!("`{letter}` is not a colour"),
     };
     Tint::Fixed(Colour([red, green, blue]))
 }

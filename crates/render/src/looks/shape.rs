@@ -60,7 +60,7 @@ impl Outline {
                 ("L", &[x, y]) => Segment::Line([x, y]),
                 ("C", &[ax, ay, bx, by, x, y]) => Segment::Cubic([ax, ay], [bx, by], [x, y]),
                 ("Z", []) => Segment::Close,
-                _ => unreachable!("`{command}` is no command, and a test draws every tile"),
+                _ => unreachable!("`{command}` is not a command, and a test draws every tile"),
             }
         };
         Outline(path.split(' ').map(segment).collect())

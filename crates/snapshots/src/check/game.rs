@@ -57,10 +57,10 @@ impl Checking<'_> {
         }
         let mut found = Vec::new();
         if card.rules != engine::describe(game) {
-            found.push("its `rules` are not those of game.vgdl in words".to_owned());
+            found.push("the card's `rules` do not match game.vgdl".to_owned());
         }
         if card.deterministic == Analysis::of(game).is_stochastic() {
-            found.push("its `deterministic` is not what game.vgdl says".to_owned());
+            found.push("the card's `deterministic` does not match game.vgdl".to_owned());
         }
         let patterns: &[String] = match &card.origin {
             Origin::Generated { patterns, .. } => patterns,
@@ -68,16 +68,16 @@ impl Checking<'_> {
         };
         let wording = Wording::of(game, patterns);
         if !wording.has_goal(&card.goal) {
-            found.push("its `goal` is not what game.vgdl says".to_owned());
+            found.push("the card's `goal` does not match game.vgdl".to_owned());
         }
         if !wording.has_summary(&card.description) {
-            found.push("its `description` is not what game.vgdl says".to_owned());
+            found.push("the card's `description` does not match game.vgdl".to_owned());
         }
         let comments = &game.description().header.trivia.above;
         if card.id != format!("{}-{}", slug(&card.title), game.digest().short())
             || comments.first().is_none_or(|title| title.trim() != card.title.trim())
         {
-            found.push("its `title` is not that of game.vgdl and its folder".to_owned());
+            found.push("the card's `title` does not match game.vgdl and its folder".to_owned());
         }
         found
     }
@@ -103,11 +103,11 @@ impl Checking<'_> {
         let mut wrong = |file: &str, what: String| problems.push(format!("{}: {what}", path(file)));
 
         let Some(source) = read("game.vgdl")? else {
-            wrong("game.vgdl", "missing or not a text".to_owned());
+            wrong("game.vgdl", "missing or not a text file".to_owned());
             return Ok(check);
         };
         if !carries(source.as_bytes(), canary) {
-            wrong("game.vgdl", "without the release's canary".to_owned());
+            wrong("game.vgdl", "the release's canary is missing".to_owned());
         }
         let game = match Game::from_source(&source) {
             Ok(game) => game,
@@ -118,17 +118,17 @@ impl Checking<'_> {
         };
         let of_card = self.manifest.item(&path("card.json"));
         if let Some(item) = of_card.filter(|item| item.size > CARD_LIMIT) {
-            wrong("card.json", format!("{} bytes, and a card has at most {CARD_LIMIT}", item.size));
+            wrong("card.json", format!("the card has {} bytes; the limit is {CARD_LIMIT}", item.size));
             return Ok(check);
         }
         let mut card: Card = match read("card.json")?.map(|text| serde_json::from_str(&text)) {
             Some(Ok(card)) => card,
             Some(Err(error)) => {
-                wrong("card.json", format!("not a card: {error}"));
+                wrong("card.json", format!("not a valid card: {error}"));
                 return Ok(check);
             }
             None => {
-                wrong("card.json", "missing or not a text".to_owned());
+                wrong("card.json", "missing or not a text file".to_owned());
                 return Ok(check);
             }
         };
@@ -136,11 +136,11 @@ impl Checking<'_> {
             wrong("card.json", "card, folder name and game do not match".to_owned());
         }
         if matches!(&card.origin, Origin::Generated { patterns, .. } if patterns.len() > MAX_PATTERNS) {
-            wrong("card.json", format!("more than {MAX_PATTERNS} patterns"));
+            wrong("card.json", format!("the card has more than {MAX_PATTERNS} patterns"));
             return Ok(check);
         }
         if card.canary != *canary {
-            wrong("card.json", "its canary is not the release's".to_owned());
+            wrong("card.json", "the canary differs from that of the release".to_owned());
         }
         if card.levels.is_empty() {
             wrong("card.json", "the game has no levels".to_owned());
@@ -168,7 +168,7 @@ impl Checking<'_> {
                     continue;
                 }
                 None => {
-                    wrong(&file, "missing or not a text".to_owned());
+                    wrong(&file, "missing or not a text file".to_owned());
                     continue;
                 }
             };
@@ -194,7 +194,7 @@ impl Checking<'_> {
             };
             match witness.map(|text| serde_json::from_str::<Witness>(&text)) {
                 Some(Ok(witness)) if witness.canary != *canary => {
-                    wrong(&witness_file, "its canary is not the release's".to_owned());
+                    wrong(&witness_file, "the canary differs from that of the release".to_owned());
                 }
                 Some(Ok(witness))
                     if self
@@ -207,7 +207,10 @@ impl Checking<'_> {
                     let told = (level_card.witness_ticks, level_card.witness_score);
                     let fits = (episode.actions.len(), episode.score) == told;
                     if !fits {
-                        let what = format!("not the ticks and score of the episode that wins {file}");
+                        let what = format!(
+                            "the ticks and score differ from those of the episode that \
+                                            wins {file}"
+                        );
                         wrong("card.json", what);
                     }
                     // Duplicates and mismatches have already been reported, so they are not replayed.
@@ -219,10 +222,10 @@ impl Checking<'_> {
                     }
                     won = Some(episode);
                 }
-                Some(Err(error)) => wrong(&witness_file, format!("not a witness: {error}")),
+                Some(Err(error)) => wrong(&witness_file, format!("not a valid witness: {error}")),
                 // The completeness of withheld files has been checked already.
                 None if is_sealed => {}
-                None => wrong(&witness_file, "missing or not a text".to_owned()),
+                None => wrong(&witness_file, "missing or not a text file".to_owned()),
             }
             loaded.push((level, won));
             known.insert(file);
@@ -231,7 +234,7 @@ impl Checking<'_> {
             }
         }
         for file in files.difference(&known) {
-            wrong(file, "a game has no such file".to_owned());
+            wrong(file, "not a file of a game".to_owned());
         }
         if loaded.len() == card.levels.len() {
             let checked = CheckedGame { folder, game: &game, levels: &loaded, is_again: twin.is_some() };

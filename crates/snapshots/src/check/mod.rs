@@ -144,7 +144,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         match exceeded {
             // Which replays finished depends on the threads, so no results of replays are reported.
             Some(limit) => problems.push(format!(
-                "games: its witnesses take more than {limit} units of work to replay, the bound for {} levels",
+                "games: replaying the witnesses takes more than {limit} units of work, the limit for {} levels",
                 declared_levels(&manifest)
             )),
             None => problems.extend(games.iter_mut().flat_map(|game| std::mem::take(&mut game.problems))),
@@ -212,7 +212,7 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     for (key, stated) in stated {
         let recipe = manifest.recipe.get(key).and_then(|value| value.as_str());
         if recipe != stated.as_deref() {
-            problems.push(format!("{MANIFEST_FILE}: its `{key}` is not that of its recipe"));
+            problems.push(format!("{MANIFEST_FILE}: the `{key}` differs from that of the recipe"));
         }
     }
     let (of, source) = match manifest.commitment {
@@ -224,13 +224,13 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
         None => (None, ""),
     };
     if of.is_some_and(|of| manifest.canary != canary(&of)) {
-        problems.push(format!("{MANIFEST_FILE}: its `canary` is not that of its {source}"));
+        problems.push(format!("{MANIFEST_FILE}: the `canary` does not match the {source}"));
     }
     let has_beacon = manifest.recipe.get(BEACON).is_some();
     let is_known = BeaconPart::of(&manifest.recipe).is_some_and(|beacon| beacon.value.is_some());
     if has_beacon && !(is_known && manifest.commitment.is_some()) {
         problems
-            .push(format!("{MANIFEST_FILE}: its recipe names a beacon without a value, or is not sealed"));
+            .push(format!("{MANIFEST_FILE}: the recipe has a beacon, but no value for it, or is not sealed"));
     }
     if let Some(what) = impossible(&manifest.minted_by()) {
         problems.push(format!("{MANIFEST_FILE}: {what}"));
@@ -253,10 +253,10 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     };
     let names: BTreeSet<&String> = known.releases.iter().collect();
     if names.len() < known.releases.len() || names.contains(&manifest.name) {
-        wrong("names a release twice, or itself");
+        wrong("lists a release twice, or the release itself");
     }
     match manifest.parent {
-        Some(_) if known.releases.is_empty() => wrong("names no release, but there is a parent"),
+        Some(_) if known.releases.is_empty() => wrong("lists no release, but there is a parent"),
         None if known != Known::default() => wrong("lists earlier releases, but there is no parent"),
         _ => {}
     }
@@ -295,11 +295,11 @@ fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<Str
             None if [README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
             None if summaries.contains(&item.path) => {}
             None if manifest.kind == ReleaseKind::Sealed && item.path.starts_with(HELD) => {}
-            None => problems.push(format!("{}: a release has no such file", item.path)),
+            None => problems.push(format!("{}: not a file of a release", item.path)),
         }
     }
     if folders.is_empty() {
-        problems.push("games: the release holds no game".to_owned());
+        problems.push("games: the release contains no game".to_owned());
     }
     folders
 }

@@ -27,23 +27,26 @@ pub(crate) fn problems(card: &LevelCard, level: &Level) -> Vec<String> {
     let found = (level.columns(), level.rows());
     expect(
         sides == found,
-        format!("a board of {} by {}, but it has {} by {}", sides.0, sides.1, found.0, found.1),
+        format!(
+            "the card states a board of {} by {}, but the board has {} by {}",
+            sides.0, sides.1, found.0, found.1
+        ),
     );
-    expect(is_share(card.difficulty), format!("a difficulty of {}, outside 0 to 1", card.difficulty));
+    expect(is_share(card.difficulty), format!("the difficulty {} is outside 0 to 1", card.difficulty));
     let ticks = card.witness_ticks;
     let possible = 1..=MAX_TICKS as usize;
     expect(
         possible.contains(&ticks),
-        format!("a witness of {ticks} ticks, but only 1 to {MAX_TICKS} are possible"),
+        format!("the card states a witness of {ticks} ticks, but a witness has 1 to {MAX_TICKS} ticks"),
     );
     expect(
         is_score(card.witness_score),
-        format!("a score of {}, which no episode can have", card.witness_score),
+        format!("the card states a score of {}, which no episode can have", card.witness_score),
     );
     if let Some(optimal) = card.optimal_ticks {
         expect(
             (1..=ticks).contains(&optimal),
-            format!("a shortest win of {optimal} ticks beside a witness of {ticks}"),
+            format!("the card states a shortest win of {optimal} ticks, but a witness of {ticks} ticks"),
         );
     }
     for (who, rate) in [("mcts", &card.mcts), ("random", &card.random), ("idle", &card.idle)] {
@@ -73,7 +76,7 @@ fn of_rate(rate: &Rate) -> Option<String> {
     let due = wilson(wins, plays, Z95);
     if !((interval[0] - due.low).abs() <= ROUNDING && (interval[1] - due.high).abs() <= ROUNDING) {
         return Some(format!(
-            "has the interval {} to {}, where {wins} wins in {plays} plays give {:.4} to {:.4}",
+            "has the interval {} to {}, but {wins} wins in {plays} plays give {:.4} to {:.4}",
             interval[0], interval[1], due.low, due.high
         ));
     }
@@ -95,7 +98,7 @@ fn of_ladder(ladder: &Ladder) -> Vec<String> {
         }
     }
     if !ease.is_none_or(is_share) {
-        problems.push("an ease outside 0 to 1".to_owned());
+        problems.push("the ease is outside 0 to 1".to_owned());
     }
     let beaten = rungs.iter().any(|result| result.rate.wins > 0);
     let ease = ease.unwrap_or_default();
@@ -107,7 +110,7 @@ fn of_ladder(ladder: &Ladder) -> Vec<String> {
     };
     if !fits {
         let wins = if beaten { "some player wins" } else { "no player wins" };
-        problems.push(format!("the difficulty `{difficulty}`, where the ease is {ease:.2} and {wins}"));
+        problems.push(format!("the difficulty is `{difficulty}`, but the ease is {ease:.2} and {wins}"));
     }
     problems
 }
@@ -168,7 +171,14 @@ mod tests {
         };
         check_ladder(&ladder, &[]);
         check_ladder(&Ladder { ease: Some(0.9), ..ladder.clone() }, &["the difficulty `medium`"]);
-        check_ladder(&Ladder { ease: Some(1e300), ..ladder.clone() }, &["an ease outside", "the difficulty"]);
+        check_ladder(
+            &Ladder { ease: Some(1e300), ..ladder.clone() },
+            &[
+                "the ease is outside",
+                "the \
+            difficulty",
+            ],
+        );
         check_ladder(&Ladder { difficulty: Difficulty::Unbeaten, ..ladder.clone() }, &["some player wins"]);
         check_ladder(&Ladder { rungs: vec![result(0)], ..ladder.clone() }, &["no player wins"]);
         let odd = PlayerResult { reward: Some(2.0), win_ticks: None, ..result(2) };

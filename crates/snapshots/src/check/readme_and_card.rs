@@ -21,15 +21,15 @@ pub(super) fn problems(
     let mut problems = Vec::new();
     let read = |path: &str| manifest.item(path).map(|item| contents.read(&item.path)).transpose();
     match read(README_FILE)? {
-        None => problems.push(format!("{README_FILE}: missing: a release has one")),
+        None => problems.push(format!("{README_FILE}: missing, but required in every release")),
         Some(text) if !carries(&text, &manifest.canary) => {
-            problems.push(format!("{README_FILE}: without the release's canary"));
+            problems.push(format!("{README_FILE}: the release's canary is missing"));
         }
         Some(_) => {}
     }
     match read(RELEASE_CARD_FILE)? {
         None if manifest.generation < CARD_AND_CANARY_SINCE => {}
-        None => problems.push(format!("{RELEASE_CARD_FILE}: missing: a release has one")),
+        None => problems.push(format!("{RELEASE_CARD_FILE}: missing, but required in every release")),
         Some(text) => problems.extend(
             of_card(&text, manifest, cards).into_iter().map(|what| format!("{RELEASE_CARD_FILE}: {what}")),
         ),
@@ -47,7 +47,7 @@ fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     };
     let mut problems = Vec::new();
     if value.get("canary").and_then(Value::as_str) != Some(&manifest.canary) {
-        problems.push("its canary is not the release's".to_owned());
+        problems.push("the canary differs from that of the release".to_owned());
     }
     let is_new = |card: &&&Card| matches!(card.origin, Origin::Generated { .. });
     let levels = cards.iter().map(|card| card.levels.len()).sum::<usize>();
@@ -56,7 +56,7 @@ fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     for (key, found) in counts {
         let stated = &value[key];
         if stated.as_u64() != Some(found as u64) {
-            problems.push(format!("its `{key}` is {stated}, and the release has {found}"));
+            problems.push(format!("the card's `{key}` is {stated}, but the release has {found}"));
         }
     }
     if manifest.generation != GENERATION || !problems.is_empty() {
@@ -74,7 +74,7 @@ fn of_known_card(card: &ReleaseCard, cards: &[&Card]) -> Vec<String> {
     let mut problems = Vec::new();
     let mut expect = |key: &str, holds: bool| {
         if !holds {
-            problems.push(format!("its `{key}` is not what the cards of its games say"));
+            problems.push(format!("the card's `{key}` does not match the cards of the games"));
         }
     };
     let levels = || cards.iter().flat_map(|card| &card.levels);

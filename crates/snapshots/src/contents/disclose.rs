@@ -86,7 +86,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     withheld.disclosed.sort_by(|a, b| a.path.cmp(&b.path));
     // Checked together with all other files, because their paths might conflict.
     if let Err(error) = manifest.check_files() {
-        manifest.withheld.as_mut().expect("as above").disclosed = before;
+        manifest.withheld.as_mut().expect("the manifest withholds files").disclosed = before;
         return Err(Flaw::NotAList(error.to_string()));
     }
     Ok(())
@@ -96,5 +96,5 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
 pub(crate) fn salt_flaw(part: HeldPart, bytes: &[u8], secret: &Secret) -> Option<String> {
     let list = serde_json::from_slice::<HeldList>(bytes).ok()?;
     (list.salt != secret.salt(part))
-        .then(|| format!("{}: its salt does not follow from the release's secret", part.list()))
+        .then(|| format!("{}: the salt does not follow from the release's secret", part.list()))
 }

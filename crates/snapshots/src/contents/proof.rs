@@ -146,12 +146,12 @@ impl ItemProof {
         let unsound = |what: String| Err(ProofError::Unsound(what));
         if proof.format != PROOF_FORMAT {
             return unsound(format!(
-                "its format is {}, but this arcade reads format {PROOF_FORMAT}",
+                "the proof has format {}, but this arcade reads format {PROOF_FORMAT}",
                 proof.format
             ));
         }
         if proof.files.is_empty() {
-            return unsound("it lists no files".into());
+            return unsound("the proof lists no files".into());
         }
         for file in &proof.files {
             let path = file.path.escape_debug();
@@ -230,8 +230,10 @@ impl ItemProof {
             match content(path)? {
                 None => problems.push(format!("{path}: missing")),
                 Some(found) if found != file.digest => {
-                    problems
-                        .push(format!("{path}: altered (digest {found}, the proof says {})", file.digest));
+                    problems.push(format!(
+                        "{path}: altered (the digest is {found}, but the proof states {})",
+                        file.digest
+                    ));
                 }
                 Some(_) => {}
             }

@@ -135,7 +135,7 @@ mod tests {
         );
         check(
             &[("papers/1", large + 1)],
-            (&[], &[], &[], &["papers/1: too large (67108865 bytes of at most 67108864)"]),
+            (&[], &[], &[], &["papers/1: too large (67108865 bytes; the limit is 67108864)"]),
         );
         let names: Vec<String> = (0..1001).map(|number| format!("papers/{number:04}")).collect();
         let home = tempfile::tempdir().unwrap();

@@ -182,5 +182,5 @@ fn level_form(level: &Level, placed: &[Vec<u32>]) -> Digest {
         }
         bytes
     };
-    Digest::of(&(0..8).map(image).min().expect("there are eight images"))
+    Digest::of(&(0..8).map(image).min().expect("a board has eight images"))
 }

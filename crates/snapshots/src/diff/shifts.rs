@@ -124,7 +124,7 @@ const NUMBERS: &[(&str, Numbers)] = &[
         game.released.levels.iter().map(|level| level.level.columns() as f64).collect()
     }),
     ("rows of a board", |game| game.released.levels.iter().map(|level| level.level.rows() as f64).collect()),
-    ("interactions of a game, guards apart", |game| vec![game.kind.interactions as f64]),
+    ("interactions of a game, without guards", |game| vec![game.kind.interactions as f64]),
     ("levels of a game", |game| vec![game.released.levels.len() as f64]),
     ("ticks of a witness", |game| {
         game.released.card.levels.iter().map(|level| level.witness_ticks as f64).collect()
@@ -167,7 +167,7 @@ impl Shift {
             }
         }
         let values: Vec<&str> = counts.keys().copied().collect();
-        let place = |value: &String| values.binary_search(&value.as_str()).expect("it was counted");
+        let place = |value: &String| values.binary_search(&value.as_str()).expect("every value was counted");
         let games: Vec<Vec<usize>> =
             before.iter().chain(after).map(|game| game.iter().map(place).collect()).collect();
         let distance = |sides: &[bool]| {

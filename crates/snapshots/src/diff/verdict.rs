@@ -41,7 +41,7 @@ fn follows(later: &Manifest, earlier: &Manifest) -> bool {
 /// Sums up the comparison in one sentence.
 pub(super) fn verdict(diff: &Diff) -> String {
     if diff.before.root == diff.after.root {
-        return "Both have the same root: they are the same release".to_owned();
+        return "Both releases have the same root, so they are the same release".to_owned();
     }
     let difficulty = diff.shifts.iter().find(|shift| shift.name == DIFFICULTY).map(difficulty);
     let returned = diff.items.kept + diff.items.changed;

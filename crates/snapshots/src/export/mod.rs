@@ -41,10 +41,10 @@ pub struct Exported {
 pub enum ExportError {
     /// The Parquet library failed.
     #[cfg(feature = "parquet")]
-    #[error("the table cannot be written as Parquet: export it as jsonl")]
+    #[error("the table cannot be written as Parquet: use --format jsonl")]
     Parquet(#[from] parquet::errors::ParquetError),
     /// No game has a twin of the requested kind.
-    #[error("no game of the release has such a twin: {}", .0.first().map_or_else(String::new, |(_, why)| why.to_string()))]
+    #[error("no game of the release has this kind of twin: {}", .0.first().map_or_else(String::new, |(_, why)| why.to_string()))]
     NoTwin(Vec<(String, TwinError)>),
     /// Solutions were requested, but the release withholds them.
     #[error(

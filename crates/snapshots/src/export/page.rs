@@ -84,8 +84,7 @@ fn body(released: &Released, export: &Export, rows: &Rows<'_>) -> String {
     let is_withheld =
         released.games.iter().flat_map(|game| &game.levels).any(|level| level.witness.is_none());
     let mut text = format!(
-        "# {}\n\n{levels} levels of {games} arcade games, {new} of them with new rules, made and verified by Infinite Arcade: every \
-         level has been won, none by doing nothing. A row of `{file}` is one level with all of its game: rules in plain \
+        "# {}\n\n{levels} levels of {games} arcade games, {new} of them with new rules, made and verified by Infinite Arcade: every level has been won, and no level is won by doing nothing. Each row of `{file}` is one level together with its game: rules in plain \
          English and in VGDL, the board as text, what each of its characters stands for, and how hard it is.\n\n",
         title(released, export),
     );
@@ -97,20 +96,20 @@ fn body(released: &Released, export: &Export, rows: &Rows<'_>) -> String {
     if let Some(twin) = export.twin {
         let _ = write!(
             text,
-            "## A twin\n\nThis is the `{twin}` twin of the release: the same mechanics under another surface, to tell whether a \
-             model understands a game or remembers it. `title`, `description`, `goal`, `rules`, `vgdl`, `level_text`, `legend` and \
-             the digests are the twin's; what was measured (difficulty, ladder, win rates, witness) was measured on the \
-             original. `game_id` and `item_id` join the two, and do not belong in a prompt.\n\n"
+            "## A twin\n\nThis is the `{twin}` twin of the release: the same mechanics under a different surface, which shows whether a model understands a game or remembers it. `title`, `description`, `goal`, `rules`, `vgdl`, `level_text`, `legend` and \
+             the digests are the twin's; the measurements (difficulty, ladder, win rates, witness) were \
+             made on the original. `game_id` and `item_id` join the two, and do not belong in a prompt.\n\n"
         );
     }
     let solutions = match export.solutions {
         true => {
-            "The columns `solution` and `solution_seed` hold an episode that wins the level: keep them from whoever is evaluated."
+            "The columns `solution` and `solution_seed` contain an episode that wins the level: hide both \
+             columns from evaluated players."
         }
         false if is_withheld => {
-            "No row holds a solution, and the release withholds its winning episodes until it is revealed."
+            "No row contains a solution, and the release withholds its winning episodes until the reveal."
         }
-        false => "No row holds a solution; the release has them, as episodes that win.",
+        false => "No row contains a solution; the release contains the solutions as winning episodes.",
     };
     let _ = write!(text, "{solutions}\n\n## Where it comes from\n\n");
     let _ = write!(

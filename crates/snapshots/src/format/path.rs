@@ -11,32 +11,32 @@ pub const MAX_COMPONENTS: usize = 16;
 #[non_exhaustive]
 pub enum PathProblem {
     /// The path is empty.
-    #[error("it is empty")]
+    #[error("the path is empty")]
     Empty,
     /// The path has more than [`MAX_PATH`] bytes.
-    #[error("it is longer than {MAX_PATH} bytes")]
+    #[error("the path is longer than {MAX_PATH} bytes")]
     TooLong,
     /// The path has more than [`MAX_COMPONENTS`] components.
-    #[error("it has more than {MAX_COMPONENTS} components")]
+    #[error("the path has more than {MAX_COMPONENTS} components")]
     TooDeep,
     /// The path starts with `/`.
-    #[error("it is absolute")]
+    #[error("the path is absolute")]
     Absolute,
     /// The path has two `/` in a row, or one at the end.
-    #[error("it has an empty component")]
+    #[error("the path has an empty component")]
     EmptyComponent,
     /// A component is `.` or `..`.
-    #[error("it has a `.` or `..` component")]
+    #[error("the path has a `.` or `..` component")]
     DotComponent,
     /// A component ends with a dot, which Windows drops.
     #[error("a component ends with a dot")]
     TrailingDot,
     /// The path has a character outside `A-Z a-z 0-9 . _ - /`, such as `\`, `:`, a control character or any non-ASCII
     /// character.
-    #[error("it has the character {0:?}: only A-Z, a-z, 0-9, `.`, `_`, `-` and `/` may be used")]
+    #[error("the path has the character {0:?}: only A-Z, a-z, 0-9, `.`, `_`, `-` and `/` may be used")]
     Character(char),
     /// The name is not Unicode.
-    #[error("it is not Unicode")]
+    #[error("the path is not Unicode")]
     NotUnicode,
 }
 

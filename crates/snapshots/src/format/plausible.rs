@@ -22,7 +22,7 @@ pub(crate) fn impossible(minted_by: &MintedBy) -> Option<String> {
         (None, _) => {
             let had = VERSIONS.iter().filter(|version| version.generation == generation);
             let had: Vec<String> = had.map(|version| version.semantics.to_string()).collect();
-            Some(format!("{never}: it had {}", had.join(" and ")))
+            Some(format!("{never}: the generation had {}", had.join(" and ")))
         }
         (Some(known), Some(stated)) if stated != known.number => {
             Some(format!("GENERATION {generation} is minted by version {}, not {stated}", known.number))

@@ -32,7 +32,7 @@ pub enum Flaw {
     #[error("extra (an empty folder)")]
     EmptyFolder,
     /// The size differs from the stated one, so the content was not read.
-    #[error("wrong size ({found} bytes, the manifest says {stated})")]
+    #[error("wrong size ({found} bytes, but the manifest states {stated})")]
     Size {
         /// The size in the folder, in bytes.
         found: u64,
@@ -40,7 +40,7 @@ pub enum Flaw {
         stated: u64,
     },
     /// The content differs from the stated one.
-    #[error("altered (digest {}, the manifest says {})", short(found), short(stated))]
+    #[error("altered (the digest is {}, but the manifest states {})", short(found), short(stated))]
     Altered {
         /// The digest of the file in the folder.
         found: Digest,
@@ -57,7 +57,7 @@ pub enum Flaw {
     #[error("unsafe name ({0})")]
     Name(PathProblem),
     /// A file larger than the limit for one file.
-    #[error("too large ({size} bytes of at most {limit})")]
+    #[error("too large ({size} bytes; the limit is {limit})")]
     TooLarge {
         /// The size in the folder, in bytes.
         size: u64,
@@ -80,20 +80,20 @@ pub enum Flaw {
         limit: u64,
     },
     /// The manifest's text differs from the text that this format writes for its content (spaces, order, line ends, a
-    /// missing or duplicate field). The meaning is intact, but the bytes differ from the minted bytes.
-    #[error("not in canonical form (its text is not as minted)")]
+    /// missing or duplicate field). The meaning is intact, but the bytes differ from the minted ones.
+    #[error("not in canonical form (the text differs from the minted form)")]
     NotCanonical,
     /// A file is not a list of withheld files, although its digest is the committed one.
     #[error("not a list of withheld files ({0})")]
     NotAList(String),
     /// An entry of an archive, or the archive itself, differs from its packed form.
-    #[error("not as packed ({0})")]
+    #[error("different from the packed form ({0})")]
     NotAsPacked(String),
     /// The stated checksum differs from the checksum of the stated root, lock file and sizes.
-    #[error("wrong checksum (the root, the lock file's digest or a size is not as minted)")]
+    #[error("wrong checksum (the root, the lock file's digest or a size was changed)")]
     WrongChecksum,
     /// The stated root differs from the root over the manifest's own header and items.
-    #[error("wrong root (its items give {}, it says {})", short(found), short(stated))]
+    #[error("wrong root (the items give {}, but the manifest states {})", short(found), short(stated))]
     WrongRoot {
         /// The root computed from the header and items.
         found: Digest,
@@ -123,9 +123,9 @@ mod tests {
         check(
             "games/x/lvl0.txt",
             Flaw::Altered { found, stated },
-            "games/x/lvl0.txt: altered (digest af1349b9…, the manifest says 6437b3ac…)",
+            "games/x/lvl0.txt: altered (the digest is af1349b9…, but the manifest states 6437b3ac…)",
         );
-        check("a", Flaw::Size { found: 3, stated: 2 }, "a: wrong size (3 bytes, the manifest says 2)");
+        check("a", Flaw::Size { found: 3, stated: 2 }, "a: wrong size (3 bytes, but the manifest states 2)");
         check(".", Flaw::TooMany { limit: 9 }, ".: more than 9 files or folders");
         let bell = Flaw::Name(PathProblem::Character('\u{7}'));
         let text = Problem { path: "a\u{7}b".into(), flaw: bell }.to_string();

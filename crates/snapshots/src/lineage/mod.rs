@@ -63,7 +63,7 @@ pub fn trace(
     while let Some(root) = next {
         let ancestor = match chain.iter().any(|link| link.root == root) {
             true => {
-                let problems = vec!["it follows itself: the chain is circular".to_owned()];
+                let problems = vec!["the release follows itself: the chain is circular".to_owned()];
                 Ancestor { root, link: None, problems }
             }
             false => candidates.find(root),

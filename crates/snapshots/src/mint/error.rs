@@ -37,7 +37,7 @@ pub enum MintError {
     #[error("the job `{0}` holds an invalid game: mint it again")]
     Unsound(String),
     /// Too few candidates passed.
-    #[error("`{part}.games` is {asked}, but only {there} candidates can be taken ({why}); {advice}")]
+    #[error("`{part}.games` is {asked}, but only {there} candidates can be selected ({why}); {advice}")]
     TooFew {
         /// The part of the recipe.
         part: &'static str,
@@ -51,7 +51,7 @@ pub enum MintError {
         advice: String,
     },
     /// The recipe requests more games than can be made. This is detected before anything is minted.
-    #[error("`{part}.games` is {asked}, but at most {most} can be asked for: {why}; {advice}")]
+    #[error("`{part}.games` is {asked}, but the limit is {most}: {why}; {advice}")]
     Unfillable {
         /// The part of the recipe.
         part: &'static str,
@@ -65,7 +65,7 @@ pub enum MintError {
         advice: String,
     },
     /// No selection of candidates that meets the quotas was found.
-    #[error("no selection of {candidates} candidates meets the recipe: {missed}; {advice}")]
+    #[error("no selection from {candidates} candidates meets the recipe: {missed}; {advice}")]
     Uneven {
         /// The number of candidates.
         candidates: usize,

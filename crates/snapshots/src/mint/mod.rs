@@ -58,7 +58,8 @@ impl fmt::Display for Remark {
         match self {
             Remark::FewRules(most) => write!(
                 f,
-                "there are rules for {most} new games at most, and some candidates fail: fewer games may pass than the recipe asks for"
+                "there are rules for at most {most} new games, and some candidates fail: fewer games may \
+                 pass than the recipe requests"
             ),
             Remark::EmptyShard => f.write_str("there are more shards than jobs: this shard is empty"),
         }
@@ -385,7 +386,7 @@ mod tests {
             "games = 40\nkinds = ['rescue']",
             Some("sets of rules of the kinds rescue; lower `generated.games`"),
         );
-        check("games = 600", Some("`generated.games` is 600, but at most "));
+        check("games = 600", Some("`generated.games` is 600, but the limit is "));
         // The limit depends on the recipe, not on its seed.
         let limit = |seed: &str| {
             let text =
@@ -409,7 +410,8 @@ mod tests {
         let error = minted(&recipe("a"), &corpus(&[("hopeless", &hopeless)])).unwrap_err().to_string();
         assert!(
             error.contains(
-                "`corpus.games` is 1, but only 0 candidates can be taken (96 failed `winnable`, 8 without level 0)"
+                "`corpus.games` is 1, but only 0 candidates can be selected (96 failed `winnable`, 8 \
+                 without level 0)"
             ),
             "{error}"
         );

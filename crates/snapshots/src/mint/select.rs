@@ -237,7 +237,7 @@ pub(super) fn select(
     let mut taken = best.map(|(_, _, taken)| taken).unwrap_or_default();
     taken.sort_unstable();
     let missed = bins(recipe, contenders, &taken).into_iter().filter(|bin| bin.missed() > 0);
-    let told = |bin: Bin| format!("{} {} (asked {} to {})", bin.name, bin.there, bin.least, bin.most);
+    let told = |bin: Bin| format!("{} {} (requested {} to {})", bin.name, bin.there, bin.least, bin.most);
     let missed = missed.map(told).join(", ");
     if missed.is_empty() {
         return Ok(taken);
@@ -269,16 +269,19 @@ impl Fit {
                     && fit.iter().map(|&other| &contenders[other]).any(|other| other.is_new && same(other))
             };
             let why = match () {
-                () if contender.is_known(plan) => "in a release before",
-                () if repeats => "a level twice",
-                () if of_new(&|other| contender.form.is_near(&other.form)) => "near to another candidate",
+                () if contender.is_known(plan) => "in an earlier release",
+                () if repeats => "duplicate level",
+                () if of_new(&|other| contender.form.is_near(&other.form)) => {
+                    "too similar to another \
+                    candidate"
+                }
                 () if of_new(&|other| share_idea(&contender.patterns, &other.patterns)) => {
-                    "two mechanics of another candidate"
+                    "two mechanics shared with another candidate"
                 }
                 () if of_new(&|other| contender.titles.iter().any(|title| other.titles.contains(title))) => {
-                    "a title twice"
+                    "duplicate title"
                 }
-                () if of_new(&|other| contender.shares_cast(other)) => "a cast twice",
+                () if of_new(&|other| contender.shares_cast(other)) => "duplicate cast",
                 () => {
                     fit.push(at);
                     continue;
@@ -317,7 +320,7 @@ pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -
     }
     if let Some(most) = counts.crowd {
         let there = counts.kinds.values().copied().max().unwrap_or_default();
-        bins.push(Bin { name: "games of one goal and avatar".to_owned(), least: 0, most, there });
+        bins.push(Bin { name: "games with the same goal and avatar".to_owned(), least: 0, most, there });
     }
     bins
 }

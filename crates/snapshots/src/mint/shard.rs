@@ -57,7 +57,9 @@ impl FromStr for Shard {
             text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
         match numbers {
             Some((number, of)) if 1 <= number && number <= of && of <= 10_000 => Ok(Shard { number, of }),
-            _ => Err("takes K/N: the K-th of N shards, K from 1 to N, N at most 10000".to_owned()),
+            _ => {
+                Err("expected K/N for the K-th of N shards, with K from 1 to N and N up to 10000".to_owned())
+            }
         }
     }
 }
@@ -179,7 +181,7 @@ pub enum MergeError {
         what: String,
     },
     /// Two shards do not belong together.
-    #[error("{} and {} do not belong together: {what}", .one.in_message(), .two.in_message())]
+    #[error("{} and {} cannot be merged: {what}", .one.in_message(), .two.in_message())]
     Apart {
         /// The folder of the first shard.
         one: PathBuf,
@@ -192,7 +194,7 @@ pub enum MergeError {
     #[error("shards are missing: {0}")]
     Missing(String),
     /// The jobs were not made from the recipe that the shards state.
-    #[error("the shards were not made from the recipe that they specify: mint them again")]
+    #[error("the shards were not made from the recipe that they state: mint the shards again")]
     OtherRecipe,
     /// The release cannot be made from the jobs.
     #[error(transparent)]
@@ -234,7 +236,7 @@ impl Shards {
             read.push((folder, shard_file(folder)?));
         }
         let Some((first, head)) = read.first() else {
-            return Err(MergeError::Missing("none was given".to_owned()));
+            return Err(MergeError::Missing("no shard was given".to_owned()));
         };
         let mut numbers: BTreeMap<u32, &PathBuf> = BTreeMap::new();
         let mut jobs = BTreeMap::new();
@@ -245,13 +247,13 @@ impl Shards {
                 what,
             };
             if file.recipe != head.recipe || file.plan != head.plan {
-                return Err(apart(first, "they belong to different recipes"));
+                return Err(apart(first, "the shards belong to different recipes"));
             }
             if file.shard.of != head.shard.of {
-                return Err(apart(first, "they belong to different numbers of shards"));
+                return Err(apart(first, "the shards belong to mints with different numbers of shards"));
             }
             if let Some(other) = numbers.insert(file.shard.number, folder) {
-                return Err(apart(other, "they are the same shard"));
+                return Err(apart(other, "both folders hold the same shard"));
             }
             for item in &file.jobs {
                 jobs.insert(item.path.clone(), (folder.to_path_buf(), item.clone()));
@@ -264,7 +266,7 @@ impl Shards {
         if !missing.is_empty() {
             return Err(MergeError::Missing(missing.join(", ")));
         }
-        head.recipe.check().map_err(|error| unsound(first, format!("its recipe: {error}")))?;
+        head.recipe.check().map_err(|error| unsound(first, format!("the recipe of the shard: {error}")))?;
         let paths = |file: &ShardFile| file.jobs.iter().map(|item| item.path.clone()).collect();
         let shards = read.iter().map(|(folder, file)| ((*folder).clone(), file.shard, paths(file))).collect();
         Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, jobs })
@@ -296,10 +298,16 @@ impl Shards {
                 let place = self.jobs.get(&path(name)).map(|(folder, item)| folder.join(&item.path));
                 MergeError::Unsound { path: place.unwrap_or_default(), what }
             };
-            let job = self.get(name)?.ok_or_else(|| place("not a job of this plan: mint it again".into()))?;
+            let job = self.get(name)?.ok_or_else(|| {
+                place(
+                    "not a job of this plan: mint the job \
+                again"
+                        .into(),
+                )
+            })?;
             let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, plan.recipe));
             wrong.map_or(Ok(()), |what| {
-                Err(place(format!("{what}; minting makes no such job: mint it again")))
+                Err(place(format!("{what}; no mint gives this result: mint the job again")))
             })
         })
     }
@@ -324,7 +332,7 @@ fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
         return Some(format!("`{id}` does not match its card"));
     }
     if levels.is_empty() || levels.len() != witnesses.len() || levels.len() != card.levels.len() {
-        return Some(format!("`{id}` does not have a witness and a place in its card for each level"));
+        return Some(format!("`{id}` does not have a witness and an entry in its card for each level"));
     }
     if difficulties.len() != card.levels.iter().filter(|level| level.ladder.is_some()).count() {
         return Some(format!("`{id}` does not have a difficulty for each ladder"));
@@ -338,10 +346,10 @@ fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
     let of_level = |((number, text), (episode, told)): ((usize, &String), (&Episode, &LevelCard))| {
         let Ok(level) = game.level(text) else { return Some("not a level of the game".to_owned()) };
         if told.file != format!("lvl{number}.txt") || told.digest != level.digest() {
-            return Some("not the level that the card describes".to_owned());
+            return Some("the level does not match its card".to_owned());
         }
         if (episode.actions.len(), episode.score) != (told.witness_ticks, told.witness_score) {
-            return Some("not the ticks and score of its witness in the card".to_owned());
+            return Some("the witness does not have the ticks and score of the card".to_owned());
         }
         number_problems(told, &level).into_iter().next().or_else(|| replay_problem(episode, &game, &level))
     };
@@ -475,24 +483,24 @@ mod tests {
             check_of(&recipe, Some(&secret), alter, |_| (), expect);
         };
         check(&|game| assert!(game.sibling.is_some() && game.seconds[0].is_some()), None);
-        check(&|game| game.seconds.push(None), Some("no place for a second win of each level"));
+        check(&|game| game.seconds.push(None), Some("the second wins do not match the number of levels"));
         let second = |game: &mut FrozenGame| game.seconds[0].clone().unwrap();
         let with = |game: &mut FrozenGame, second| game.seconds[0] = Some(second);
         let foreign = |game: &mut FrozenGame| {
             let known = second(game);
             with(game, memory::SecondWin { path: Vec::new(), ..known });
         };
-        check(&foreign, Some("a second win with a fault: its randomness does not come"));
+        check(&foreign, Some("invalid second win: the randomness does not come"));
         let same = |game: &mut FrozenGame| {
             let (episode, path) = (game.witnesses[0].clone(), game.paths[0].clone());
             with(game, memory::SecondWin { episode, path });
         };
-        check(&same, Some("it begins like the win that is published"));
+        check(&same, Some("the second win begins like the published win"));
         let changed = |game: &mut FrozenGame| {
             let sibling = game.sibling.as_mut().unwrap();
             sibling.text = sibling.text.replace("limit=50", "limit=51");
         };
-        check(&changed, Some("a sibling with a fault: its rules are not those"));
+        check(&changed, Some("invalid sibling: the rules are not those"));
     }
 
     #[test]
@@ -505,17 +513,17 @@ mod tests {
         check(
             |game| drop(game.witnesses.pop()),
             same,
-            Some("a witness and a place in its card for each level"),
+            Some("a witness and an entry in its card for each level"),
         );
         check(
             |game| game.difficulties.push(validators::Difficulty::Easy),
             same,
             Some("does not have a difficulty for each ladder"),
         );
-        check(|game| game.marks.push(Vec::new()), same, Some("marks that the recipe does not ask for"));
-        check(|game| game.card.levels[0].difficulty = 1e300, same, Some("level 0: a difficulty of 1"));
+        check(|game| game.marks.push(Vec::new()), same, Some("marks that the recipe does not request"));
+        check(|game| game.card.levels[0].difficulty = 1e300, same, Some("level 0: the difficulty 1"));
         check(|game| game.card.levels[0].random.wins = 99, same, Some("`random` has 99 wins"));
-        check(|game| game.card.levels[0].witness_ticks += 1, same, Some("not the ticks and score"));
+        check(|game| game.card.levels[0].witness_ticks += 1, same, Some("does not have the ticks and score"));
         check(
             |game| game.witnesses[0].seed = Seed::from_text("x"),
             same,

@@ -42,7 +42,7 @@ pub enum RegenerateError {
     #[error("this is a file: pass a release folder; unpack an archive first (`tar --zstd -xf FILE`)")]
     NotAFolder,
     /// The recipe in the manifest is malformed.
-    #[error("the manifest's recipe is not a recipe: {0}")]
+    #[error("the manifest's recipe is not valid: {0}")]
     NotARecipe(serde_json::Error),
     /// The recipe in the manifest has a value out of range.
     #[error("the manifest's recipe: {0}")]
@@ -113,7 +113,7 @@ impl Regeneration {
         let minted_by = manifest.minted_by();
         let computed = manifest.computed_root()?;
         let damage = impossible(&minted_by).or_else(|| {
-            (computed != manifest.root).then(|| "its root is not that of its content".to_owned())
+            (computed != manifest.root).then(|| "the root does not match the content".to_owned())
         });
         if let Some(what) = damage {
             return Err(RegenerateError::Damaged(what));

@@ -33,7 +33,7 @@ pub enum RevealError {
     )]
     NoSecondWins(String),
     /// The two parts differ from the content that the manifest commits to.
-    #[error("the two parts are not what the manifest commits to: {}", .0.join("; "))]
+    #[error("the two parts do not match the commitments of the manifest: {}", .0.join("; "))]
     Problems(Vec<String>),
     /// A part cannot be read, or the result cannot be written.
     #[error(transparent)]
@@ -62,7 +62,7 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
     let mut salts = Vec::new();
     let has_lists = manifest.withheld.is_some();
     for part in HeldPart::ALL.into_iter().filter(|_| has_lists) {
-        let file = part.list().strip_prefix(HELD).expect("it is held");
+        let file = part.list().strip_prefix(HELD).expect("the list is in the held part");
         let Some(bytes) = folder::find(held, file, LIST_LIMIT)? else { continue };
         if manifest.hides(part) {
             let flaw = disclose(&mut manifest, part, &bytes).err();
@@ -91,13 +91,13 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
         };
         let bytes = folder::read(part, path, Limits::SNAPSHOT.file_bytes)?;
         if Digest::of(&bytes) != item.digest || bytes.len() as u64 != item.size {
-            problems.push(format!("{}: not the file that was committed to", item.path));
+            problems.push(format!("{}: the file does not match its commitment", item.path));
         } else if what == Reveal::All || !item.path.starts_with(HELD) || is_early(&item.path) {
             draft.write(&item.path, &bytes)?;
         }
     }
     if problems.is_empty() {
-        let file = SECRET_FILE.strip_prefix(HELD).expect("it is held");
+        let file = SECRET_FILE.strip_prefix(HELD).expect("the secret is in the held part");
         let secret = read_revealed(held, file)?;
         problems.extend(secret.flaw(&manifest)?.map(|flaw| format!("{SECRET_FILE}: {flaw}")));
         problems.extend(salts.iter().filter_map(|(part, bytes)| salt_flaw(*part, bytes, &secret)));
@@ -140,12 +140,12 @@ fn unrelated_witnesses(
             || summaries.iter().any(|summary| summary == **path))
     };
     for path in files.iter().filter(is_witness) {
-        let file = path.strip_prefix(HELD).expect("it is held");
+        let file = path.strip_prefix(HELD).expect("the witness is in the held part");
         let bytes = folder::read(held, file, Limits::SNAPSHOT.file_bytes)?;
         match serde_json::from_slice::<Witness>(&bytes) {
             Ok(witness) if secret.leads_to(&witness, recipe) => {}
             Ok(_) => problems.push(format!("{path}: {UNRELATED_WITNESS}")),
-            Err(error) => problems.push(format!("{path}: not a witness: {error}")),
+            Err(error) => problems.push(format!("{path}: not a valid witness: {error}")),
         }
     }
     Ok(problems)

@@ -38,7 +38,7 @@ impl BeaconPart {
     /// unknown.
     pub(crate) fn check(&self, is_sealed: bool) -> Result<(), RecipeError> {
         if !is_sealed {
-            return wrong(BEACON, "is for sealed releases: the seed of this one is public anyway");
+            return wrong(BEACON, "applies only to sealed releases: the seed of this release is public");
         }
         if self.source.trim().is_empty()
             || self.source.len() > 80
@@ -47,7 +47,11 @@ impl BeaconPart {
             return wrong("beacon.source", "takes a text of 1 to 80 bytes, such as \"drand quicknet\"");
         }
         match self.value {
-            Some(_) => wrong("beacon.value", "is filled in by `arcade release --beacon FILE`: leave it out"),
+            Some(_) => wrong(
+                "beacon.value",
+                "is filled in by `arcade release --beacon FILE`: remove the \
+                              value from the recipe",
+            ),
             None => Ok(()),
         }
     }
@@ -83,7 +87,7 @@ mod tests {
         let sealed = GOOD.replace("seed = 'x'", &format!("commitment = '{}'", Digest::of(b"")));
         assert!(Recipe::from_toml(&format!("{sealed}{BEACON_TABLE}")).is_ok());
         assert!(Recipe::to_commit(&format!("{GOOD}{BEACON_TABLE}")).is_ok());
-        check(&format!("{GOOD}{BEACON_TABLE}"), "`beacon` is for sealed releases");
+        check(&format!("{GOOD}{BEACON_TABLE}"), "`beacon` applies only to sealed releases");
         check(
             &format!("{sealed}{}", BEACON_TABLE.replace("drand quicknet", " ")),
             "`beacon.source` takes a text",

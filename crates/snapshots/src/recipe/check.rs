@@ -78,7 +78,7 @@ impl Recipe {
         let names =
             |text: &str| !text.trim().is_empty() && text.len() <= 200 && !text.chars().any(char::is_control);
         if self.authors.len() > 100 || !self.authors.iter().all(|author| names(author)) {
-            return wrong("authors", "takes at most 100 names of 1 to 200 bytes on one line each");
+            return wrong("authors", "takes up to 100 names, each of 1 to 200 bytes on one line");
         }
         if self.publisher.as_ref().is_some_and(|publisher| !names(publisher)) {
             return wrong("publisher", "takes a name of 1 to 200 bytes on one line");
@@ -119,25 +119,25 @@ impl Recipe {
             ("generated.least_mechanics", u32::try_from(new.least_mechanics).unwrap_or(u32::MAX), 0, 100),
         ] {
             if !(least..=most).contains(&value) {
-                return wrong(key, format!("is {value}; it takes {least} to {most}"));
+                return wrong(key, format!("is {value}; the value must be from {least} to {most}"));
             }
         }
         for (key, value) in [("corpus.candidates", old.candidates), ("generated.candidates", new.candidates)]
         {
             if !(1.0..=20.0).contains(&value) {
-                return wrong(key, format!("is {value}; it takes 1 to 20 for each game"));
+                return wrong(key, format!("is {value}; the value must be from 1 to 20 for each game"));
             }
         }
         check_mix("generated.mix", new.mix)?;
         if new.mix.search > 0.0 || new.mix.evolutionary > 0.0 {
-            let help = "asks for games of kernels by search, but they are only drawn: leave it out, and ask for games in [invented], whose \
-                        `mix` takes all methods";
+            let help = "requests games of kernels by search, but such games can only be drawn: leave out \
+                        `mix`, or request games in [invented], whose `mix` takes all methods";
             return wrong("generated.mix", help);
         }
         if let Some(kind) = new.kinds.iter().find(|&&kind| !kinds().any(|known| known == kind)) {
             let known = kinds().map(Kind::name).join(", ");
             let message =
-                format!("lists `{}`, of which no games are generated; choose from {known}", kind.name());
+                format!("lists the kind `{}`, which has no generator; choose from {known}", kind.name());
             return wrong("generated.kinds", message);
         }
         if new.games > 0 && new.levels < 3 && self.criteria.includes(Criterion::Progression) {
@@ -153,7 +153,10 @@ impl Recipe {
             if least < 5 || most < least || most > 100 {
                 return wrong(
                     key,
-                    format!("is [{least}, {most}]; it takes two numbers from 5 to 100, the smaller first"),
+                    format!(
+                        "is [{least}, {most}]; the range needs two numbers from 5 to 100, the smaller \
+                             first"
+                    ),
                 );
             }
         }
@@ -182,11 +185,11 @@ impl Recipe {
             ("invented.level_tries", part.level_tries, 1, 10_000),
         ] {
             if !(least..=most).contains(&value) {
-                return wrong(key, format!("is {value}; it takes {least} to {most}"));
+                return wrong(key, format!("is {value}; the value must be from {least} to {most}"));
             }
         }
         if !(1.0..=20.0).contains(&part.candidates) {
-            let message = format!("is {}; it takes 1 to 20 for each game", part.candidates);
+            let message = format!("is {}; the value must be from 1 to 20 for each game", part.candidates);
             return wrong("invented.candidates", message);
         }
         check_mix("invented.mix", part.mix)?;
@@ -205,7 +208,7 @@ impl Recipe {
             if self.difficulty.values().any(|share| !(0.0..=1.0).contains(share))
                 || (total - 1.0).abs() > 1e-6
             {
-                return wrong("difficulty", format!("adds up to {total}; it takes shares that add up to 1"));
+                return wrong("difficulty", format!("adds up to {total}; the fractions must add up to 1"));
             }
             let of_corpus =
                 self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes(Criterion::Skill));
@@ -219,7 +222,7 @@ impl Recipe {
             ("taxonomy.avatars", self.taxonomy.avatars.values().collect()),
         ] {
             if quotas.iter().any(|(least, most)| !(0.0 <= *least && least <= most && *most <= 1.0)) {
-                return wrong(key, "takes pairs of shares from 0 to 1, the smaller first");
+                return wrong(key, "takes pairs of fractions from 0 to 1, the smaller first");
             }
             let games = i64::from(self.games());
             let numbers = || quotas.iter().map(|&&share| self.quota(share));
@@ -229,19 +232,18 @@ impl Recipe {
                 return wrong(
                     key,
                     format!(
-                        "asks for a fraction from {low} to {high}, which no whole number out of {games} \
-                         games gives"
+                        "requires a fraction from {low} to {high}, which no number out of {games} games gives"
                     ),
                 );
             }
             let least: i64 = numbers().map(|(least, _)| least).sum();
             if least > games {
-                return wrong(key, format!("asks for at least {least} games, but there are {games}"));
+                return wrong(key, format!("requires at least {least} games, but there are {games}"));
             }
         }
         match self.taxonomy.crowd {
             Some(crowd) if !(crowd > 0.0 && crowd <= 1.0) => {
-                wrong("taxonomy.crowd", format!("is {crowd}; it takes a share above 0, up to 1"))
+                wrong("taxonomy.crowd", format!("is {crowd}; the value must be a fraction above 0, up to 1"))
             }
             _ => Ok(()),
         }
@@ -253,6 +255,6 @@ fn check_mix(key: &'static str, mix: Mix) -> Result<(), RecipeError> {
     let weights = [mix.constructive, mix.search, mix.evolutionary];
     match weights.iter().all(|weight| (0.0..=1e6).contains(weight)) && weights.iter().sum::<f64>() > 0.0 {
         true => Ok(()),
-        false => wrong(key, "takes weights, not all of them 0"),
+        false => wrong(key, "needs at least one weight above 0"),
     }
 }

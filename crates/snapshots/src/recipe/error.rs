@@ -41,13 +41,13 @@ pub enum RecipeError {
     Sealed,
     /// The secret is not the committed one.
     #[error(
-        "the secret is not the one that the recipe's `commitment` was made from: pass the file that \
-         `--commit` wrote with it"
+        "the secret does not match the recipe's `commitment`: pass the file that `--commit` wrote with \
+         the commitment"
     )]
     OtherSecret,
     /// The secret is correct, but the recipe has changed.
     #[error(
-        "the recipe is not the one that was committed to: more than its `commitment` was changed after `--commit`; \
+        "the recipe does not match its `commitment`: more than that line was changed after `--commit`; \
          {0}, or commit again with `arcade release RECIPE --commit`"
     )]
     OtherRecipe(&'static str),

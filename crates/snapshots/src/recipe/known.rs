@@ -35,7 +35,7 @@ impl Known {
             let wrong = |_| RecipeError::Value {
                 key: "known.games",
                 message: format!(
-                    "has an invalid game at index {at}: name the previous release with --parent"
+                    "has an invalid game at index {at}: pass the previous release with --parent"
                 ),
             };
             Ok(GameForm::of(&Game::from_source(text).map_err(wrong)?))

@@ -136,11 +136,13 @@ impl Recipe {
     fn mismatch_advice(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
-            None => "did you forget --parent? Give the one of the commitment, undo other changes",
+            None => "did you forget --parent? Pass the parent of the commitment, undo other changes",
             Some(_) if secret.recipe == Some(alone.committed()) => {
-                "only the parent is new: the commitment has none; omit --parent"
+                "only the parent is new, because the commitment has no parent; omit --parent"
             }
-            Some(_) => "is --parent another release? Give the one of the commitment, undo other changes",
+            Some(_) => {
+                "is --parent a different release? Pass the parent of the commitment, undo other changes"
+            }
         }
     }
 
@@ -150,18 +152,20 @@ impl Recipe {
         let mut caveats = Vec::new();
         if self.parent.is_none() && self.new_games() > 0 {
             caveats.push(
-                "It follows no earlier release (`--parent`), so its games are not compared with those of other releases, which may \
-                 have the same rules, and even the same levels, under other names.",
+                "The release follows no earlier release (`--parent`), so its games are not compared with \
+                 other releases, which may have the same rules, and even the same levels, under different \
+                 names.",
             );
         }
         if self.generated.games > 0 && self.criteria.ask.only(CriterionSet::GATES).is_empty() {
             caveats.push(
-                "Its recipe asks for no gates, so its new games are not tested for being worth playing (`arcade docs gates`).",
+                "The recipe has no gates, so the new games are not tested for being worth playing \
+                 (`arcade docs gates`).",
             );
         }
         if self.tiers.is_empty() && !self.criteria.includes(Criterion::Skill) {
             caveats.push(
-                "Its recipe does not ask for `skill`, so difficulty is not measured (`arcade docs recipes`).",
+                "The recipe does not request `skill`, so difficulty is not measured (`arcade docs recipes`).",
             );
         }
         caveats
@@ -337,8 +341,8 @@ pub(crate) mod tests {
         check(&format!("{GOOD}mix = {{ constructive = 0 }}"), "`generated.mix`");
         check(&format!("{GOOD}mix = {{ evolution = 1 }}"), "unknown field `evolution`");
         let searched = format!("{GOOD}mix = {{ constructive = 1, search = 0.5 }}");
-        check(&searched, "`generated.mix` asks for games of kernels by search");
-        check(&searched.replace("search", "evolutionary"), "ask for games in [invented]");
+        check(&searched, "`generated.mix` requests games of kernels by search");
+        check(&searched.replace("search", "evolutionary"), "request games in [invented]");
         assert!(Recipe::from_toml(&searched.replace("0.5", "0")).is_ok());
         assert!(Recipe::from_toml(&searched.replace("[generated]", "[invented]")).is_ok());
         check(&format!("{GOOD}candidates = 0.5"), "`generated.candidates`");
@@ -353,13 +357,16 @@ pub(crate) mod tests {
         );
         check(
             &format!("{GOOD}[taxonomy.avatars]\nwalks = [0.6, 0.9]"),
-            "which no whole number out of 2 games gives",
+            "which no number out of 2 games gives",
         );
         check(&GOOD.replace("= 2", "= 0"), "nothing to mint");
         check(&format!("{GOOD}[corpus.criteria]\nrandom_wins = 2.0"), "`corpus.criteria.random_wins` is 2");
         check(&format!("{GOOD}least_interactions = 1000"), "`generated.least_interactions` is 1000");
         check(&format!("{GOOD}levels = 0"), "`generated.levels` is 0");
-        check(&format!("{GOOD}kinds = ['herding']"), "`generated.kinds` lists `herding`, of which no games");
+        check(
+            &format!("{GOOD}kinds = ['herding']"),
+            "`generated.kinds` lists the kind `herding`, which has no generator",
+        );
         check(&format!("{GOOD}kinds = ['luer']"), "luer");
         let ask = "ask = ['not-idle', 'not-random', 'winnable', 'progression']";
         check(
@@ -373,10 +380,11 @@ pub(crate) mod tests {
         // A line appended to a file belongs to the file's last table.
         check(
             &format!("{}commitment = '{}'\n", GOOD.replace("seed = 'x'\n", ""), Digest::of(b"")),
-            "`commitment` stands in the table [generated] here, and belongs to the recipe as a whole: move it above the first [table]",
+            "`commitment` is in the table [generated], but belongs to the recipe as a whole: move the \
+             line above the first [table]",
         );
-        check(&format!("{GOOD}authors = ['Ada']"), "move it above the first [table]");
-        check(&format!("{GOOD}[corpus.criteria]\nauthors = ['Ada']"), "in the table [corpus.criteria] here");
+        check(&format!("{GOOD}authors = ['Ada']"), "move the line above the first [table]");
+        check(&format!("{GOOD}[corpus.criteria]\nauthors = ['Ada']"), "in the table [corpus.criteria], but");
         check(
             &format!("{GOOD}[generated.board]\nrows = [9, 9]"),
             "write [board] instead of [generated.board]",

@@ -32,7 +32,8 @@ pub(crate) fn placement(error: &toml::de::Error, text: &str) -> Option<String> {
     if let Some(table) = table_with(key, &recipe) {
         if HEAD.contains(&key) {
             return Some(format!(
-                "`{key}` stands in the table [{table}] here, and belongs to the recipe as a whole: move it above the first [table]"
+                "`{key}` is in the table [{table}], but belongs to the recipe as a whole: move the line \
+                 above the first [table]"
             ));
         }
         if TABLES.contains(&key) || SECTIONS.iter().any(|section| section.name() == key) {

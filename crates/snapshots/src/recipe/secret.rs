@@ -106,20 +106,21 @@ impl Secret {
     /// Returns the first fault as a sentence.
     pub fn check(&self) -> Result<(), String> {
         let Ok(seed) = self.seed.parse::<Digest>() else {
-            return Err("its `seed` is not 64 lower-case hexadecimal digits".to_owned());
+            return Err("the `seed` is not 64 lower-case hexadecimal digits".to_owned());
         };
         if self.recipe.is_none() {
-            return Err("it has no `recipe`, the digest of the recipe that it was drawn for".to_owned());
+            return Err("the secret has no `recipe`, the digest of the recipe that the secret was drawn for"
+                .to_owned());
         }
         if seed == self.nonce {
-            return Err("its `seed` and `nonce` are the same".to_owned());
+            return Err("the `seed` and the `nonce` are the same".to_owned());
         }
         for (key, bytes) in [("seed", seed.as_bytes()), ("nonce", self.nonce.as_bytes())] {
             let steps = bytes.windows(2).map(|pair| pair[1].wrapping_sub(pair[0]));
             let (values, steps): (BTreeSet<u8>, BTreeSet<u8>) =
                 (bytes.iter().copied().collect(), steps.collect());
             if values.len() < DISTINCT || steps.len() < DISTINCT || bytes.is_ascii() {
-                return Err(format!("its `{key}` has a pattern, and so was not drawn"));
+                return Err(format!("the `{key}` has a pattern, so it was not drawn at random"));
             }
         }
         Ok(())
@@ -132,16 +133,16 @@ impl Secret {
     /// Returns an error if the manifest's recipe has no canonical JSON.
     pub(crate) fn flaw(&self, manifest: &Manifest) -> Result<Option<String>, SnapshotError> {
         if Some(self.commitment()) != manifest.commitment {
-            return Ok(Some("its seed and nonce are not those of the commitment".to_owned()));
+            return Ok(Some("the seed and the nonce do not match the commitment".to_owned()));
         }
         let Some(recipe) = self.recipe else {
             let flaw = format!(
-                "it does not specify a recipe, which secrets since generation {COMMITS_TO_RECIPE_SINCE} do"
+                "the secret does not specify a recipe, as required since generation {COMMITS_TO_RECIPE_SINCE}"
             );
             return Ok((manifest.generation >= COMMITS_TO_RECIPE_SINCE).then_some(flaw));
         };
         if recipe != committed(&manifest.recipe)? {
-            return Ok(Some("the manifest's recipe is not the one that was committed to".to_owned()));
+            return Ok(Some("the manifest's recipe does not match the commitment".to_owned()));
         }
         Ok(self.check().err())
     }
@@ -202,14 +203,14 @@ pub(crate) fn read_revealed(root: &Path, file: &str) -> Result<Secret, SnapshotE
 fn parse(bytes: &[u8], file: &Path) -> Result<Secret, SnapshotError> {
     let path = file.to_path_buf();
     if bytes.len() as u64 > SECRET_LIMIT {
-        let source = serde::de::Error::custom(format_args!("it has more than {SECRET_LIMIT} bytes"));
+        let source = serde::de::Error::custom(format_args!("the secret has more than {SECRET_LIMIT} bytes"));
         return Err(SnapshotError::NotASecret { path, source });
     }
     serde_json::from_slice(bytes).map_err(|source| SnapshotError::NotASecret { path, source })
 }
 
 /// The fault of a witness that was not played under the release's secret.
-pub(crate) const UNRELATED_WITNESS: &str = "its seed is not derived from the release's secret";
+pub(crate) const UNRELATED_WITNESS: &str = "the seed is not derived from the release's secret";
 
 #[cfg(test)]
 mod tests {

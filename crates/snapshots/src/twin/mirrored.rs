@@ -102,7 +102,9 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     use SpriteClass as C;
     let game = analysis.game();
     if !game.description().parameters.is_empty() {
-        return Err("its rules have parameters (a GameSpace): replace them with their values".to_owned());
+        return Err("the rules have parameters (a GameSpace): replace the parameters with their \
+                    values"
+            .to_owned());
     }
     for stype in game.sprite_types().filter(|&stype| analysis.facts(stype).possible) {
         let Some(class) = game.class(stype) else { continue };
@@ -220,7 +222,7 @@ fn sprites(lines: &mut [SpriteLine]) {
 
 /// Returns the types that do not face the mirrored direction. Both games have their types in the same order.
 fn misdirected(game: &Game, rules: &Description) -> Result<Vec<SpriteType>, String> {
-    let twin = Game::compile(rules).map_err(|problems| format!("it does not compile: {problems}"))?;
+    let twin = Game::compile(rules).map_err(|problems| format!("the game does not compile: {problems}"))?;
     let wrong = |stype: &SpriteType| {
         game.class(*stype).is_some()
             && mirrored_direction(game.orientation(*stype)) != twin.orientation(*stype)

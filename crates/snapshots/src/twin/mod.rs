@@ -81,7 +81,7 @@ pub enum TwinError {
     #[error("the game cannot be mirrored: {0}")]
     Unmirrorable(String),
     /// No coin withheld a sibling, or the sibling was not revealed.
-    #[error("it has no sibling, or none that was revealed")]
+    #[error("the game has no sibling, or the sibling was not revealed")]
     NoSibling,
     /// The game has no second theme.
     #[error(transparent)]

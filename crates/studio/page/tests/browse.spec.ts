@@ -48,7 +48,7 @@ test('verification follows the parent, and tells one that was altered', async ({
   await page.getByRole('button', { name: 'Verify' }).click();
   await expect(before.getByRole('img', { name: 'differs' })).toBeVisible();
   await expect(before).toContainText('README.md');
-  await expect(page.getByText('but not all that belongs to it does')).toBeVisible();
+  await expect(page.getByText('but some related files do not')).toBeVisible();
   rmSync(join(running.folder, 'line/one'), { recursive: true });
   await page.getByRole('button', { name: 'Verify' }).click();
   await expect(before.getByRole('img', { name: 'not found' })).toBeVisible();

@@ -124,7 +124,7 @@ test('files are saved, and what another program wrote is not overwritten', async
   expect(readFileSync(file, 'utf8').split('\n')[3]).toBe('ww.lww.w');
 
   writeFileSync(file, outside);
-  await expect(page.getByText('lvl0.txt changed outside and was read again.')).toBeVisible();
+  await expect(page.getByText('lvl0.txt changed outside and was reloaded.')).toBeVisible();
 });
 
 test('a made level is inserted, and evidence plays in the board', async ({ page, studio }) => {

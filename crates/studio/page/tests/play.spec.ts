@@ -45,7 +45,7 @@ test('with the clock running a game goes on by itself, at the chosen pace', asyn
   await open(page, await studio('games'), 'play/moth-and-lamps/0');
   await page.getByRole('checkbox', { name: 'Wait for me each turn' }).uncheck();
   await page.keyboard.press('+');
-  await expect(page.getByText('16 ticks a second')).toBeVisible();
+  await expect(page.getByText('16 ticks per second')).toBeVisible();
   await page.keyboard.press('p');
   await expect(page.locator('.tick')).toHaveText(/^([5-9]|\d\d)\//);
   await page.keyboard.press('p');

@@ -51,7 +51,7 @@ pub(crate) struct Replay {
 }
 
 /// The note about omitted frames.
-pub(crate) const CUT: &str = "the boards change too much to be shown to the end";
+pub(crate) const CUT: &str = "the boards change too much to show the whole episode";
 
 /// A recording as frames. It is serialised directly, because JSON values would take many times as much memory.
 #[derive(Serialize)]

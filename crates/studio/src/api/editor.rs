@@ -19,7 +19,13 @@ const MAX_EDITS: usize = 100_000;
 /// Rejects texts that are too large for a game or a level.
 fn bounded(source: &str, levels: &[String]) -> Result<(), Refusal> {
     let too_large = |what: &str, limit: usize| {
-        Refusal::new(StatusCode::PAYLOAD_TOO_LARGE, format_args!("{what} has at most {limit} bytes"))
+        Refusal::new(
+            StatusCode::PAYLOAD_TOO_LARGE,
+            format_args!(
+                "{what} is larger than the limit of \
+            {limit} bytes"
+            ),
+        )
     };
     match () {
         () if source.len() > MAX_SOURCE => Err(too_large("a game", MAX_SOURCE)),
@@ -174,8 +180,8 @@ pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
     };
     let places = |level: &String| symbols.map_or(0, |(old, _)| level.matches(old).count());
     if edits.len() + levels.iter().map(places).sum::<usize>() > MAX_EDITS {
-        return Err(Refusal::bad(format_args!("the name is in more than {MAX_EDITS} places"))
-            .help("change it with a text editor"));
+        return Err(Refusal::bad(format_args!("the name occurs in more than {MAX_EDITS} places"))
+            .help("rename it with a text editor"));
     }
     let edits: Vec<Value> = edits.iter().map(|made| positions::edit(&source, made)).collect();
     Ok(json!({ "edits": edits, "levels": levels.iter().map(of_level).collect::<Vec<_>>() }))

@@ -84,7 +84,7 @@ pub(crate) fn planners(_: &Studio) -> Result<Value, Refusal> {
         "random-search" => "the best of many random sequences of actions",
         "rhea" => "evolves a sequence of actions at every tick",
         "mcts" => "Monte-Carlo tree search",
-        "width" => "looks far ahead, wherever something is new",
+        "width" => "looks far ahead, and prefers new situations",
         "guided-mcts" => "tree search that follows the rules' targets",
         "olets" => "open-loop tree search",
         _ => "",

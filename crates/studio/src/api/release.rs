@@ -92,7 +92,12 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     let verification = verify(root).map_err(Refusal::failed)?;
     let mut problems = verification.problems.clone();
     if verification.root != released.manifest.root {
-        problems.insert(0, "The release changed since the studio opened it: open it again.".to_owned());
+        problems.insert(
+            0,
+            "The release changed after the studio opened it: open the release \
+                            again."
+                .to_owned(),
+        );
     }
     let is_sound = problems.is_empty();
     let mut said = if is_sound { words(&verification) } else { Vec::new() };
@@ -102,7 +107,7 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
             Err(unsigned) => problems.extend(unsigned),
         },
         None => said.push(format!(
-            "Root {}: compare it with the published one, or give the publisher's key with --key.",
+            "Root {}: compare this root with the published root, or pass the publisher's key with --key.",
             verification.root
         )),
     }
@@ -129,7 +134,7 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
         let text = match (link, problems.as_slice()) {
             (None, []) => format!("Pass its location with --chain to check what `{child}` follows."),
             (Some(_), []) => {
-                format!("Every file agrees with this root, which `{child}` names as its parent.")
+                format!("Every file agrees with this root, which `{child}` states as its parent.")
             }
             (_, [only]) => only.clone(),
             (_, [first, rest @ ..]) => format!("{first}; and {} more", rest.len()),
@@ -151,16 +156,17 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let Link { name, .. } = &start;
     let mut said = Vec::new();
     match (lineage.complete, sound.count()) {
-        (true, 0) => said.push(format!("`{name}` has no parent: it is the first of its chain.")),
+        (true, 0) => said.push(format!("`{name}` has no parent, and so is the first release of its chain.")),
         (true, count) => said.push(format!(
-            "{} before `{name}`, back to the first, and each has the root that the next one names.",
+            "{} before `{name}`, back to the first, and each has the root that its successor states.",
             releases(count)
         )),
         // The altered release is reported instead.
         (false, _) if lineage.ancestors.iter().any(|ancestor| is_damaged(&ancestor)) => {}
-        (false, 0) => said.push(format!("The releases before `{name}` were not seen.")),
+        (false, 0) => said.push(format!("The releases before `{name}` were not found.")),
         (false, count) => said.push(format!(
-            "{} before `{name}`, and each has the root that the next one names; older ones were not seen.",
+            "{} before `{name}`, and each has the root that its successor states; older releases were not \
+             found.",
             releases(count)
         )),
     }
@@ -173,10 +179,9 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let damaged = lineage.ancestors.iter().filter(is_damaged);
     let mut problems: Vec<String> = damaged
         .map(|ancestor| match &ancestor.link {
-            Some(link) => format!(
-                "`{}`, which comes before it, was altered: its files do not match its root.",
-                link.name
-            ),
+            Some(link) => {
+                format!("The earlier release `{}` was altered: its files do not match its root.", link.name)
+            }
             None => "The chain of parents is circular.".to_owned(),
         })
         .collect();
@@ -227,13 +232,13 @@ fn words(found: &Verification) -> Vec<String> {
     let Verification { files, games, levels, .. } = found;
     let [files, games, levels] =
         [(*files, "file"), (*games, "game"), (*levels, "level")].map(|(count, of)| counted(count, of));
-    let said = format!("{files}, {games}, {levels}: every digest and the root are right.");
+    let said = format!("{files}, {games}, {levels}: every digest and the root are correct.");
     let wins = match &found.witnesses {
         Witnesses::Replayed(1) => "1 recorded win was replayed, state by state.".to_owned(),
         Witnesses::Replayed(count) => format!("{count} recorded wins were replayed, state by state."),
-        Witnesses::Held => "Sealed: its wins are withheld until the reveal.".to_owned(),
+        Witnesses::Held => "Sealed: the wins are withheld until the reveal.".to_owned(),
         Witnesses::NotReplayed { semantics } => {
-            format!("Its wins need semantics {semantics} of the engine and were not replayed.")
+            format!("The wins need semantics {semantics} of the engine, and so were not replayed.")
         }
     };
     vec![said, wins]
@@ -245,7 +250,7 @@ const NEAREST: usize = 1000;
 pub(crate) fn compare(studio: &Studio) -> Result<Value, Refusal> {
     let (_, released) = opened(studio)?;
     let Some((_, other)) = &studio.workspace.against else {
-        return Err(Refusal::missing("no release to compare with").help("pass one with --against"));
+        return Err(Refusal::missing("there is no release to compare with").help("pass one with --against"));
     };
     let diff = Diff::of(other, released, NEAREST);
     let ids = |statuses: &[Status]| -> Vec<&str> {

@@ -20,7 +20,7 @@ const LONGEST: usize = 20_000;
 /// Opens the results, one evaluation per folder.
 fn opened(studio: &Studio) -> Result<Vec<Evaluation>, Refusal> {
     if studio.workspace.results.is_empty() {
-        return Err(Refusal::missing("no results are open").help("open some: `arcade studio RESULTS`"));
+        return Err(Refusal::missing("no results are open").help("open results: `arcade studio RESULTS`"));
     }
     let folders = studio.workspace.results.iter();
     folders.map(|folder| Evaluation::open(folder).map_err(Refusal::failed)).collect()

@@ -124,7 +124,7 @@ pub(crate) fn save(studio: &Studio, id: &str, name: &str, asked: Save) -> Result
     if asked.text.len() > limit {
         return Err(Refusal::new(
             StatusCode::PAYLOAD_TOO_LARGE,
-            format_args!("{name} has at most {limit} bytes"),
+            format_args!("{name} is larger than the limit of {limit} bytes"),
         ));
     }
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
@@ -170,9 +170,9 @@ pub(crate) fn remove(studio: &Studio, id: &str, name: &str, asked: Remove) -> Re
     };
     if files::level_number(name) < Some(last) {
         return Err(Refusal::forbidden(format_args!("only the last level can be removed, lvl{last}.txt"))
-            .help("move what you want to keep to the levels before it"));
+            .help("move the parts that you want to keep to earlier levels"));
     }
-    unchanged(&path, name, Some(asked.base), "look at what it is now before you remove it")?;
+    unchanged(&path, name, Some(asked.base), "check the current content before you remove the level")?;
     files::remove(&path)?;
     Ok(json!({}))
 }
@@ -223,11 +223,14 @@ fn add(
 ) -> Result<Value, Refusal> {
     let name = folder_name(&title);
     if name.is_empty() {
-        return Err(Refusal::bad("the title has no letter or digit").help("write some of a to z or 0 to 9"));
+        return Err(Refusal::bad("the title contains no letters or digits").help(
+            "use letters from a to z \
+                                 or digits from 0 to 9",
+        ));
     }
     let failed = |name: &str, error: io::Error| {
         Refusal::failed(format_args!("cannot write the folder {name}: {}", error.kind()))
-            .help("open the studio in a writable folder, or specify another place with --out")
+            .help("open the studio in a writable folder, or choose a different folder with --out")
     };
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
     let copies = &studio.workspace.copies;
@@ -245,7 +248,7 @@ fn add(
         let game = GameEntry { id: name, title, place, card: None, summary, witnesses: Vec::new() };
         return Ok(json!({ "id": studio.workspace.add(game) }));
     }
-    Err(Refusal::bad("there are too many games of that title").help("choose another title"))
+    Err(Refusal::bad("there are too many games with this title").help("choose another title"))
 }
 
 /// Returns a folder name for a title, which consists of lower-case letters, digits and dashes.

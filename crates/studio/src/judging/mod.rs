@@ -127,10 +127,10 @@ impl Judging {
         record: &Path,
     ) -> Result<(Judging, Vec<String>), JudgingError> {
         if sources.len() < 2 {
-            return Err(JudgingError::Games("two sources of games are needed to compare them".to_owned()));
+            return Err(JudgingError::Games("comparing games requires two sources of games".to_owned()));
         }
         if let Some(empty) = sources.iter().find(|source| source.games.is_empty()) {
-            return Err(JudgingError::Games(format!("{}: no game with a level", empty.name)));
+            return Err(JudgingError::Games(format!("{}: there is no game with a level", empty.name)));
         }
         let counts: Vec<usize> = sources.iter().map(|source| source.games.len()).collect();
         let names = sources.iter().map(|source| source.name.clone()).collect();

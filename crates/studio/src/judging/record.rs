@@ -124,7 +124,7 @@ impl Judgements {
     pub fn read(file: &Path) -> Result<(Judgements, Vec<String>), JudgingError> {
         let bytes = disk::read_start(file, MOST_BYTES + 1).map_err(JudgingError::io("read", file))?;
         if bytes.len() as u64 > MOST_BYTES {
-            let large = io::Error::other(format!("it is larger than {MOST_BYTES} bytes"));
+            let large = io::Error::other(format!("the file is larger than {MOST_BYTES} bytes"));
             return Err(JudgingError::io("read", file)(large));
         }
         let (judgements, _, remarks) = parse(&bytes, file)?;
@@ -150,7 +150,7 @@ fn parse(bytes: &[u8], file: &Path) -> Result<(Judgements, usize, Vec<String>), 
         match serde_json::from_slice(text) {
             Ok(judgement) => judgements.add(judgement),
             Err(_) if !is_whole => {
-                let remark = format!("{}: its last line was cut off, and is left out", file.in_message());
+                let remark = format!("{}: the last line was cut off, and is left out", file.in_message());
                 return Ok((judgements, sound, vec![remark]));
             }
             Err(error) => {
@@ -178,7 +178,7 @@ impl Keeper {
         let file = disk::append_no_follow(path).map_err(JudgingError::io("open", path))?;
         let bytes = disk::start(&file, MOST_BYTES + 1).map_err(JudgingError::io("read", path))?;
         if bytes.len() as u64 > MOST_BYTES {
-            let large = io::Error::other(format!("it is larger than {MOST_BYTES} bytes"));
+            let large = io::Error::other(format!("the file is larger than {MOST_BYTES} bytes"));
             return Err(JudgingError::io("read", path)(large));
         }
         let (judgements, sound, remarks) = parse(&bytes, path)?;

@@ -65,7 +65,13 @@ pub(super) fn play(
         let (action, ..) = player.plan(&compiled.game, &state, DECISION);
         episode.play(&compiled.game, &mut state, action);
     }
-    Some(Play { episode, note: Some("A short search found no win here: a planner plays as well as it can.") })
+    Some(Play {
+        episode,
+        note: Some(
+            "A short search found \
+                                     no win here, so a planner plays as well as it can.",
+        ),
+    })
 }
 
 /// The most recently played episodes.

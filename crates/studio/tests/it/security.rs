@@ -311,5 +311,5 @@ fn answers_take_bounded_memory() {
     }
     let answer = running.get("/api/games/one");
     assert_eq!(answer.status, 400);
-    assert!(answer.json()["error"].as_str().expect("a message").contains("4194304 bytes together"));
+    assert!(answer.json()["error"].as_str().expect("a message").contains("4194304 bytes in total"));
 }

@@ -14,9 +14,9 @@ use sha2::{Digest as _, Sha256};
 /// The maximum size of a beacon file, in bytes.
 pub const MAX_BEACON: u64 = 1 << 14;
 
-/// The description of a beacon file's expected content in messages.
-const SHAPE: &str = "write the answer of the source with its name: \
-    { \"source\": \"drand quicknet\", \"round\": 7, \"randomness\": \"…\", \"signature\": \"…\" }";
+/// The expected content of the file, for messages.
+const SHAPE: &str = "write the source's answer together with its name: \
+                     { \"source\": \"drand quicknet\", \"round\": 7, \"randomness\": \"…\", \"signature\": \"…\" }";
 
 /// A value from a source of randomness, and the evidence for the value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,7 +68,7 @@ impl Drawn {
             .map_err(|error| wrong(format!("isn't a beacon value: {error}; {SHAPE}")))?;
         let DrawnFile { source, round, value, signature, previous_signature, chain } = file;
         if signature.is_none() && (previous_signature.is_some() || chain.is_some()) {
-            return Err(wrong(format!("has no `signature`, which the rest would be for; {SHAPE}")));
+            return Err(wrong(format!("has no `signature`, but has fields that belong to one; {SHAPE}")));
         }
         let proof = signature.map(|signature| Proof { signature, previous_signature, chain });
         let drawn = Drawn { round: Round { source, round }, value, proof };
@@ -89,8 +89,8 @@ impl Drawn {
             return match network {
                 None => Ok(()),
                 Some(_) => Err(format!(
-                    "has no `signature` of round {} of {}, which shows that the value is the network's: \
-                     take the whole answer of the network, such as that of /public/{}",
+                    "has no `signature` of round {} of {}, which proves that the value comes from the \
+                     network: use the network's complete answer, such as that of /public/{}",
                     round.round, round.source, round.round
                 )),
             };
@@ -98,8 +98,10 @@ impl Drawn {
         let signature = hex(&proof.signature).ok_or_else(|| not_hex("signature"))?;
         let value: [u8; 32] = Sha256::digest(&signature).into();
         if Digest::from_bytes(value) != self.value {
-            return Err("its `value` is not the SHA-256 of its `signature`: take both from the source again"
-                .to_owned());
+            return Err(
+                "its `value` is not the SHA-256 of its `signature`: fetch both from the source again"
+                    .to_owned(),
+            );
         }
         match network {
             Some(network) => network.check(round, &signature, proof),
@@ -119,7 +121,7 @@ impl Drawn {
 }
 
 fn not_hex(field: &str) -> String {
-    format!("its `{field}` does not consist of lower-case hexadecimal digits: take it from the source again")
+    format!("its `{field}` does not consist of lower-case hexadecimal digits: fetch it from the source again")
 }
 
 fn hex(text: &str) -> Option<Vec<u8>> {

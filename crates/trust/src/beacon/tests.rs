@@ -30,6 +30,6 @@ fn no_file_of_a_beacon() {
     for bytes in [&b""[..], b"\xff\xfe", b"[]", b"{}", b"{\"source\": 7}"] {
         let said = Drawn::parse(bytes, "round.json").unwrap_err().to_string();
         assert!(said.starts_with("`round.json`: isn't a beacon value"), "{said}");
-        assert!(said.contains("write the answer of the source with its name"), "{said}");
+        assert!(said.contains("write the source's answer together with its name"), "{said}");
     }
 }

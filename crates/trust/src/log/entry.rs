@@ -167,7 +167,7 @@ impl ResultRow {
         }
         let (stated, now) = (numbers(self), numbers(again));
         if stated.len() != now.len() {
-            found.push("`score` is in only one of the two".to_owned());
+            found.push("`score` is missing either from the log or from the episodes".to_owned());
         }
         for ((key, stated), (_, now)) in stated.into_iter().zip(now) {
             // A number that is not finite differs from every number.

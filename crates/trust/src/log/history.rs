@@ -82,7 +82,7 @@ impl History {
         }
         if let Some(before) = self.beacons.insert(round.clone(), value).filter(|before| *before != value) {
             problems.push(format!(
-                "round {} of {} has two values: {before} before, and now {value}",
+                "round {} of {} has two values: {before} earlier, and now {value}",
                 round.round, round.source
             ));
         }
@@ -95,7 +95,7 @@ impl History {
         self.keys = Some((version, digest));
         match (version, previous) == expect {
             true => Vec::new(),
-            false => vec![format!("the set of keys {version} does not follow the one before it in the log")],
+            false => vec![format!("the set of keys {version} does not follow the previous set in the log")],
         }
     }
 
@@ -109,7 +109,10 @@ impl History {
             return problems;
         }
         if self.roots.contains_key(release) {
-            problems.push(format!("a commitment for `{release}`, whose root is already in the log"));
+            problems.push(format!(
+                "the commitment for `{release}` comes too late: the root of the release \
+                                   is already in the log"
+            ));
         }
         if let Some(Err(fault)) = new.beacon.as_ref().map(|round| check_source(&round.source)) {
             problems.push(format!("the commitment for `{release}`: {fault}"));
@@ -156,34 +159,35 @@ impl History {
                 .push(format!("`{release}` follows a release with root {parent}, which is not in the log"));
         }
         if self.roots.values().any(|other| other.root == root) {
-            problems.push(format!("the root {root} is in the log under another name than `{release}`"));
+            problems.push(format!("the root {root} is in the log under a different name than `{release}`"));
         }
         match (commitment, self.commitments.get(release)) {
             (None, None) => {}
-            (None, Some(_)) => {
-                problems.push(format!("`{release}` was committed to, but its root has no commitment"))
-            }
+            (None, Some(_)) => problems.push(format!(
+                "the log has a commitment for `{release}`, but the release itself \
+                                       has no commitment"
+            )),
             (Some(_), None) => {
                 problems.push(format!("`{release}` is sealed, but no commitment came before its root"))
             }
             (Some(stated), Some(before)) => {
                 if stated != before.commitment {
                     problems.push(format!(
-                        "`{release}` has the commitment {stated}, but {} was committed to",
+                        "`{release}` has the commitment {stated}, but the log has the commitment {}",
                         before.commitment
                     ));
                 }
                 if parent != before.parent {
-                    problems.push(format!("`{release}` has a different parent than was committed to"));
+                    problems.push(format!("`{release}` has a different parent than its commitment"));
                 }
                 let awaited = before.beacon.as_ref().map(|round| (round, self.beacons.get(round)));
                 match (awaited, beacon) {
                     (None, None) => {}
                     (None, Some(_)) => {
-                        problems.push(format!("`{release}` has a beacon, but did not commit to one"))
+                        problems.push(format!("`{release}` has a beacon, but its commitment has no beacon"))
                     }
                     (Some((round, None)), _) => problems.push(format!(
-                        "`{release}` takes round {} of {}, whose value is not in the log",
+                        "`{release}` uses round {} of {}, whose value is not in the log",
                         round.round, round.source
                     )),
                     (Some((round, Some(value))), stated) if stated != Some(*value) => problems.push(format!(
@@ -202,10 +206,11 @@ impl History {
     fn known(&self, release: &str, root: &Digest) -> Option<String> {
         match self.roots.get(release) {
             Some(found) if found.root == *root => None,
-            Some(found) => {
-                Some(format!("it is about `{release}` with root {root}, but the log has {}", found.root))
-            }
-            None => Some(format!("it is about `{release}`, which is not in the log")),
+            Some(found) => Some(format!(
+                "the entry is about `{release}` with root {root}, but the log has {}",
+                found.root
+            )),
+            None => Some(format!("the entry is about `{release}`, which is not in the log")),
         }
     }
 
@@ -217,11 +222,11 @@ impl History {
         }
         let committed = self.roots.get(release).and_then(|root| root.commitment);
         if committed != Some(commitment_of(revealed)) {
-            problems.push(format!("the secret of `{release}` is not the one that was committed to"));
+            problems.push(format!("the secret of `{release}` does not match the commitment"));
         }
         if self.commitments.get(release).is_some_and(|before| before.recipe != revealed.recipe) {
             problems.push(format!(
-                "the secret of `{release}` was drawn for a different recipe than was committed to"
+                "the secret of `{release}` was drawn for a different recipe than that of the commitment"
             ));
         }
         problems
@@ -263,10 +268,12 @@ pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
     match roots.max() {
         Some(newest) if newest >= month => None,
         Some(newest) => Some(format!(
-            "the log has no release of {month} or later: its newest is {newest}, so it may be frozen; ask another source"
+            "the log has no release of {month} or later: its newest release is {newest}, so the log may \
+             be frozen; get the log from a different source"
         )),
-        None => {
-            Some(format!("the log has no release of a month, but {month} was expected; ask another source"))
-        }
+        None => Some(format!(
+            "the log has no monthly release, but {month} was expected; get the log from a \
+                          different source"
+        )),
     }
 }

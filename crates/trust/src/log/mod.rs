@@ -61,7 +61,11 @@ impl Log {
                 true => error,
                 false => TrustError::document(
                     place.in_message().to_string(),
-                    format!("is missing: the log is cut, its checkpoint states {} entries", checkpoint.size),
+                    format!(
+                        "is missing: the log was truncated, because its checkpoint states {} \
+                             entries",
+                        checkpoint.size
+                    ),
                 ),
             })?;
             let found = tiles::split(&bytes, width);
@@ -79,7 +83,7 @@ impl Log {
         let mut faults: Vec<String> = self.checkpoint.check(key).err().into_iter().collect();
         if tree::root(&self.leaves) != self.checkpoint.root {
             faults.push(
-                "the entries are not those that the checkpoint was signed for: one was changed, added, or left out"
+                "the entries do not match the signed checkpoint: an entry was changed, added or removed"
                     .to_owned(),
             );
             return faults;
@@ -87,7 +91,7 @@ impl Log {
         for file in tiles::files(&self.entries, &self.leaves, 0) {
             let found = read_bounded(&self.folder.join(&file.path), file.bytes.len() as u64);
             if !found.is_ok_and(|found| found == file.bytes) {
-                faults.push(format!("{}: it is missing, or does not follow from the entries", file.path));
+                faults.push(format!("{}: the file is missing, or does not match the entries", file.path));
             }
         }
         let earlier = self.earlier_faults().into_iter().filter(|fault| !faults.contains(fault));
@@ -110,7 +114,7 @@ impl Log {
                 let (path, due) = (format!("{place}/{width}"), parts[..width].concat());
                 let found = read_bounded(&self.folder.join(&path), due.len() as u64);
                 if !found.is_ok_and(|found| found == due) {
-                    faults.push(format!("{path}: it does not follow from the entries"));
+                    faults.push(format!("{path}: the file does not match the entries"));
                 }
             }
         }
@@ -122,7 +126,7 @@ impl Log {
         let Checkpoint { origin, size, root, .. } = &self.checkpoint;
         if seen.origin != *origin {
             return Some(format!(
-                "it is the log `{origin}`, but the checkpoint seen before is from `{}`",
+                "this is the log `{origin}`, but the earlier checkpoint is from `{}`",
                 seen.origin
             ));
         }
@@ -135,8 +139,8 @@ impl Log {
         let before = tree::root(&self.leaves[..(seen.size as usize).min(self.leaves.len())]);
         (before != seen.root || (seen.size == *size && seen.root != *root)).then(|| {
             format!(
-                "the log has forked: its first {} entries are not those that were seen before; keep both checkpoints, \
-                 each with its signature: together they prove it",
+                "the log has forked: its first {} entries differ from the entries seen before; keep both \
+                 signed checkpoints, which together prove the fork",
                 seen.size
             )
         })

@@ -61,7 +61,7 @@ impl Inclusion {
         let mut problems: Vec<String> = self.checkpoint.check(key).err().into_iter().collect();
         let leaf = tree::leaf(entry);
         if !tree::includes(&leaf, self.index, self.checkpoint.size, &self.hashes, &self.checkpoint.root) {
-            problems.push(format!("the entry is not number {} of the log at this checkpoint", self.index));
+            problems.push(format!("the entry is not entry {} of the log at this checkpoint", self.index));
         }
         if problems.is_empty() { Ok(()) } else { Err(problems) }
     }
@@ -94,12 +94,12 @@ impl Consistency {
         let new = &self.checkpoint;
         if seen.origin != new.origin || seen.size != self.old {
             problems.push(format!(
-                "it is a proof for the first {} entries of `{}`, not for the {} of `{}`",
+                "the proof covers the first {} entries of `{}`, not the {} entries of `{}`",
                 self.old, new.origin, seen.size, seen.origin
             ));
         } else if !tree::extends(seen.size, new.size, &seen.root, &new.root, &self.hashes) {
             problems.push(format!(
-                "the log has forked: the state of {} entries does not continue the state of {}",
+                "the log has forked: the log of {} entries does not extend the log of {} entries",
                 new.size, seen.size
             ));
         }

@@ -84,9 +84,8 @@ fn one_key_signs_one_root() {
     let other = found.judge("2027-01", &Digest::of(b"other"), &Anchor::Key(ada.new.public.clone()));
     assert!(other.problems[0].contains("no signed statement says that `2027-01` has the root"), "{other:?}");
     let renamed = found.judge("2027-02", &root(), &Anchor::Key(ada.new.public.clone()));
-    assert!(renamed.problems[1].contains("it is about `2027-01`"), "{renamed:?}");
-    // A reader who trusts a set requires a set in the statement, because a lone signature may be older than a
-    // revocation.
+    assert!(renamed.problems[1].contains("the statement is about `2027-01`"), "{renamed:?}");
+    // Those who trust a set need a set in the statement, because a lone signature may be older than a revocation.
     let set = KeySet::next(None, Some(1), vec![ada.named()], &[]).unwrap();
     refused(home.path(), &set_anchor(&set), "does not specify a set of keys");
 }
@@ -186,8 +185,8 @@ fn another_history_of_keys_is_refused() {
     publish(home.path(), &forged, &[&eve]);
     sign(home.path(), Some(&forged), &[&eve]);
     assert_eq!(judge(home.path(), &set_anchor(&forged)).problems, [""; 0]);
-    refused(home.path(), &set_anchor(&first), "which does not lead to or from the one that you trust");
-    // A forged set claims to follow the correct set.
+    refused(home.path(), &set_anchor(&first), "which is not connected with the set that you trust");
+    // A forged set that claims to follow the right one.
     fs::remove_file(home.path().join("keys-1.json")).unwrap();
     let next = KeySet::next(Some(&first), None, vec![eve.named()], &[]).unwrap();
     publish(home.path(), &next, &[&eve]);
@@ -205,11 +204,11 @@ fn sets_that_cannot_be_are_refused() {
         assert!(error.contains(words), "{error}");
     };
     refuse(1, &[], "", "its threshold is 1, but it has 0 keys");
-    refuse(2, &["ada"], "", "choose 1 to 1");
+    refuse(2, &["ada"], "", "choose a threshold from 1 to 1");
     refuse(0, &["ada"], "", "its threshold is 0");
     refuse(1, &["ada", "ada"], "", "two keys have the name `ada`");
-    refuse(1, &["ada", "bo"], "", "the key of `bo` is in it twice");
-    refuse(1, &["Ada"], "", "is not 1 to 40 lower-case letters");
+    refuse(1, &["ada", "bo"], "", "the key of `bo` occurs twice");
+    refuse(1, &["Ada"], "", "must consist of 1 to 40 lower-case letters");
     refuse(1, &["ada"], "bo", "the set has no key `bo`");
 }
 

@@ -86,7 +86,7 @@ impl<'a> Reader<'a> {
         if in_batch && !batches {
             let message = "`inBatch=True` switches off an effect that has no batch form";
             let span = self.param("inBatch").map(Param::span).unwrap_or_default();
-            let problem = Diagnostic::error("bad-parameter", span, message).help("remove it");
+            let problem = Diagnostic::error("bad-parameter", span, message).help("remove the parameter");
             self.problems.push(problem.remove(span, "inBatch"));
         }
         if self.has_clock() {
@@ -146,10 +146,10 @@ impl<'a> Reader<'a> {
         let endless = repeating && timer <= 0;
         if endless && (self.has_clock() || self.line.effect.text == "addTimer") {
             let span = self.param("timer").map_or(self.line.effect.span, Param::span);
-            let message = "an effect that repeats needs a `timer=` above 0, or its tick never ends";
+            let message = "a repeated effect needs a `timer=` above 0, or the tick never ends";
             let problem = Diagnostic::error("endless-timer", span, message);
             self.problems
-                .push(problem.help("write `timer=` and the number of ticks between two of its runs"));
+                .push(problem.help("write `timer=` and the number of ticks between two repetitions"));
         }
         let (effect, wrapper, target, score_change, apply_score, line) = (0, 0, None, 0, true, 0);
         let first_due = Some(first_due);
@@ -171,7 +171,7 @@ impl<'a> Reader<'a> {
                 let problem = Diagnostic::warning("ignored-parameter", param.span(), message);
                 self.problems.push(match key.starts_with("count") {
                     true => problem.help("give the game counters: `no_counters=1` on its first line"),
-                    false => problem.help("remove it").remove(param.span(), key),
+                    false => problem.help("remove the parameter").remove(param.span(), key),
                 });
                 continue;
             }
@@ -180,8 +180,8 @@ impl<'a> Reader<'a> {
             let known = self.used.clone();
             let own: Vec<&str> = known.iter().filter(|known| !COMMON.contains(known)).copied().collect();
             let problem = problem.help(match own[..] {
-                [] => format!("remove it: `{name}` has no parameters of its own"),
-                _ => format!("remove it, or write one of its own: {}", own.join(", ")),
+                [] => format!("remove the parameter: `{name}` has no parameters of its own"),
+                _ => format!("remove the parameter, or use a parameter of this effect: {}", own.join(", ")),
             });
             let reported = self.reported + self.problems.len();
             let problem = problem.mean_after(reported, Place::EffectParameter, key, known);

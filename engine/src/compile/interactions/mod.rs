@@ -198,9 +198,9 @@ fn by_the_clock(
         }
     };
     if seconds.len() > 1 {
-        let message = "a line with TIME acts on one sprite only; the others are ignored";
+        let message = "a line with TIME acts on one sprite only; the other sprites are ignored";
         let problem = Diagnostic::error("bad-interaction", line.second[1].span, message);
-        problems.push(problem.help("write a line for each"));
+        problems.push(problem.help("write one line for each sprite"));
     }
     match other {
         Partner::Sprite(stype) => Some(Some(stype)),

@@ -17,7 +17,8 @@ pub(crate) fn unreadable(source: &str) -> Option<Diagnostic> {
     let (at, c) = source.char_indices().find(|&(_, c)| is_no_text(c))?;
     let message = format!("the file contains the control character `{}`", c.escape_default());
     let problem = Diagnostic::error("not-text", Span::new(at, at + c.len_utf8()), message);
-    let problem = problem.help("remove it, or is this not a VGDL file? VGDL is plain text");
+    let problem =
+        problem.help("remove the character, or check that this is a VGDL file, which is plain text");
     Some(problem.remove(Span::new(at, at + c.len_utf8()), &c.escape_default().to_string()))
 }
 

@@ -34,7 +34,7 @@ impl Reader {
                 let of_tabs = indents::of_tabs(line);
                 let message = format!("this line is indented unlike its siblings{of_tabs}");
                 let problem = Diagnostic::warning("uneven-indent", line.span, message)
-                    .help(format!("indent it by {indent} columns, like them"));
+                    .help(format!("indent this line by {indent} columns, like its siblings"));
                 let title = format!("Indent it by {indent} columns");
                 self.problems.push(problem.fix(title, vec![line.indented(indent)]));
             }
@@ -89,7 +89,7 @@ impl Reader {
         let meant = words.find_map(|word| Some((word, repair::arrow(word)?))).filter(|_| !has_arrow);
         let Some((word, fixed)) = meant else {
             let (message, help) = match has_arrow {
-                true => ("there is nothing before the `>`", "put the name before the `>`".to_owned()),
+                true => ("the name before the `>` is missing", "put the name before the `>`".to_owned()),
                 false => ("this line has no ` > `", format!("put ` > ` {place}, with a space on both sides")),
             };
             let problem = Diagnostic::error("missing-arrow", line.span, format!("{message}: {shape}"));

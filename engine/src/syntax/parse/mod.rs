@@ -152,7 +152,7 @@ impl Reader {
             if parts[..at].iter().any(|other| other.section == part.section) {
                 let message = format!("the game has a second {}", part.section.name());
                 let problem = Diagnostic::error("duplicate-section", part.head.span, message);
-                self.problems.push(problem.help("move its lines to the first one"));
+                self.problems.push(problem.help("move its lines to the first section of that name"));
             }
         }
         let in_space = self.description.header.class.text == "GameSpace";
@@ -171,7 +171,7 @@ impl Reader {
             let message = format!("{} {stand} before the SpriteSet", names.join(" and "));
             let problem = Diagnostic::error("section-order", first.head.span, message);
             self.problems.push(
-                problem.help("put the SpriteSet first: what it declares is not known before it is read"),
+                problem.help("put the SpriteSet first: sprites are unknown before their declaration is read"),
             );
         }
         parts

@@ -142,8 +142,8 @@ fn missing<'a, 'b>(
     }
     if let Some(first) = orphans.first() {
         let message = match orphans.len() {
-            1 => "this line is in no section".to_owned(),
-            count => format!("these {count} lines are in no section"),
+            1 => "this line is not in any section".to_owned(),
+            count => format!("these {count} lines are not in any section"),
         };
         let problem = Diagnostic::error("stray-line", first.span, message);
         let problem = problem.help("sections are SpriteSet, LevelMapping, InteractionSet and TerminationSet");
@@ -176,7 +176,7 @@ fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diag
             true => Diagnostic::error("stray-indent", part.head.span, message),
             false => Diagnostic::warning("uneven-indent", part.head.span, message),
         };
-        let problem = problem.help(format!("indent it by {usual} columns, like them"));
+        let problem = problem.help(format!("indent the line by {usual} columns, like the other sections"));
         problems.push(problem.fix(format!("Indent it by {usual} columns"), vec![part.head.indented(usual)]));
     }
     if !below.is_empty() {

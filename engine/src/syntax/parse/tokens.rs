@@ -64,7 +64,7 @@ impl Reader {
             // The `=` was meant as the arrow, and the missing arrow is reported elsewhere.
             return;
         }
-        let (key, value) = whole.text.split_once('=').expect("it is broken at its `=`");
+        let (key, value) = whole.text.split_once('=').expect("the text contains `=`");
         let value = value.rsplit('=').next().unwrap_or_default();
         let key = match tokens.last() {
             Some(Token::Word(before)) if key.is_empty() => Some(before.clone()),
@@ -80,7 +80,7 @@ impl Reader {
             let problem = Diagnostic::error("bad-parameter", whole.span, message);
             self.problems.push(match whole.text.strip_suffix('=') {
                 Some("") => problem
-                    .help("remove it, or write a parameter as one word")
+                    .help("remove the word, or write a parameter as one word")
                     .remove(whole.span, &whole.text),
                 Some(key) => problem.help(format!("write a value after `{key}=`, without a space")),
                 None => problem.help(format!("write the parameter's name before `{}`", whole.text)),

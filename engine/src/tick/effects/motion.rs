@@ -189,7 +189,7 @@ pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot
     }
     step.work(usize::from(count));
     let drawn = step.world.dice().below(i32::from(count));
-    let exit = step.world.slots(exit_type).nth(drawn as usize).expect("one of the group");
+    let exit = step.world.slots(exit_type).nth(drawn as usize).expect("the drawn index is below the count");
     let (exit, facing) = (*step.world.sprite(exit), step.world.overrides(exit).orientation);
     step.place(one, exit.rect);
     step.set_age(one, 0);

@@ -108,7 +108,7 @@ impl World {
         let sprite = &mut self.sprites[usize::from(slot)];
         let at = usize::from(std::mem::replace(&mut sprite.overrides, self.overrides.len() as u16));
         self.overrides.push(Overrides { holder: slot, ..self.overrides[at] });
-        self.overrides.last_mut().expect("it was just pushed")
+        self.overrides.last_mut().expect("an entry was just pushed")
     }
 
     /// Turns a sprite.

@@ -41,7 +41,7 @@ fn swapped_rules_are_reported_with_their_repair() {
 fn a_rule_that_is_only_in_the_way_is_not_reported_as_swapped() {
     // Nothing removes posts, even with swapped rules, and without the fences no game would be won either.
     let immortal = game("stype=chick win", "stype=post win");
-    check(&immortal, &[("no-win", "add a rule that lowers it, or another termination")]);
+    check(&immortal, &[("no-win", "add a rule that lowers it, or a different termination")]);
     let found = swapped_rule(&immortal, |game| {
         // Models a level in which a fence stands in front of the post.
         !Analysis::of(game).encounters().iter().any(|encounter| encounter.blocks())

@@ -48,7 +48,7 @@ fn ends_that_never_come() {
     check_ends(rule, &format!("Timeout limit=9000 win=True\n        {lost}"), &[never]);
     let at_once = "this holds at the start of every level: the game is over in its first tick";
     check_ends(rule, "SpriteCounter stype=stone win=True\n        Timeout limit=0", &[at_once]);
-    let free = "this rule never fires: it needs 2 `egg`, and nothing gives any";
+    let free = "this rule never fires: it needs 2 `egg`, but no rule gives any";
     let game = GAME
         .replace("egg avatar > collectResource", "fence avatar > killIfOtherHasMore resource=egg limit=2");
     let game = game.replace("Timeout limit=300 win=True", "SpriteCounter stype=fence win=True");

@@ -39,7 +39,7 @@ impl FromStr for Predicates {
     fn from_str(text: &str) -> Result<Predicates, String> {
         let bit = |word: &str| {
             let at = WORDS.iter().position(|other| *other == word);
-            at.map(|at| 1 << at).ok_or_else(|| format!("`{word}` is no predicate"))
+            at.map(|at| 1 << at).ok_or_else(|| format!("`{word}` is not a predicate"))
         };
         text.split_whitespace().try_fold(0, |all, word| Ok(all | bit(word)?)).map(Predicates)
     }

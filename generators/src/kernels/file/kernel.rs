@@ -216,7 +216,7 @@ impl Kernel {
         {
             return Err(KernelError {
                 kernel: name.to_owned(),
-                message: format!("a level is for form `{stray}`, which is none"),
+                message: format!("a level is for the form `{stray}`, which does not exist"),
             });
         }
         let mut own = file;
@@ -321,11 +321,11 @@ impl Kernel {
                 }
             }
             if let Some(stype) = map.types().find(|stype| !self.knows(stype)) {
-                return Err(format!("a map of slot {:?} places `{stype}`, which is no type", level.slot));
+                return Err(format!("a map of slot {:?} places `{stype}`, which is not a type", level.slot));
             }
         }
         if let Some(stype) = self.legend.values().find(|stype| !self.knows(stype)) {
-            return Err(format!("the legend names `{stype}`, which is no type"));
+            return Err(format!("the legend uses `{stype}`, which is not a type"));
         }
         Ok(())
     }
@@ -395,7 +395,7 @@ fn split(rules: &str) -> Result<[String; 3], String> {
             Some(section) => current = Some(section),
             None => {
                 let section =
-                    current.ok_or_else(|| format!("`{}` stands before any section", line.trim()))?;
+                    current.ok_or_else(|| format!("`{}` comes before the first section", line.trim()))?;
                 sections[section].push_str(line.trim_end());
                 sections[section].push('\n');
             }

@@ -125,7 +125,7 @@ impl Map {
             if let Some((name, tokens)) = line.split_once(':') {
                 let room = room(name.trim(), tokens).map_err(fail)?;
                 if map.room(&room.name).is_some() {
-                    return Err(fail("this room is there already".to_owned()));
+                    return Err(fail("this room exists already".to_owned()));
                 }
                 map.rooms.push(room);
             }
@@ -294,13 +294,13 @@ fn place(name: &str) -> Result<Place, String> {
 /// Splits `type*2-4` into the type and the range of counts.
 fn counted(text: &str) -> Result<(&str, (u32, u32)), String> {
     let Some((stype, count)) = text.split_once('*') else { return Ok((text, (1, 1))) };
-    let number = |text: &str| text.trim().parse().map_err(|_| format!("`{text}` is not a number of things"));
+    let number = |text: &str| text.trim().parse().map_err(|_| format!("`{text}` is not a number of sprites"));
     let (least, most) = match count.split_once('-') {
         None => (number(count)?, number(count)?),
         Some((least, most)) => (number(least)?, number(most)?),
     };
     if least > most || most > 40 {
-        return Err(format!("`{count}` is not a number of things from 0 to 40"));
+        return Err(format!("`{count}` is not a number of sprites from 0 to 40"));
     }
     Ok((stype.trim(), (least, most)))
 }

@@ -83,14 +83,14 @@ fn number(inside: &str, numbers: &mut Numbers) -> Result<Part, String> {
         inside.split_once("..").map(|(low, most)| (inside, (low.rsplit(':').next().unwrap_or(low), most)))
     {
         let parse =
-            |text: &str| text.trim().parse::<u32>().map_err(|_| format!("`{{{bounds}}}` is no range"));
+            |text: &str| text.trim().parse::<u32>().map_err(|_| format!("`{{{bounds}}}` is not a range"));
         let (least, most) = (parse(least)?, parse(most)?);
         if least > most {
             return Err(format!("`{{{bounds}}}` is empty"));
         }
         let name = inside.split_once(':').map(|(name, _)| name.trim().to_owned());
         if name.is_some() && numbers.0.iter().any(|number| number.name == name) {
-            return Err(format!("`{{{bounds}}}` introduces its name again"));
+            return Err(format!("`{{{bounds}}}` defines its name again"));
         }
         numbers.0.push(Number { name, least, most });
         return Ok(Part::Number(numbers.0.len() - 1, 0));
@@ -103,8 +103,12 @@ fn number(inside: &str, numbers: &mut Numbers) -> Result<Part, String> {
         }
     };
     let known = |number: &Number| number.name.as_deref() == Some(name.trim());
-    let at =
-        numbers.0.iter().position(known).ok_or_else(|| format!("`{{{inside}}}` is not introduced before"))?;
+    let at = numbers.0.iter().position(known).ok_or_else(|| {
+        format!(
+            "`{{{inside}}}` is not defined before its \
+            use"
+        )
+    })?;
     Ok(Part::Number(at, added))
 }
 

@@ -28,7 +28,7 @@ fn filled(text: &str, nouns: &Nouns, capital: fn(&str) -> String) -> Result<Stri
         filled.push_str(before);
         filled.push_str(
             &phrase(inside, nouns, capital)
-                .ok_or_else(|| format!("`<{inside}>` names no type in `{text}`"))?,
+                .ok_or_else(|| format!("`<{inside}>` does not name a type in `{text}`"))?,
         );
         rest = after;
     }

@@ -118,7 +118,8 @@ impl<'a> ConstructiveLevels<'a> {
             if let (Reason::Goal(at), false) = (requirement.reason, met) {
                 let number = analysis.goals()[at].line + 1;
                 let problem = format!(
-                    "termination {number} of the game holds before the first tick of every level of that size"
+                    "termination {number} of the game holds before the first tick of every level of the \
+                     requested size"
                 );
                 return Err(GenerateError::Unsuitable(problem));
             }

@@ -31,7 +31,7 @@ impl ConstructiveLevels<'_> {
             let there = board.count(&self.analysis, stype);
             if there != asked {
                 let name = self.game.name(stype);
-                return Err(format!("requested {asked} of {name}, placed {there}"));
+                return Err(format!("requested {asked} of {name}, but placed {there}"));
             }
         }
         if made.played {

@@ -21,7 +21,7 @@ pub(super) fn calibration(seed: u64) -> anyhow::Result<Value> {
     };
     let mut simulator = Simulator::new(plan, seed);
     let (first, second) = (simulator.month(0.0, 0.0), simulator.month(0.4, 0.3));
-    let failed = || anyhow::anyhow!("the simulated months cannot be calibrated; use another seed");
+    let failed = || anyhow::anyhow!("the simulated months cannot be calibrated; use a different seed");
     let (found, base) = Calibration::new(&simulator.examinees, &first.plays).ok_or_else(failed)?;
     let month = found.add(&second.plays).ok_or_else(failed)?;
     let player = AbilityCase { ability: 0.5, mismatch: 1.0, episodes: 30 };

@@ -118,7 +118,7 @@ fn find_traces(args: &Args) -> anyhow::Result<Vec<(String, PathBuf)>> {
     }
     if traces.is_empty() {
         let folder = args.traces.display();
-        bail!("{folder}: no trace in it; expected <game>/*.jsonl.gz");
+        bail!("{folder}: contains no traces; expected <game>/*.jsonl.gz");
     }
     Ok(traces)
 }
@@ -149,14 +149,17 @@ impl Subject {
         let places =
             [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
         let Some(place) = places.iter().find(|place| place.exists()) else {
-            bail!("{}: no folder or file of the game `{name}`, but there are traces of it", games.display());
+            bail!(
+                "{}: no folder or file of the game `{name}`, but there are traces of this game",
+                games.display()
+            );
         };
         let source = match place.is_dir() {
             true => {
                 let names = file_names(place)?;
                 let found = layout::games(names.iter().map(String::as_str));
                 let [game] = &found[..] else {
-                    bail!("{}: {} games in it, not one", place.display(), found.len())
+                    bail!("{}: contains {} games, but should contain one", place.display(), found.len())
                 };
                 place.join(&game.source)
             }

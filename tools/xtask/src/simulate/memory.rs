@@ -18,7 +18,7 @@ pub(super) fn memory(args: &Args) -> Table {
     let note = format!(
         "{trials} players each, flagged at p ≤ {ALPHA}; clean win rate 0.27, on levels that are known 0.9. Siblings: an episode on each side \
          of a pair of games, which has one coin however many levels; names hurt one side more than the other with a standard deviation of 0.5 logit. Prefixes: an episode on \
-         each level, which begins as either witness in 7 % by chance."
+         each level, which begins as either witness in 7% by chance."
     );
     let columns = [
         "levels known",

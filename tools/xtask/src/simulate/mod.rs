@@ -91,12 +91,13 @@ fn coverage(args: &Args) -> Table {
         cases.extend([6, 12, 18, 30, 60, 120].map(|games| (rate, games)));
     }
     let note = format!(
-        "{} evaluations each, of 5 levels a game and 5 runs a level; standard deviation of games 1.3, of levels 1.0 logit.",
+        "{} evaluations each, of 5 levels per game and 5 runs per level; standard deviation of games 1.3, \
+         of levels 1.0 logit.",
         args.evaluations()
     );
     let columns =
         ["true win rate", "games", "over games (reports)", "bootstrap of games", "episodes as independent"];
-    let mut table = Table::new("coverage", "Coverage of nominal 95 % intervals", &note, &columns);
+    let mut table = Table::new("coverage", "Coverage of nominal 95% intervals", &note, &columns);
     table.rows = rows(args, &cases, |(rate, games), seed| {
         let spread = Spread { matches: 0.0, ..Spread::default() };
         let design = Design { games, levels: 5, runs: 5 };
@@ -121,12 +122,13 @@ fn comparisons(args: &Args) -> Table {
         }
     }
     let note = format!(
-        "{} pairs of equal players each, on 5 levels a game, with 5 runs a level; the match of player and game in logits.",
+        "{} pairs of equal players each, on 5 levels per game, with 5 runs per level; the match of player \
+         and game in logits.",
         args.evaluations()
     );
     let columns =
         ["match", "episodes", "win rate", "games", "paired over games (reports)", "exact, within levels"];
-    let mut table = Table::new("comparisons", "Equal players told apart at 5 %", &note, &columns);
+    let mut table = Table::new("comparisons", "Equal players distinguished at 5%", &note, &columns);
     table.rows = rows(args, &cases, |(matches, episodes, rate, games), seed| {
         let spread = Spread { matches, ..Spread::default() };
         let design = Design { games, levels: 5, runs: 5 };
@@ -159,7 +161,7 @@ fn power(args: &Args) -> Table {
         args.evaluations()
     );
     let columns = ["games", "levels", "runs", "episodes", "win rate", "against", "stated power", "simulated"];
-    let mut table = Table::new("power", "Power at 5 %, stated and simulated", &note, &columns);
+    let mut table = Table::new("power", "Power at 5%, stated and simulated", &note, &columns);
     table.rows = rows(args, &cases, |(design, rates), seed| {
         let stated = design.power(rates, Spread::default(), 0.05);
         let mut simulation = Simulation::new(design, Spread::default(), seed);

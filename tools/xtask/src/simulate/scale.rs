@@ -129,7 +129,7 @@ pub(super) fn drift(args: &Args) -> Table {
     }
     let note = format!(
         "{count} pairs of months each, of 5 levels a game, the second 0.3 logits harder for planners; each anchor plays each level \
-         once. Flagged at 5 %."
+         once. Flagged at 5%."
     );
     let columns = ["games", "levels", "anchors", "planted drift", "flagged", "error", "stated", "coverage"];
     let mut table = Table::new("drift", "Drift as anchors see it", &note, &columns);

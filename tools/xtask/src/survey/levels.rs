@@ -85,8 +85,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs).build()?;
     let shares = SHARES.map(|(name, ..)| name);
     let columns =
-        [&["game", "levels", "made", "whole"][..], &shares, &FIT, &["ms at most", "missing"]].concat();
-    let note = "Shares in per cent of the levels that were made; columns, rows and cover: within the range of the game's own.";
+        [&["game", "levels", "made", "whole"][..], &shares, &FIT, &["maximum ms", "missing"]].concat();
+    let note = "Percentages of the levels that were made; columns, rows and cover: within the range of \
+                the game's own.";
     let mut table = Table::new("survey", "Levels of the constructive generator", note, &columns);
     let (mut games, mut sums) = (0, vec![[0, 0]; SHARES.len() + FIT.len()]);
     for folder in args.games.iter().map(|games| folders(games)).collect::<Result<Vec<_>, _>>()?.concat() {
@@ -127,7 +128,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
     }
     if games == 0 {
-        bail!("no such game in the folders named by --games");
+        bail!("the folders given by --games do not contain this game");
     }
     let all = sums.iter().map(|&[count, of]| percent((of > 0).then(|| count as f64 / of as f64)));
     let head = [

@@ -13,7 +13,7 @@ fn folders(games: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let mut folders = crate::levels::folders(games, &[])?;
     folders.retain(|(_, path)| ["game.vgdl", "game.txt"].iter().any(|file| path.join(file).exists()));
     if folders.is_empty() {
-        bail!("{}: no folder with a game there", games.display());
+        bail!("{}: contains no folder with a game", games.display());
     }
     Ok(folders.into_iter().map(|(_, folder)| folder).collect())
 }

@@ -25,7 +25,7 @@ pub(crate) struct Args {
     /// file with a game in a string
     #[arg(value_name = "GAME")]
     game: String,
-    /// Print nothing; exit status 1 if the file is not in canonical form
+    /// Print nothing, and exit with status 1 if the file is not in canonical form
     #[arg(long, conflicts_with = "from")]
     check: bool,
     /// The dialect that the game is written in

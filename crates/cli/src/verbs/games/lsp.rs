@@ -21,8 +21,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let Args { stdio: _ } = args;
     if io::stdin().is_terminal() {
         console.remark(
-            "editors start this command and talk to it; `arcade docs lsp` has their settings. Press Ctrl-D \
-             to stop it",
+            "editors start this command and communicate with it; `arcade docs lsp` lists the settings for \
+             editors. Press Ctrl-D to stop",
         );
     }
     let input = BufReader::new(io::stdin());

@@ -31,13 +31,13 @@ pub(crate) struct Args {
     /// A level file, or the number of one of the game's own levels; by default the episode's level, or the first
     #[arg(value_name = "LEVEL")]
     level: Option<String>,
-    /// Show this recorded episode: a file of `arcade validate --witness` or `arcade play --record`, or a snapshot's
-    /// witness
+    /// Show this recorded episode: a file from `arcade validate --witness` or `arcade play --record`, or a
+    /// snapshot's witness
     #[arg(long, value_name = "FILE", conflicts_with = "planner")]
     episode: Option<PathBuf>,
     #[arg(long, value_name = "NAME", help = format!("Let this planner play the episode: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
-    /// Forward-model calls of a decision, for a planner without a number of its own such as `mcts:500`
+    /// Forward-model calls per decision, unless the planner's name states them, as in `mcts:500`
     #[arg(long, value_name = "CALLS", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: u64,
     /// Text to derive the seeds of the game and the planner from
@@ -61,7 +61,7 @@ pub(crate) struct Args {
     /// Leave out the caption: tick, score, resources of the avatar, outcome
     #[arg(long)]
     bare: bool,
-    /// Load the game as the reference engine does: overlook faults that it overlooks
+    /// Load the game as the reference engine does, and overlook the faults that the reference engine overlooks
     #[arg(long)]
     as_reference: bool,
     /// The file to write, ending in .png, .svg, .gif or .txt; `-` for text on standard output

@@ -32,7 +32,7 @@ pub(crate) fn command() -> Vec<OsString> {
 pub(crate) fn run(args: &Args, _: &Console) -> Answer {
     #[cfg(unix)]
     {
-        let (program, arguments) = args.command.split_first().expect("there is one at least");
+        let (program, arguments) = args.command.split_first().expect("the parser requires a command");
         std::process::exit(evaluation::player::process::guard(&args.folder, program, arguments))
     }
     #[cfg(not(unix))]

@@ -30,7 +30,7 @@ pub(crate) struct Args {
     /// The number of episodes of each player that the page shows step by step, failures first; 0 for none
     #[arg(long, value_name = "N", default_value_t = 4)]
     replays: usize,
-    /// The published root of the release that all results must be on
+    /// The published root of the release to which all results must belong
     #[arg(long, value_name = "DIGEST", value_parser = digest)]
     root: Option<Digest>,
 }
@@ -59,7 +59,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                     "`{}`: the results belong to the release with root {on}, not {root}",
                     folder.in_message()
                 ),
-                None => format!("`{}`: these are not results on a release", folder.in_message()),
+                None => format!(
+                    "`{}`: these are not results on a release; evaluate a release folder",
+                    folder.in_message()
+                ),
             })
             .collect();
         if !problems.is_empty() {

@@ -34,7 +34,7 @@ pub(crate) struct Args {
     /// Planners, each optionally with its own budget: `mcts,olets:500` (see `arcade docs planners`)
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "mcts")]
     planner: Vec<String>,
-    /// Forward-model calls of one decision
+    /// Forward-model calls per decision
     #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true,
         value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: u64,
@@ -50,7 +50,7 @@ pub(crate) struct Args {
     /// Add a row for each level
     #[arg(long)]
     by_level: bool,
-    /// Load games as the reference engine does: overlook faults that it overlooks
+    /// Load games as the reference engine does, and overlook the faults that the reference engine overlooks
     #[arg(long)]
     as_reference: bool,
     /// Also write one line per episode to this file

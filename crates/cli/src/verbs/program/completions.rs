@@ -6,7 +6,7 @@ use crate::usage;
 use clap_complete::Shell;
 use serde_json::json;
 
-/// Prints a script that lets a shell complete verbs and flags: bash, zsh, fish, elvish or powershell.
+/// Prints a completion script for a shell: bash, zsh, fish, elvish or powershell.
 ///
 /// Example: arcade completions bash > ~/.local/share/bash-completion/completions/arcade
 #[derive(clap::Args)]

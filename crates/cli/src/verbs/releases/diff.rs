@@ -36,7 +36,7 @@ pub(crate) struct Args {
     /// The later snapshot's folder or .tar.zst
     #[arg(value_name = "AFTER", value_parser = crate::paths::release_parser())]
     after: PathBuf,
-    /// Nearest pairs of games to list
+    /// Number of nearest pairs of games to list
     #[arg(long, value_name = "N", default_value_t = 5)]
     closest: usize,
     #[command(flatten)]

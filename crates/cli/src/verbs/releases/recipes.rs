@@ -123,12 +123,12 @@ fn new(path: &Path, console: &Console) -> Answer {
         recipe.games(),
         recipe.levels()
     ));
-    for (label, command) in ["tell its cost:", "mint it, open:", "or seal it:"].iter().zip(next) {
+    for (label, command) in ["show its cost:", "mint it, open:", "or seal it:"].iter().zip(next) {
         console.say(format_args!("{label:<15} {command}"));
     }
     console.say(
-        "\nfor a release that follows another one, add --parent FOLDER, the previous release, to each of \
-         these commands",
+        "\nfor a release that follows an earlier one, add --parent with the previous release's folder to \
+         each of these commands",
     );
     Ok(true)
 }
@@ -137,7 +137,7 @@ fn text_of(name: &str) -> Result<&'static str, Failure> {
     embedded::recipe(name).ok_or_else(|| {
         let known = embedded::recipe_names();
         let near = engine::nearest(name, known.iter().map(String::as_str));
-        let all = || format!("there are {}", known.join(", "));
+        let all = || format!("the recipes are {}", known.join(", "));
         let help = near.map_or_else(all, |near| format!("did you mean `{near}`?"));
         malformed!("no recipe named `{name}`; {help}")
     })

@@ -39,8 +39,8 @@ pub(crate) struct Args {
     /// Resume an interrupted run with the same --out
     #[arg(long, requires = "out")]
     resume: bool,
-    /// Maximum number of forward-model calls that the recipe may allow for one level [default: 268435456, some ten times what our
-    /// recipes allow]
+    /// Maximum number of forward-model calls that the recipe may allow for one level [default: 268435456,
+    /// about ten times what the built-in recipes allow]
     #[arg(long, value_name = "CALLS", default_value_t = MAX_WORK, hide_default_value = true)]
     max_work: u64,
 }
@@ -148,7 +148,8 @@ fn answer(args: &Args, Answered { manifest, compared, minted }: &Answered<'_>, c
     }
     if *other_lockfile {
         console.remark(
-            "note: minted with another Cargo.lock than the original; only its digest in the manifest differs",
+            "note: minted with a different Cargo.lock than the original; only its digest in the manifest \
+             differs",
         );
     }
     let files = count(manifest.files().count(), "file");

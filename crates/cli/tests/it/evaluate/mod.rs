@@ -148,7 +148,7 @@ fn malformed_requests_are_reported() {
         (&["hailglass"], "--player"),
         (&["hailglass"], "--model"),
         (&["corpus", "--player", "random", "--games", "jars"], "did you mean `quiet-jars`?"),
-        (&["corpus", "--player", "random", "--games", "zzzz"], "there are belfry-sling, "),
+        (&["corpus", "--player", "random", "--games", "zzzz"], "the games are belfry-sling, "),
         (&["hailglass", "--player", "random", "--runs", "1000000000"], "1000000000 is not in 1..=1000000"),
         (
             &["hailglass", "--player", "random", "--max-steps", "18446744073709551615"],
@@ -346,7 +346,7 @@ fn players_that_cannot_read_the_prompt_are_refused() {
     let told = with(&[], 2);
     assert!(told.contains("--rules vgdl") && !home.path().join("r").exists(), "{told}");
     let told = with(&["--rules", "vgdl"], 2);
-    assert!(told.contains("it can play 1 of 2 games: --games quiet-jars"), "{told}");
+    assert!(told.contains("the player can play 1 of 2 games: pass --games quiet-jars"), "{told}");
     assert!(!home.path().join("r").exists());
     with(&["--rules", "vgdl", "--games", "quiet-jars"], 0);
 }

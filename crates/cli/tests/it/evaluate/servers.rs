@@ -93,7 +93,7 @@ fn useless_answers_stop_the_evaluation() {
     assert_eq!((&tally["halted"], &tally["infrastructure"]), (&halted.into(), &false.into()));
     let told = text(&stopped.stderr);
     assert!(
-        told.contains("none is usable, so no more requests are sent; --resume --keep-going continues"),
+        told.contains("no answer is usable, so no more requests are sent; --resume --keep-going continues"),
         "{told}"
     );
     // It may be mended, or not.

@@ -132,7 +132,7 @@ fn gates_are_asked_of_a_game_with_all_its_levels() {
     let refused = text(&refused.stderr);
     assert!(refused.contains("only 1 of 2 were given: `arcade validate . --gates`"), "{refused}");
     let refused = text(&run(folder.path(), &["play", ".", "--text"], 2).stderr);
-    assert!(refused.contains("--ascii plays with plain characters"), "{refused}");
+    assert!(refused.contains("use --ascii to play with plain characters"), "{refused}");
 }
 
 #[test]
@@ -384,25 +384,31 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
     let late = folder(&late, POND);
     let said = text(&run(late.path(), &["validate", ".", "--budget", "100000"], 1).stdout);
     for words in [
-        "; it can be won without `duckling pond > killSprite`: a search wins it in 13 ticks",
+        "; the level can be won without `duckling pond > killSprite`: a search wins it in 13 ticks",
         "(./game.vgdl:20)\n",
         "where a `raft` is, too; tick ",
         "try: move `duckling pond > killSprite` below `duckling raft > shieldFrom",
-        "the closest any play can come: 1 nest left",
-        // The legend uses the author's own characters.
+        "the closest reachable state to a win: 1 nest left",
+        // The author's own characters.
         "D duckling, ",
         "~ pond",
     ] {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
-    assert!(!said.contains("the rules alone do not show why"), "{said}");
-    // A win is neither found nor proved impossible.
+    assert!(!said.contains("the rules alone do not show the reason"), "{said}");
+    // Not found, and not proved either.
     let hedge = POND.replace("nw\n", "nw\nwwwwwwwwwwwwww\n");
     let hedge = folder(FERRY, &hedge);
     let said = text(&run(hedge.path(), &["validate", ".", "--budget", "40000"], 1).stdout);
     let headline = "not shown to pass winnable: no win found with ";
     assert!(said.contains(headline), "{said}");
-    assert!(said.contains("it can be won without `duckling wall > stepBack`: a search wins it in"), "{said}");
+    assert!(
+        said.contains(
+            "the level can be won without `duckling wall > stepBack`: a search wins it \
+                           in"
+        ),
+        "{said}"
+    );
 }
 
 /// A quiet answer lists the failures, and nothing that passes.

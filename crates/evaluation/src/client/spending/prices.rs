@@ -138,7 +138,7 @@ impl Prices {
     /// # Errors
     /// Returns an error if the file cannot be read, or is not a price table.
     pub fn with_file(path: &Path) -> Result<Prices, EvaluationError> {
-        let text = read_text(path, MAX_PRICES, "give a TOML file of prices")?;
+        let text = read_text(path, MAX_PRICES, "pass a TOML file of prices")?;
         let wrong = |problem| EvaluationError::malformed(path, format!("not a price table: {problem}"));
         let table = read(&text).map_err(wrong)?;
         let mut prices = Prices::embedded();
@@ -167,7 +167,7 @@ fn read(text: &str) -> Result<Table, String> {
     for row in &table.model {
         let prices = [Some(row.input), row.cached_input, row.cache_write, Some(row.output)];
         if !prices.iter().flatten().all(|price| (0.0..=MAX_DOLLARS).contains(price)) {
-            return Err(format!("`{}` has a price that is not a valid number of dollars", row.name));
+            return Err(format!("`{}` has a price that is not a valid amount in dollars", row.name));
         }
     }
     Ok(table)
@@ -240,7 +240,7 @@ mod tests {
         assert_eq!((price.input, price.cached_input, price.as_of.as_str()), (1.0, 1.0, "today"));
         assert!(prices.find(Provider::OpenAi, "gpt-4o").is_some());
         for (rest, words) in
-            [("input = 1\n", "output"), ("input = -1\noutput = 1\n", "not a valid number of dollars")]
+            [("input = 1\n", "output"), ("input = -1\noutput = 1\n", "not a valid amount in dollars")]
         {
             std::fs::write(file.path(), row(rest)).unwrap();
             let problem = Prices::with_file(file.path()).unwrap_err().to_string();

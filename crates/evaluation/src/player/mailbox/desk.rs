@@ -68,7 +68,8 @@ impl Desk {
             Some(marker) => Ok(Desk { folder: folder.to_owned(), player: marker.player }),
             None => Err(EvaluationError::malformed(
                 folder,
-                "there is no mailbox here; `arcade evaluate … --player mailbox:DIR` makes one in the folder DIR",
+                "there is no mailbox here; `arcade evaluate … --player mailbox:DIR` makes a mailbox in \
+                 the folder DIR",
             )),
         }
     }
@@ -138,9 +139,7 @@ impl Desk {
         }
         if text.len() >= MAX_ANSWER {
             let (bytes, limit) = (text.len(), MAX_ANSWER / 1024);
-            return Ok(Delivery::Refused(format!(
-                "the answer has {bytes} bytes; at most {limit} KiB are read"
-            )));
+            return Ok(Delivery::Refused(format!("the answer has {bytes} bytes; the limit is {limit} KiB")));
         }
         let folder = self.episode(&prompt.episode);
         if !folder.join(prompt.address.prompt_data()).exists() {

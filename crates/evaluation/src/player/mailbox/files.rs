@@ -132,12 +132,12 @@ pub(super) fn read_text(path: &Path) -> Result<Option<String>, EvaluationError> 
         Err(error) if is_absent(&error) => return Ok(None),
         Err(error) => return Err(EvaluationError::io("read", path)(error)),
         Ok(found) if !found.is_file() || found.len() > MAX_FILE => {
-            return Err(EvaluationError::malformed(path, "not a file of a mailbox; remove it"));
+            return Err(EvaluationError::malformed(path, "not a file of a mailbox; remove the file"));
         }
         Ok(_) => {}
     }
     match disk::read_no_follow(path, MAX_FILE) {
-        Ok(None) => Err(EvaluationError::malformed(path, "not a file of a mailbox; remove it")),
+        Ok(None) => Err(EvaluationError::malformed(path, "not a file of a mailbox; remove the file")),
         Ok(Some(bytes)) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
         // An evaluation may remove the files of answered prompts at any time.
         Err(error) if is_absent(&error) => Ok(None),

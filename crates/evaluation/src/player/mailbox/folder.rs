@@ -65,7 +65,7 @@ impl Mailbox {
     ) -> Result<Mailbox, EvaluationError> {
         let wrong = |what: &str| EvaluationError::malformed(folder, what);
         if fs::metadata(folder).is_ok_and(|found| !found.is_dir()) {
-            return Err(wrong("a mailbox is a folder, and this is a file; choose another place"));
+            return Err(wrong("a mailbox is a folder, but this is a file; choose a different path"));
         }
         fs::create_dir_all(folder).map_err(EvaluationError::io("create", folder))?;
         let marker: Option<Marker> = marker(folder)?;
@@ -79,8 +79,8 @@ impl Mailbox {
             }
             Some(other) if other.evaluation != own.evaluation && !is_empty => {
                 return Err(wrong(&format!(
-                    "this is the mailbox of another evaluation, of the player `{}`; choose another folder, \
-                     or remove this one",
+                    "this is the mailbox of a different evaluation, of the player `{}`; choose another \
+                     folder, or remove this one",
                     other.player
                 )));
             }
@@ -146,7 +146,8 @@ pub(super) fn marker(folder: &Path) -> Result<Option<Marker>, EvaluationError> {
         return Err(EvaluationError::malformed(
             &path,
             format!(
-                "a mailbox of format {format}; this version of arcade reads up to {MAILBOX_FORMAT}: update it"
+                "the mailbox has format {format}, but this version of arcade reads formats up to \
+                 {MAILBOX_FORMAT}: update arcade"
             ),
         ));
     }

@@ -205,7 +205,13 @@ impl EpisodeFolder {
             for name in names(&self.path)? {
                 let Some((other, "answer.txt")) = split(&name) else { continue };
                 if other != address {
-                    self.set_aside(&name, &format!("it answers {other}, but the open prompt is {address}"))?;
+                    self.set_aside(
+                        &name,
+                        &format!(
+                            "the file answers {other}, but the open prompt is \
+                        {address}"
+                        ),
+                    )?;
                 }
             }
             let name = address.answer();
@@ -229,7 +235,10 @@ impl EpisodeFolder {
                     }
                     Err(error) => {
                         let at = error.utf8_error().valid_up_to();
-                        self.set_aside(&name, &format!("it is not UTF-8 (byte {at}); save it as UTF-8"))?;
+                        self.set_aside(
+                            &name,
+                            &format!("the file is not UTF-8 (byte {at}); save it as UTF-8"),
+                        )?;
                         last = None;
                     }
                 },
@@ -245,7 +254,7 @@ impl EpisodeFolder {
     fn set_aside(&self, name: &str, why: &str) -> Result<(), EvaluationError> {
         let to = |number: u32| name.replace(".answer.txt", &format!(".refused-{number}.txt"));
         let free = |name: &String| fs::symlink_metadata(self.path.join(name)).is_err();
-        let to = (1..).map(to).find(free).expect("some number is free");
+        let to = (1..).map(to).find(free).expect("an unused number exists");
         let from = self.path.join(name);
         match fs::rename(&from, self.path.join(&to)) {
             Err(error) if is_absent(&error) => return Ok(()),
@@ -306,16 +315,18 @@ fn look(path: &Path) -> Result<Look, EvaluationError> {
         found => found.map_err(EvaluationError::io("read", path))?,
     };
     if !found.is_file() {
-        return Ok(Look::Wrong("it is not a regular file".to_owned()));
+        return Ok(Look::Wrong("the file is not a regular file".to_owned()));
     }
     if found.len() > MAX_ANSWER as u64 {
         let (bytes, limit) = (found.len(), MAX_ANSWER / 1024);
-        return Ok(Look::Wrong(format!("it has {bytes} bytes; an answer has at most {limit} KiB")));
+        return Ok(Look::Wrong(format!(
+            "the file has {bytes} bytes; the limit for an answer is {limit} KiB"
+        )));
     }
     match disk::read_no_follow(path, MAX_ANSWER as u64) {
-        Ok(None) => Ok(Look::Wrong("it is still being written".to_owned())),
+        Ok(None) => Ok(Look::Wrong("the file is still being written".to_owned())),
         Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
-            Ok(Look::Wrong("it is not a regular file".to_owned()))
+            Ok(Look::Wrong("the file is not a regular file".to_owned()))
         }
         Ok(Some(bytes)) if bytes.trim_ascii().is_empty() => Ok(Look::Empty),
         Ok(Some(bytes)) => Ok(Look::Bytes(bytes)),

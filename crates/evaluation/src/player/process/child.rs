@@ -130,9 +130,9 @@ impl LineProcess {
         let (input, lines) = channel();
         let (sender, output) = sync_channel(MAX_QUEUED_LINES);
         let (tail_sender, stderr_tail) = channel();
-        let stdin = child.stdin.take().expect("it is piped");
-        let stdout = child.stdout.take().expect("it is piped");
-        let stderr = child.stderr.take().expect("it is piped");
+        let stdin = child.stdin.take().expect("standard input is piped");
+        let stdout = child.stdout.take().expect("standard output is piped");
+        let stderr = child.stderr.take().expect("standard error is piped");
         thread::spawn(move || write(stdin, &lines));
         thread::spawn(move || read(stdout, &sender));
         thread::spawn(move || tail_sender.send(tail(stderr)));

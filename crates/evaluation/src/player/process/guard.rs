@@ -70,7 +70,7 @@ pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
         }
     };
     release_output();
-    relay(child.stdin.take().expect("it is piped"), sender.clone());
+    relay(child.stdin.take().expect("standard input is piped"), sender.clone());
     let signal_sender = sender.clone();
     thread::spawn(move || signals.forever().all(|signal| signal_sender.send(Event::Signal(signal)).is_ok()));
     let mut program = Program { child, status: None };
@@ -101,7 +101,7 @@ impl Program {
     /// status.
     fn wait_for_end(&mut self, events: &Receiver<Event>, sender: &Sender<Event>) -> bool {
         loop {
-            match events.recv().expect("this thread can tell itself") {
+            match events.recv().expect("this thread holds a sender") {
                 Event::Signal(SIGCHLD) => {
                     if !self.reap() {
                         return true;

@@ -251,7 +251,7 @@ impl Agent for Process {
         running.process.send_line(line(&asked));
         for attempt in 0..=MAX_REASKS {
             self.running(last)?;
-            let process = &self.running.as_ref().expect("it was started").process;
+            let process = &self.running.as_ref().expect("the process was started").process;
             let answer = match receive(process, timeout, last.number, None, || ()) {
                 Ok(answer) => answer,
                 Err(no_line) => return Err(self.failed(no_line, last, attempt)),
@@ -281,7 +281,7 @@ impl Agent for Process {
         for attempt in 0..=MAX_REASKS {
             let notice_after = (attempt > 0).then(|| NOTICE_AFTER.min(timeout / 2));
             self.running(turn)?;
-            let process = &self.running.as_ref().expect("it was started").process;
+            let process = &self.running.as_ref().expect("the process was started").process;
             let notice = || (self.notices.0)(&self.silence(turn));
             let answer = match receive(process, timeout, turn.number, notice_after, notice) {
                 Ok(answer) => answer,
@@ -480,7 +480,7 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
             let known = |action: String| {
                 let found = Action::ALL.into_iter().find(|known| known.to_string() == action);
                 found.ok_or_else(|| {
-                    format!("`{action}` is no action; the actions are {}", names(&Action::ALL))
+                    format!("`{action}` is not an action; the actions are {}", names(&Action::ALL))
                 })
             };
             actions.into_iter().take(turn.due() as usize).map(known).collect()
@@ -492,14 +492,18 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
 /// Returns the predictions in an answer, or a message about the problem with the answer. `names` maps the
 /// names that the process received to the game's own names.
 fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<Predicted, String> {
-    const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with kinds that were asked about";
+    const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with \
+                            kinds from the question";
     let answer: BTreeMap<String, Value> =
         serde_json::from_slice(answer).map_err(|error| format!("{error}; {EXPECTED}"))?;
     let own = |name: String| {
-        names.get(&name).cloned().ok_or_else(|| format!("`{name}` was not asked about; {EXPECTED}"))
+        names
+            .get(&name)
+            .cloned()
+            .ok_or_else(|| format!("`{name}` is not a kind from the question; {EXPECTED}"))
     };
     let facts = TouchFact::ALL.into_iter().map(|fact| {
-        let missing = || format!("missing list `{}`; {EXPECTED}", fact.name());
+        let missing = || format!("the list `{}` is missing; {EXPECTED}", fact.name());
         let named = answer.get(fact.name()).cloned().ok_or_else(missing)?;
         let named: Vec<String> = serde_json::from_value(named).map_err(|_| missing())?;
         Ok((fact, named.into_iter().map(own).collect::<Result<_, String>>()?))

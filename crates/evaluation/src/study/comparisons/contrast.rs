@@ -206,12 +206,11 @@ impl Contrasts {
         let overall = Table::of(
             &format!("{id}-overall"),
             &format!("{title}, over all levels"),
-            "Difference between the rates (means over games of means over levels), with the 95% interval and \
-             the p-value of the paired t-test over games: it applies to games like these. Fewer than six \
+            "Difference between the rates (means over games of means over levels), with the 95% interval and the p-value of the paired t-test over games, which apply to games like these. Fewer than six \
              games cannot show a difference at 5%. q: corrected for the pairs of this table (Benjamini, \
-             Hochberg). h: Cohen's effect size of the same rates (0.2 small, 0.5 medium, 0.8 large). Bounds: \
+             Hochberg). h: Cohen's effect size for the same rates (0.2 small, 0.5 medium, 0.8 large). Bounds: \
              the difference if all aborted episodes had gone against the first player, and if all had gone \
-             for it. The last two columns are about exactly these levels: the exact test within levels \
+             for it. The last two columns apply to exactly these levels: the exact test within levels \
              (Cochran, Mantel, Haenszel) and its odds ratio, with identical episodes counted once.",
             &self.overall,
             &[
@@ -239,12 +238,13 @@ impl Contrasts {
             let sorted = list.iter().sorted_by(|a, b| a.p.total_cmp(&b.p)).collect_vec();
             let believed = list.iter().filter(|comparison| comparison.q <= 0.05).count();
             let note = format!(
-                "Fisher's exact test, two-sided, about exactly these levels; identical episodes are counted \
-                 once. q: corrected for all {} comparisons (Benjamini, Hochberg), of which {believed} have \
-                 at most 0.05. The difference of win rates with Newcombe's 95% interval.{}",
+                "Fisher's exact test, two-sided, for exactly these levels; identical episodes are counted \
+                 once. q: corrected for all {} comparisons (Benjamini, Hochberg); {believed} of the \
+                 corrected values are 0.05 or less. The difference of win rates with Newcombe's 95% \
+                 interval.{}",
                 list.len(),
                 if list.len() > most {
-                    format!(" Only the {most} with the smallest p are shown.")
+                    format!(" Only the {most} comparisons with the smallest p are shown.")
                 } else {
                     String::new()
                 }

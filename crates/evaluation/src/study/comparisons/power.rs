@@ -45,9 +45,12 @@ pub fn power(planned: Design) -> Vec<PowerRow> {
     let plans = [
         ("as planned", planned),
         ("one run on each level", Design { runs: 1, ..planned }),
-        ("as many episodes, one run, on more games", Design { games: games * runs, runs: 1, ..planned }),
         (
-            "as many episodes, each on another game",
+            "the same number of episodes, one run, on more games",
+            Design { games: games * runs, runs: 1, ..planned },
+        ),
+        (
+            "the same number of episodes, each on a different game",
             Design { games: games * levels * runs, levels: 1, runs: 1 },
         ),
     ];
@@ -90,9 +93,7 @@ pub fn table(rows: &[PowerRow]) -> Table {
     let Spread { games, levels, matches } = Spread::default();
     let note = format!(
         "The smallest win rates that can be distinguished from 0.1 and from 0.5, with a power of 80%, by the \
-         paired test over games at 5%. Assumed standard deviations: games {games}, levels {levels}, match of \
-         player and game {matches} logit. A dash: there is no such rate, as is always the case with fewer \
-         than six games. More games show more than more runs. With a correction for many comparisons, the \
+         paired test over games at 5%. Assumed standard deviations: games {games}, levels {levels}, match of player and game {matches} logit. A dash: no rate can be distinguished, as always with fewer than six games. More games show more than more runs. With a correction for many comparisons, the \
          power is lower."
     );
     Table::of(
@@ -105,7 +106,7 @@ pub fn table(rows: &[PowerRow]) -> Table {
             ("games", &|row| TableCell::Count(row.games)),
             ("levels", &|row| TableCell::Count(row.levels)),
             ("runs", &|row| TableCell::Count(row.runs)),
-            ("episodes a side", &|row| TableCell::Count(row.episodes)),
+            ("episodes per side", &|row| TableCell::Count(row.episodes)),
             ("0.1 against", &|row| TableCell::number(row.from_tenth, 2)),
             ("0.5 against", &|row| TableCell::number(row.from_half, 2)),
         ],

@@ -87,7 +87,7 @@ impl Study {
         let [ours, theirs] = [best, next].map(|row| self.players[row.player].label());
         let Some((estimate, p)) = found.over_games.zip(found.p) else {
             return Some(format!(
-                "One game says nothing about whether {ours} is better than {theirs} in others."
+                "A single game does not show whether {ours} is better than {theirs} in other games."
             ));
         };
         let mut ends = [sign * estimate.low, sign * estimate.high];
@@ -102,20 +102,20 @@ impl Study {
         let numbers = format!("{apart} points, {low} to {high}, {p_value}, {} games", found.games);
         Some(match (p <= 0.05, found.games) {
             (true, _) if sign * estimate.value > 0.0 => {
-                format!("It is better than {theirs} in games like these ({numbers}).")
+                format!("This player is better than {theirs} in games like these ({numbers}).")
             }
             (true, _) => format!("On the games that both played, {theirs} is better ({numbers})."),
             (false, games) if games < 6 => {
                 format!(
-                    "Fewer than six games cannot show whether it is better than {theirs} in others \
-                     ({numbers})."
+                    "Fewer than six games cannot show whether this player is better than {theirs} in \
+                     other games ({numbers})."
                 )
             }
             _ if sign * estimate.value < 0.0 => format!(
-                "On the levels that both played, {theirs} won more; but it is not shown to be better in \
+                "On the levels that both played, {theirs} won more, but is not shown to be better in \
                  games like these ({numbers})."
             ),
-            _ => format!("It is not shown to be better than {theirs} ({numbers})."),
+            _ => format!("This player is not shown to be better than {theirs} ({numbers})."),
         })
     }
 
@@ -142,7 +142,7 @@ impl Study {
         };
         let most = sorted.iter().take(count).map(told).join(", ");
         let least = sorted.iter().rev().take(count).map(told).join(", ");
-        Some(format!("By kind of game, it won most in {most}; least in {least}."))
+        Some(format!("By kind of game, the player won most in {most} and least in {least}."))
     }
 
     /// Describes the endings of the episodes that a player did not win.
@@ -180,7 +180,7 @@ impl Study {
         let useless = choices.invalid + choices.refused + choices.truncated;
         let share = useless as f64 / choices.total().max(1) as f64;
         let answers = match share >= 0.05 {
-            true => format!(" {}% of its decisions had no usable answer.", percent(share)),
+            true => format!(" {}% of the decisions had no usable answer.", percent(share)),
             false => String::new(),
         };
         let (missed, all) = (summary.episodes, row.scores.episodes);

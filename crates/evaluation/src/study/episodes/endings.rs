@@ -139,9 +139,9 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let summary = Table::of(
         "endings",
         "Episodes not won, by how they ended",
-        "Died: the avatar was removed. Lost a sprite, sprite appeared: the game was lost by its rules. Out \
-         of time: by the game's own limit; limit of steps: by that of the evaluation. Stopped: by the \
-         engine, which says nothing about the player.",
+        "Died: the avatar was removed. Lost a sprite, sprite appeared: the game was lost by its rules. \
+         Out of time: the game's own limit was reached. Limit of steps: the limit of the evaluation was \
+         reached. Stopped: the engine stopped the episode, which says nothing about the player.",
         &study.ending_summaries,
         &[
             ("player", &|row| label(row.player)),
@@ -159,8 +159,9 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let causes = Table::of(
         "causes",
         "Causes",
-        "The last interaction that removed what was needed, with its rule; for other endings, the termination. Nearest to a win: the \
-         smallest distance from a winning termination when an episode ended.",
+        "Cause: the last interaction that removed a necessary sprite, with its rule; for other endings, \
+         the termination. Nearest to a win: the smallest distance from a winning termination at the end \
+         of an episode.",
         &study.endings,
         &[
             ("player", &|row| label(row.player)),

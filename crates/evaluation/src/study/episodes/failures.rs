@@ -147,7 +147,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
         "failure-modes",
         "Failure modes",
         "Means, medians and Welch's t test of won against other episodes, treated as independent; corrected by Bonferroni for six \
-         measures. A bump is a step that was not meaningful; late: in the last quarter.",
+         measures. A bump is a step that was not meaningful. Late: in the last quarter of the episode.",
         &study.failures,
         &[
             ("measure", &|mode| TableCell::text(mode.measure.title())),
@@ -167,7 +167,8 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let top = Table::of(
         "oscillation",
         "Oscillation",
-        "The levels with the most oscillation: mean fraction of steps that return to the cell of two steps before.",
+        "The levels with the most oscillation. Oscillation rate: the mean fraction of steps that return \
+         to the cell of two steps before.",
         &study.oscillations[..study.oscillations.len().min(TOP)],
         &[
             ("player", &|row| TableCell::text(study.players[row.player].label())),

@@ -47,11 +47,9 @@ pub(in crate::study) fn table(study: &Study) -> Option<Table> {
         Table::of(
             "predictions",
             "Predictions of the rules",
-            "Asked after the last level of a series: which kinds kill, stop, go or score when they are \
-             touched. Right: correct predictions, out of all pairs of a kind and a fact for which the rules \
-             say yes or no. Insight: the fraction of the kinds for which a fact is true that were named, \
-             minus the fraction of the others that were named, mean over facts and answers; 0 for a player \
-             that names kinds without knowing, 1 if all is right.",
+            "The question after the last level of a series: which kinds kill, stop, go or score when they are touched. Right: correct predictions, out of all pairs of a kind and a fact that the rules decide. Insight: the fraction of the kinds for which a fact is true that were named, \
+             minus the fraction of the other kinds that were named, averaged over facts and answers. \
+             Naming kinds at random gives 0, and a perfect answer gives 1.",
             &study.predictions,
             &[
                 ("player", &|row| TableCell::text(row.player.label())),

@@ -103,10 +103,11 @@ pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     let table = Table::of(
         "marks",
         "Compared with the marks of the release",
-        "Players that never change played every level when the release was minted: the mark rows, on the \
-         levels of this report. Tier: what a level demands of its player, from 1 to 4. Commitment: the \
-         number of actions that are chosen without another look. 95% intervals for games like these (of one \
-         game: for exactly its levels). Marks may have had another limit of steps; the release tells it.",
+        "Players that never change played every level when the release was minted. The rows of marks \
+         give their results on the levels of this report. Tier: how much a level demands of its player, \
+         from 1 to 4. Commitment: the number of actions chosen without looking again. 95% intervals for \
+         games like these (for one game: for exactly its levels). Marks may have had a different limit of \
+         steps, which the release states.",
         &study.marks,
         &[
             ("tier", &|row| TableCell::Count(u64::from(row.tier))),

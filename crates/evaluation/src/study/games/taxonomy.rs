@@ -62,7 +62,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let taxonomy = Table::of(
         "taxonomy",
         "Results by the taxonomy of the rules",
-        "Derived from the rules; a game can have several.",
+        "The taxonomy is derived from the rules; a game can belong to several classes.",
         &study.taxonomy,
         &[
             ("kind", &|row| TableCell::text(&row.kind)),
@@ -84,9 +84,9 @@ fn by_kind(study: &Study) -> Table {
     let players: Vec<usize> = study.leaderboard.iter().map(|row| row.player).collect();
     let labels: Vec<String> = players.iter().map(|&player| study.players[player].label()).collect();
     let columns: Vec<&str> = ["kind", "games"].into_iter().chain(labels.iter().map(String::as_str)).collect();
-    let note = "The kind of each game as its release gives it, and win rates; intervals over the games of \
-                the kind (of one game, for exactly its levels). Results recorded before kinds existed, and \
-                games from files, have no kind.";
+    let note = "Win rates by the kind of game that the release states, with intervals over the games of \
+                the kind (for one game: for exactly its levels). Results recorded before kinds existed, \
+                and games from files, have no kind.";
     let mut table = Table::new("kinds", "Results by kind of game", note, &columns);
     for (kind, rows) in &study.kinds.iter().chunk_by(|row| &row.kind) {
         let rows = rows.collect_vec();

@@ -195,8 +195,7 @@ pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     let table = Table::of(
         "horizons",
         "How far players see ahead",
-        "Horizon: the number of ticks that a player can commit to without another look and still win half of \
-         its episodes on an average level, with a 95% interval over games (logistic in the logarithm of the \
+        "Horizon: the number of ticks that a player can commit to without looking again and still win half of its episodes on an average level, with a 95% interval over games (logistic in the logarithm of the \
          commitment, with level effects). A commitment longer than the shortest known win of a level counts \
          as a commitment of that length. No value is given below one tick or beyond four times the largest \
          commitment: ≤ and ≥ mark these bounds. Deterministic games require exact foresight, stochastic \

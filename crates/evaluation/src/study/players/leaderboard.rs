@@ -66,13 +66,12 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let leaders = Table::of(
         "leaderboard",
         "Leaderboard",
-        "Win rate: wins divided by ended episodes, with a 95% interval for games like these (of one game: \
-         for exactly these levels). Bounds: the win rate if all aborted episodes had been lost, and if all \
+        "Win rate: wins divided by ended episodes, with a 95% interval for games like these (for one game: for exactly these levels). Bounds: the win rate if all aborted episodes had been lost, and if all \
          had been won. Different: identical episodes of a level counted once. The overall score \
          is the mean of meaningful step ratio, spared steps, normalised reward and win rate; it rewards \
          quick losses too. Normalised reward, and with it the overall score, is relative to the players of \
          this report: it changes when others join or leave. Optimality: proved minimum of ticks divided by \
-         steps, over wins. Aborted: episodes stopped by the network, caps or interruptions; they are \
+         steps, over wins. Aborted: episodes stopped by the network, caps or interruptions, which are \
          excluded from all columns except the bounds.",
         &study.leaderboard,
         &[
@@ -98,8 +97,9 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let answers = Table::of(
         "answers",
         "Answers",
-        "Steps by the origin of their action. Tolerant: read from an answer that is not in the required format. Invalid, refused and \
-         truncated answers do nothing, and count against the player. Tokens as counted by the provider, including cached answers.",
+        "Steps by the origin of their action. Tolerant: read from an answer that is not in the required \
+         format. Invalid, refused and truncated answers have no effect in the game, and count against the \
+         player. Tokens as counted by the provider, including cached answers.",
         &study.leaderboard,
         &[
             ("player", &player),
@@ -115,7 +115,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
             ("input tokens", &|row| TableCell::count(row.spending.input_tokens)),
             ("output tokens", &|row| TableCell::count(row.spending.output_tokens)),
             ("reasoning tokens", &|row| TableCell::count(row.spending.reasoning_tokens)),
-            ("tokens a step", &|row| TableCell::number(row.tokens_per_step, 0)),
+            ("tokens per step", &|row| TableCell::number(row.tokens_per_step, 0)),
         ],
     );
     vec![leaders, answers]

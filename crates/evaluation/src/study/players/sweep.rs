@@ -64,8 +64,8 @@ type Row<'a> = (String, String, &'a Scores, u64, u64);
 
 /// Returns the table of results by game and its summary.
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
-    let note = "Never won: levels without a single win. Efficiency: 1 − mean steps of wins / most steps of any episode on the \
-                level, over the levels that were won.";
+    let note = "Never won: levels without a single win. Efficiency: 1 − mean steps of wins / maximum \
+                steps of any episode on the level, over the levels that were won.";
     let table = |id: &str, title: &str, rows: &[Row<'_>]| {
         Table::of(
             id,

@@ -44,7 +44,7 @@ pub(crate) fn table(study: &Study) -> Table {
     Table::of(
         "times",
         "Decision times",
-        "From the observation to the action, including waits and repeated questions. Calls: forward-model calls of planners. Times \
+        "Time from the observation to the action, including waits and repeated questions. Calls: forward-model calls of planners. Times \
          depend on the machine and its load.",
         &study.times,
         &[

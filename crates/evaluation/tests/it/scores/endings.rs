@@ -193,8 +193,12 @@ fn results_by_kind() {
         table.rows.iter().map(|row| format!("{} {}", row[0].plain(), row[1].plain())).collect();
     assert_eq!(rows, ["maze 2", "not recorded 1", "shooter 1"]);
     assert!(table.rows[0][2].plain().starts_with("1.00 ["), "{:?}", table.rows[0]);
-    assert!(study.verdict()[0].contains("it won most in maze (2 of 2); least in"), "{:?}", study.verdict());
-    // If the results record no kinds, the report lists no kinds.
+    assert!(
+        study.verdict()[0].contains("the player won most in maze (2 of 2) and least in"),
+        "{:?}",
+        study.verdict()
+    );
+    // If the results have no kinds, the report lists none.
     let unknown = Study::new(results, Vec::new());
     assert!(unknown.kinds.is_empty() && !unknown.verdict()[0].contains("kind"), "{:?}", unknown.verdict());
 }

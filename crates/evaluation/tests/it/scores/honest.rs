@@ -114,7 +114,7 @@ fn verdicts() {
         two(ours, episodes(games, 5, 5, |_, _| theirs)).verdict()
     };
     let clear = said(12, 1);
-    let expect = "a won the most: 80% (240 of 300 episodes); in games like these, 64 to 90%. It is better than b in games like these \
+    let expect = "a won the most: 80% (240 of 300 episodes); in games like these, 64 to 90%. This player is better than b in games like these \
                   (+60 points, +47 to +73, p < 0.001, 12 games)";
     assert!(clear[0].starts_with(expect), "{}", clear[0]);
     assert_eq!(clear[1], "a did not win 60 of 300 episodes: 60 were lost by the rules of the game.");
@@ -127,7 +127,7 @@ fn verdicts() {
     assert!(even.verdict()[0].contains("(0 points, −27 to +27, p = 1.000"), "{:?}", even.verdict());
     assert!(said(5, 0)[0].contains(" Fewer than six games cannot show"), "{:?}", said(5, 0));
     assert!(said(1, 0)[0].contains("on exactly these levels"), "{:?}", said(1, 0));
-    assert!(said(1, 0)[0].contains(" One game says nothing"), "{:?}", said(1, 0));
+    assert!(said(1, 0)[0].contains(" A single game does not show"), "{:?}", said(1, 0));
     assert!(Study::new(vec![(Player::reference("a"), Vec::new())], Vec::new()).verdict().is_empty());
 }
 

@@ -200,7 +200,7 @@ fn damaged_logs_are_rejected() {
             *semantics -= 1;
         }
     };
-    check_fault(older, "read it with the version that wrote it");
+    check_fault(older, "read the log with the version that wrote it");
 }
 
 /// A step is classified by its last answer.

@@ -21,7 +21,8 @@ impl Distances {
             let others = || (0..measured.len()).filter(|&other| other != at);
             let of_set = measured[at].form.nearest(others().map(|other| &measured[other].form));
             let of_set = of_set.map(|(place, distance)| {
-                let name = &measured[others().nth(place).expect("one of them")].surveyed.name;
+                let name =
+                    &measured[others().nth(place).expect("the position is within the set")].surveyed.name;
                 Nearest { name: name.clone(), distance }
             });
             let of_corpus = measured[at].form.nearest(corpus);
@@ -48,12 +49,12 @@ pub(super) fn novelty(measured: &[Measured<'_>], distances: &Distances, corpus: 
     };
     let among: Vec<f64> = (0..corpus.len()).filter_map(among).collect();
     let unique = Share::new(forms.len() as u64, measured.len() as u64);
-    Section::new("novelty", "How new are they?", "Distances go from 0 (the same rules) to 1.")
+    Section::new("novelty", "How new are the games?", "Distances range from 0 (the same rules) to 1.")
         .share("unique", "different games: names and order of rules do not count", unique)
         .share("near_duplicates", "near-duplicates in the set", near(&nearest))
         .share("near_corpus", "near-duplicates of the corpus", near(&of_corpus))
-        .quantiles("nearest", "distance to the most similar one", &nearest)
-        .quantiles("pairs", "distance of two of them", &distances.pairs)
-        .quantiles("nearest_corpus", "to the most similar one of the corpus", &of_corpus)
+        .quantiles("nearest", "distance to the most similar other", &nearest)
+        .quantiles("pairs", "distance of any two", &distances.pairs)
+        .quantiles("nearest_corpus", "distance to the most similar corpus game", &of_corpus)
         .quantiles("among_corpus", "for scale: within the corpus", &among)
 }

@@ -92,7 +92,7 @@ impl GameSetReport {
             ("variety", "kinds", "kinds of avatar × goal"),
             ("play", "mechanics", "mechanics in winning play, median"),
             ("novelty", "unique", "different games"),
-            ("cost", "accepted", "accepted of those judged"),
+            ("cost", "accepted", "accepted of all judged"),
         ]);
         GameSetReport { set, games }
     }
@@ -100,13 +100,13 @@ impl GameSetReport {
 
 fn price(cost: &Tally, made: u64, accepted: Share) -> Section {
     let each = cost.calls.checked_div(made).map_or(Value::Missing, Value::Count);
-    Section::new("cost", "What did they cost?", "Judging them for this report apart.")
+    Section::new("cost", "What was the cost?", "The cost of judging for this report is not included.")
         .data("accepted", &made)
         .data("tried", &cost.games_tried)
-        .figure("accepted", "accepted of those judged", accepted.into())
+        .figure("accepted", "accepted of all judged", accepted.into())
         .count("calls", "forward-model calls", cost.calls)
-        .shown("calls for each that was accepted", each)
-        .tally("rejections", "turned down", &cost.rejections, None)
+        .shown("calls per accepted item", each)
+        .tally("rejections", "rejected", &cost.rejections, None)
 }
 
 #[cfg(test)]

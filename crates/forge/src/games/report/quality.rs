@@ -12,12 +12,12 @@ const GAME: &str = "game";
 pub(super) fn validity(games: &[SurveyedGame]) -> Section {
     let levels = games.iter().flat_map(|game| &game.report.levels);
     let passing = Share::yes(games.iter().map(|game| game.report.passes()));
-    let note = "See `arcade docs validate` for what each criterion asks.";
+    let note = "`arcade docs validate` explains each criterion.";
     let first = obstacles(games.iter().filter_map(SurveyedGame::obstacle));
-    Section::new("validity", "Do they meet the criteria?", note)
+    Section::new("validity", "Do the games meet the criteria?", note)
         .share("games", "games: all levels, and all together", passing)
         .share("levels", "levels", Share::yes(levels.map(Report::passes)))
-        .tally("obstacles", "fail first", &first, Some(games.len() as u64))
+        .tally("obstacles", "first failure", &first, Some(games.len() as u64))
 }
 
 /// The difference between win rates that counts as significant.
@@ -32,8 +32,8 @@ pub(super) fn skill(measured: &[Measured<'_>]) -> Option<Section> {
     let orders: Vec<f64> = measured.iter().filter_map(|game| game.row.order).collect();
     let in_wins = |edge: &Edge| edge.points >= SURE && edge.interval[0] > 0.0;
     let paying = edges.iter().filter(|edge| edge.pays);
-    let note = "The strongest player against the best of those who do not look ahead, over all levels of a game; then each \
-                player over all games.";
+    let note = "The strongest player against the best player that does not look ahead, over all levels of \
+                a game; then each player over all games.";
     let section = Section::new("skill", "Does skill pay?", note)
         .share("pays", "skill pays, in wins or in score", Share::yes(edges.iter().map(|edge| edge.pays)))
         .share("by_score_only", "of these, in score only", Share::yes(paying.map(|edge| !in_wins(edge))))
@@ -57,11 +57,11 @@ pub(super) fn rules(measured: &[Measured<'_>]) -> Section {
     let rows = || measured.iter().map(|game| &game.row);
     let executed = Share::new(rows().map(|row| row.executed).sum(), rows().map(|row| row.rules).sum());
     let counts: Vec<f64> = rows().map(|row| row.rules as f64).collect();
-    let note = "In some recorded episode; guards do not count as rules.";
+    let note = "Use in at least one recorded episode; guards do not count as rules.";
     Section::new("rules", "Is everything used?", note)
         .share(
             "all_used",
-            "games of which every rule runs",
+            "games in which every rule runs",
             Share::yes(rows().map(|row| row.executed == row.rules)),
         )
         .share("executed", "rules that run", executed)
@@ -81,7 +81,7 @@ pub(super) fn play(measured: &[Measured<'_>]) -> Section {
     let mechanics: Vec<f64> = rows().filter_map(|row| row.mechanics).map(|count| count as f64).collect();
     let drama: Vec<f64> = rows().filter_map(|row| row.drama).collect();
     let won = Share::new(rows().map(|row| row.won).sum(), rows().map(|row| row.levels).sum());
-    Section::new("play", "How are they won?", "")
+    Section::new("play", "How are the games won?", "")
         .share("won", "levels with a known win", won)
         .quantiles("ticks", "ticks of the shortest win found", &ticks)
         .quantiles("mechanics", "mechanics that wins use", &mechanics)
@@ -108,13 +108,13 @@ pub(super) fn difficulty(measured: &[Measured<'_>]) -> Option<(Section, Table)> 
         statistics::spearman(&eases.collect::<Vec<(f64, f64)>>())
     });
     let rising = Mean::over(GAME, &rising.collect::<Vec<f64>>());
-    let section = Section::new("difficulty", "Do their levels get harder?", "")
+    let section = Section::new("difficulty", "Do the levels get harder?", "")
         .data("labels", &LABELS)
         .data("table", &counts)
-        .gain("rising", "harder and harder (rank correlation of place and difficulty)", rising);
+        .gain("rising", "harder and harder (rank correlation of position and difficulty)", rising);
     let labels = LABELS.map(|label| label.to_string());
     let columns: Vec<&str> = [""].into_iter().chain(labels.iter().map(String::as_str)).collect();
-    let mut table = Table::new("difficulty", "Difficulty", "Levels by their place in the game.", &columns);
+    let mut table = Table::new("difficulty", "Difficulty", "Levels by their position in the game.", &columns);
     for (place, counts) in counts.into_iter().enumerate() {
         let cells = [TableCell::text(format!("level {place}"))].into_iter();
         table.push(cells.chain(counts.into_iter().map(TableCell::Count)).collect());

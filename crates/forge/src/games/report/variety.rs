@@ -38,12 +38,13 @@ pub(super) fn variety(measured: &[Measured<'_>]) -> Section {
     let largest = pairs.first().map(|(_, games)| Share::new(*games, of));
     let kinds: Vec<Pair> =
         pairs.iter().map(|&((avatar, goal), games)| Pair { avatar, goal, games }).collect();
-    let mut section = Section::new("variety", "How varied are they?", "Games that have each.")
-        .data("kinds", &kinds)
-        .data("largest", &largest)
-        .figure("kinds", "kinds of avatar × goal", Value::CountOf(kinds.len() as u64, of, "game"));
+    let mut section =
+        Section::new("variety", "How varied are the games?", "Number of games with each feature.")
+            .data("kinds", &kinds)
+            .data("largest", &largest)
+            .figure("kinds", "kinds of avatar × goal", Value::CountOf(kinds.len() as u64, of, "game"));
     if let Some(share) = largest {
-        section = section.shown("are of the most frequent kind", share.into());
+        section = section.shown("of the most frequent kind", share.into());
     }
     let kind = || measured.iter().map(|game| &game.kind);
     let effects = counted(kind().flat_map(|kind| &kind.effects).map(|family| family.name()));
@@ -51,8 +52,8 @@ pub(super) fn variety(measured: &[Measured<'_>]) -> Section {
     let producers = counted(kind().flat_map(|kind| &kind.producers).map(String::as_str));
     for (key, name, counts) in [
         ("effects", "families of effects", effects),
-        ("npcs", "classes of what moves by itself", npcs),
-        ("producers", "classes of what makes others", producers),
+        ("npcs", "classes of sprites that move by themselves", npcs),
+        ("producers", "classes of sprites that make others", producers),
     ] {
         let having = counts.into_iter().map(|(name, count)| Having { name, games: Share::new(count, of) });
         let mut having: Vec<Having> = having.collect();
@@ -71,7 +72,7 @@ pub(super) fn kinds(measured: &[Measured<'_>]) -> Table {
     let avatars: BTreeSet<AvatarKind> = pairs.keys().map(|(avatar, _)| *avatar).collect();
     let goals: BTreeSet<GoalKind> = pairs.keys().map(|(_, goal)| *goal).collect();
     let columns: Vec<&str> = [""].into_iter().chain(goals.iter().map(|goal| goal.name())).collect();
-    let note = "The avatar's abilities against what a win asks for: games of each.";
+    let note = "Number of games by the avatar's abilities and by the goal of a win.";
     let mut table = Table::new("kinds", "Kinds", note, &columns);
     for avatar in avatars {
         let games = |goal: &GoalKind| pairs.get(&(avatar, *goal)).copied().unwrap_or(0);

@@ -52,11 +52,11 @@ impl Company {
             return None;
         }
         if self.titles.contains(title) {
-            return Some("a title twice");
+            return Some("duplicate title");
         }
         let cast = Cast::of(game);
         if self.casts.iter().any(|other| cast.is_shared(other)) {
-            return Some("a cast twice");
+            return Some("duplicate cast");
         }
         let form = GameForm::of(game);
         self.forms.iter().any(|other| form.is_near(other)).then_some(NEAR_KNOWN)

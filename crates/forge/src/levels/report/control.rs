@@ -51,7 +51,7 @@ pub(super) fn control(levels: &[SurveyedLevel], pool: &[Difficulty]) -> Option<(
     if pool.is_empty() {
         counts.clear();
     }
-    let section = Section::new("control", "Are they as hard as asked?", note(pool, &expressible))
+    let section = Section::new("control", "Are the levels as hard as requested?", note(pool, &expressible))
         .data("labels", &LABELS)
         .data("table", &table)
         .data("unmeasured", &unmeasured)
@@ -67,14 +67,17 @@ pub(super) fn control(levels: &[SurveyedLevel], pool: &[Difficulty]) -> Option<(
 }
 
 fn note(pool: &[Difficulty], expressible: &[Difficulty]) -> String {
-    let note = "Measured with seeds that the search was not guided by.";
+    let note = "Measured with seeds that did not guide the search.";
     if pool.is_empty() {
         return note.to_owned();
     }
     let labels: Vec<String> = expressible.iter().map(ToString::to_string).collect();
     let labels = if labels.is_empty() { "none".to_owned() } else { labels.join(", ") };
     let pool = pool.len();
-    format!("{note} The game can express (at least 5% of an unconstrained pool of {pool}): {labels}.")
+    format!(
+        "{note} Labels that the game can express (at least 5% of an unconstrained pool of {pool}): \
+             {labels}."
+    )
 }
 
 /// Returns a table with one row per requested label, which counts the levels by measured label.
@@ -85,7 +88,7 @@ fn confusion(table: &[Vec<u64>], unmeasured: &[u64], pool: &[u64]) -> Table {
     let mut columns: Vec<&str> = ["asked"].into_iter().chain(labels.iter().map(String::as_str)).collect();
     let some_unmeasured = unmeasured.iter().any(|none| *none > 0);
     columns.extend(some_unmeasured.then_some("no win found"));
-    let mut confusion = Table::new("asked", "Asked and measured difficulty", note, &columns);
+    let mut confusion = Table::new("asked", "Requested and measured difficulty", note, &columns);
     let row = |name: &str, counts: &[u64], last: TableCell| {
         let counts = counts.iter().map(|&count| TableCell::Count(count));
         let cells = [TableCell::text(name)].into_iter().chain(counts);
@@ -125,7 +128,7 @@ impl Hits {
             Some(value) => section.shown("— picked at random", Value::Expected(value)),
             None => section,
         };
-        let section = section.figure(key, format!("measured as asked, {which}"), self.exact.into());
+        let section = section.figure(key, format!("measured as requested, {which}"), self.exact.into());
         let section = random(section, self.random_exact);
         let section = section.shown(format!("within one label, {which}"), self.within_one.into());
         random(section, self.random_within_one)

@@ -43,11 +43,15 @@ pub(super) fn diversity(
 ) -> Section {
     let nearest = distances.known();
     let unique = Share::new(forms(levels, likeness).len() as u64, levels.len() as u64);
-    Section::new("diversity", "How different are they?", "Distances go from 0 (the same level) to 1.")
-        .share("unique", "unique up to symmetry", unique)
-        .mean("distance", "distance of two levels", Mean::over("level", &distances.means))
-        .share("near_duplicates", format!("near-duplicates: another one within {NEAR}"), near(&nearest))
-        .quantiles("nearest", "distance to the most similar one", &nearest)
+    Section::new(
+        "diversity",
+        "How different are the levels?",
+        "Distances range from 0 (the same level) to 1.",
+    )
+    .share("unique", "unique up to symmetry", unique)
+    .mean("distance", "distance of two levels", Mean::over("level", &distances.means))
+    .share("near_duplicates", format!("near-duplicates: within {NEAR} of another level"), near(&nearest))
+    .quantiles("nearest", "distance to the most similar other", &nearest)
 }
 
 /// Describes the distances to the game's own levels; `None` if the game has no levels of its own.
@@ -62,14 +66,14 @@ pub(super) fn novelty(
     let nearest: Vec<f64> = levels.par_iter().filter_map(to_examples).collect();
     let known = forms(examples, likeness);
     let copied = |level: &SurveyedLevel| known.contains(&likeness.digest(&level.level));
-    let section = Section::new("novelty", "How new are they?", "")
+    let section = Section::new("novelty", "How new are the levels?", "")
         .share(
             "copies",
-            "copies of one of the game's own, up to symmetry",
+            "copies of the game's own levels, up to symmetry",
             Share::yes(levels.iter().map(copied)),
         )
-        .share("near_duplicates", format!("near-duplicates of one: within {NEAR}"), near(&nearest))
-        .quantiles("nearest", "distance to the most similar one of the game's own", &nearest)
+        .share("near_duplicates", format!("near-duplicates of these: within {NEAR}"), near(&nearest))
+        .quantiles("nearest", "distance to the most similar of the game's own levels", &nearest)
         .quantiles(
             "among_examples",
             "for scale: among the game's own",

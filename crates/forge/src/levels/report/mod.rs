@@ -94,28 +94,28 @@ impl LevelSetReport {
             .table(row::table(&rows))
             .headlines(&[
                 ("solvability", "solved", "solved"),
-                ("triviality", "both_levels", "not won for nothing"),
+                ("triviality", "both_levels", "not won without effort"),
                 ("diversity", "unique", "unique"),
                 ("lengths", "ticks", "ticks of a win, median"),
                 ("lengths", "pushes", "pushes, median"),
                 ("skill", "wins", "gain of looking ahead"),
-                ("control", "exact", "as hard as asked"),
+                ("control", "exact", "as hard as requested"),
             ]);
         LevelSetReport { set, fits, ranges, levels: rows }
     }
 }
 
 fn price(cost: &Tally, accepted: u64) -> Section {
-    Section::new("cost", "What did they cost?", "Judging them for this report apart.")
+    Section::new("cost", "What was the cost?", "The cost of judging for this report is not included.")
         .count("calls", "forward-model calls", cost.calls)
-        .count("looks", "candidates that a search looked at", cost.looks())
+        .count("looks", "candidates inspected by a search", cost.looks())
         .count("judged", "candidates before the panel", cost.levels_tried)
         .count("accepted", "accepted", accepted)
         .shown(
-            "calls for each that was accepted",
+            "calls per accepted item",
             cost.calls.checked_div(accepted).map_or(Value::Missing, Value::Count),
         )
-        .tally("rejections", "turned down", &cost.rejections, None)
+        .tally("rejections", "rejected", &cost.rejections, None)
 }
 
 #[cfg(test)]

@@ -28,8 +28,8 @@ pub(super) fn validity(levels: &[SurveyedLevel], fits: &[Fit]) -> Section {
         level.report.finding(Criterion::WellFormed).map(|found| found.verdict.is_pass())
     };
     let first = levels.iter().filter_map(|level| level.report.first_obstacle());
-    let note = "See `arcade docs validate` for what each criterion asks.";
-    let section = Section::new("validity", "Are they levels?", note)
+    let note = "`arcade docs validate` explains each criterion.";
+    let section = Section::new("validity", "Are the levels valid?", note)
         .share("well_formed", "well-formed", Share::yes(levels.iter().filter_map(asked)))
         .share(
             "clean",
@@ -37,7 +37,7 @@ pub(super) fn validity(levels: &[SurveyedLevel], fits: &[Fit]) -> Section {
             Share::yes(levels.iter().map(|level| level.level.warnings().is_empty())),
         )
         .share("passes", "every criterion met", Share::yes(levels.iter().map(|level| level.report.passes())))
-        .tally("obstacles", "fail first", &obstacles(first), Some(levels.len() as u64))
+        .tally("obstacles", "first failure", &obstacles(first), Some(levels.len() as u64))
         .data("fit", fits);
     if fits.is_empty() { section } else { section.table(beside(fits)) }
 }
@@ -91,7 +91,7 @@ pub(super) fn solvability(levels: &[SurveyedLevel]) -> Section {
     };
     let unknown = |level: &SurveyedLevel| !solved(level) && !impossible(level);
     let share = |test: &dyn Fn(&SurveyedLevel) -> bool| Share::yes(levels.iter().map(test));
-    Section::new("solvability", "Can they be won?", "")
+    Section::new("solvability", "Can the levels be won?", "")
         .share("solved", "solved: an episode wins, and replays", share(&solved))
         .share("impossible", "impossible: proved", share(&impossible))
         .share("unknown", "unknown: the budget was spent", share(&unknown))
@@ -115,7 +115,7 @@ pub(super) fn triviality(levels: &[SurveyedLevel]) -> Section {
         Some(of_few(level, Criterion::NotIdle)? && of_few(level, Criterion::NotRandom)?)
     };
     let at_most = |who: &str| format!("levels of which {who} at most 10\u{a0}%");
-    Section::new("triviality", "Are they won for nothing?", "")
+    Section::new("triviality", "Can the levels be won without effort?", "")
         .share("idle", "episodes won by doing nothing", pooled(Criterion::NotIdle))
         .share("random", "episodes won by random keys", pooled(Criterion::NotRandom))
         .share("idle_levels", at_most("doing nothing wins"), of_levels(Criterion::NotIdle))
@@ -132,10 +132,10 @@ pub(super) fn lengths(levels: &[SurveyedLevel]) -> Section {
     if pushes.iter().all(|pushes| *pushes == 0.0) {
         pushes.clear();
     }
-    Section::new("lengths", "How long is a win?", "Of the shortest win that was found.")
-        .share("proved", "no fewer ticks win: proved", Share::new(shortest.len() as u64, ticks.len() as u64))
+    Section::new("lengths", "How long is a win?", "The length of the shortest win found.")
+        .share("proved", "proved minimal", Share::new(shortest.len() as u64, ticks.len() as u64))
         .quantiles("ticks", "ticks of the witness", &ticks)
-        .quantiles("shortest", "ticks, where no fewer win", &shortest)
+        .quantiles("shortest", "ticks, if proved minimal", &shortest)
         .quantiles("pushes", "pushes of the witness", &pushes)
 }
 
@@ -184,10 +184,10 @@ pub(super) fn rules(game: &Game, levels: &[SurveyedLevel]) -> Section {
     };
     let lines: Vec<LineUse> = (0..game.description().interactions.len()).map(line).collect();
     let used = Share::yes(lines.iter().filter(|line| !line.guard).map(|line| line.levels.count > 0));
-    let note = "Then each interaction: the levels whose witness executes it.";
+    let note = "Followed by each interaction, with the levels whose witness executes it.";
     let section = Section::new("rules", "Which rules do they use?", note)
         .share("used", "interactions that some witness executes", used)
-        .mean("each", "share of them that one witness executes", Mean::over(LEVEL, &each))
+        .mean("each", "fraction of these that one witness executes", Mean::over(LEVEL, &each))
         .data("lines", &lines);
     lines.iter().fold(section, |section, line| {
         let edge = if line.guard { " (edge: not counted)" } else { "" };

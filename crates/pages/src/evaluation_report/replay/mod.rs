@@ -137,10 +137,10 @@ impl Replays {
 
 fn note(episodes: usize, left_out: u64) -> String {
     let mut note = format!(
-        "Up to {} episodes of each player: first those not won, one for each cause, starting with the most \
-         frequent cause of each kind and choosing the episode closest to a win; all other episodes are in \
-         the logs. Of episodes with more than {} decisions, only the first {FIRST} and the last {LAST} are \
-         shown.",
+        "Up to {} episodes of each player: first episodes that were not won, one for each cause, starting \
+         with the most frequent cause of each kind and choosing the episode closest to a win. All other \
+         episodes are in the logs. For episodes with more than {} decisions, only the first {FIRST} and \
+         the last {LAST} decisions are shown.",
         words::many(episodes as u64, "episode"),
         FIRST + LAST
     );

@@ -96,7 +96,7 @@ fn title_lines(title: &str, columns: usize) -> Vec<String> {
         let letters: Vec<char> = word.chars().collect();
         for piece in letters.chunks(room) {
             let piece: String = piece.iter().collect();
-            let last = lines.last_mut().expect("there is a first line");
+            let last = lines.last_mut().expect("the text has a first line");
             if last.is_empty() || last.chars().count() + piece.trim_end().chars().count() <= room {
                 last.push_str(&piece);
             } else {

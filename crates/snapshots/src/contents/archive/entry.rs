@@ -40,7 +40,7 @@ pub(super) fn total<'a>(items: impl Iterator<Item = &'a Item>) -> u64 {
 /// Parses the path and the size in a header.
 pub(super) fn path_and_size(block: &[u8; BLOCK]) -> Result<(String, u64), String> {
     let header = Header::from_byte_slice(block);
-    let size = header.size().map_err(|_| "its tar header is damaged".to_owned())?;
+    let size = header.size().map_err(|_| "the tar header is damaged".to_owned())?;
     Ok((path(header), size))
 }
 
@@ -67,7 +67,7 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
         return here(Flaw::Name(problem));
     }
     if inner.is_none() {
-        return here(Flaw::NotAsPacked(format!("it is not in the folder `{}`", manifest.name)));
+        return here(Flaw::NotAsPacked(format!("the entry is not in the folder `{}`", manifest.name)));
     }
     if Some(found) == expected.map(|item| item.path.as_str()) {
         return match (header.size(), expected) {
@@ -81,8 +81,11 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
     let passed = expected.is_none_or(|item| found == MANIFEST_FILE || found < item.path.as_str());
     match (listed, passed) {
         (false, _) => here(Flaw::Extra),
-        (true, true) => here(Flaw::NotAsPacked("it occurs twice in the archive".into())),
-        (true, false) => here(Flaw::NotAsPacked(format!("it is out of order: `{due}` is due here"))),
+        (true, true) => here(Flaw::NotAsPacked("the entry occurs twice in the archive".into())),
+        (true, false) => here(Flaw::NotAsPacked(format!(
+            "the entry is out of order: `{due}` was expected \
+            here"
+        ))),
     }
 }
 
@@ -91,10 +94,10 @@ pub(super) fn describe_difference(block: &[u8; BLOCK]) -> String {
     let header = Header::from_byte_slice(block);
     let kind = header.entry_type();
     let what = match kind {
-        EntryType::Regular => "its tar header has a different owner, mode, time or form",
+        EntryType::Regular => "the tar header has an unexpected owner, mode, time or format",
         EntryType::Link => "a hard link",
         EntryType::Symlink => "a symbolic link",
-        EntryType::Directory => "a folder, which an archive does not list",
+        EntryType::Directory => "a folder, although archives list only files",
         EntryType::Char | EntryType::Block | EntryType::Fifo => "a device or pipe",
         EntryType::GNUSparse => "a sparse file",
         EntryType::GNULongName | EntryType::GNULongLink => "a GNU extension for long names",

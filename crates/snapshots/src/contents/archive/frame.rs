@@ -172,7 +172,7 @@ impl FrameReader {
         let left = stated_size(file.fill_buf().map_err(Unreadable::Io)?).map_err(Unreadable::Damaged)?;
         if left > limit {
             return Err(Unreadable::Damaged(format!(
-                "it would unpack to {left} bytes, of which a file of this size may hold {limit}"
+                "the archive would unpack to {left} bytes; the limit for a file of this size is {limit}"
             )));
         }
         let mut decoder = zstd::Decoder::with_buffer(file).map_err(Unreadable::Io)?.single_frame();
@@ -186,18 +186,18 @@ impl FrameReader {
             return Ok(None);
         }
         let bytes = self.content(BLOCK as u64)?;
-        Ok(Some(bytes.try_into().expect("as many bytes as were asked for")))
+        Ok(Some(bytes.try_into().expect("the content has the requested length")))
     }
 
     /// Reads the next `size` bytes. Memory use grows with the bytes read, not with the stated size.
     pub(super) fn content(&mut self, size: u64) -> Result<Vec<u8>, Unreadable> {
         if size > self.left {
-            return Err(Unreadable::Damaged("the archive is too short for it".into()));
+            return Err(Unreadable::Damaged("the archive is too short".into()));
         }
         let mut bytes = Vec::new();
         let read = (&mut self.decoder).take(size).read_to_end(&mut bytes).map_err(unreadable)?;
         if (read as u64) < size {
-            return Err(Unreadable::Damaged("the archive is cut off here".into()));
+            return Err(Unreadable::Damaged("the archive is truncated here".into()));
         }
         self.left -= size;
         self.hasher.update(&bytes);
@@ -209,7 +209,7 @@ impl FrameReader {
         let content = self.content(size)?;
         match self.content(padding(size) as u64)?.iter().all(|byte| *byte == 0) {
             true => Ok(content),
-            false => Err(Unreadable::Damaged("the bytes after it are not zero".into())),
+            false => Err(Unreadable::Damaged("the padding bytes are not zero".into())),
         }
     }
 
@@ -227,9 +227,9 @@ impl FrameReader {
         file.take(SEAL.len() as u64 + 33).read_to_end(&mut seal).map_err(Unreadable::Io)?;
         match seal.strip_prefix(&SEAL).map(|digest| (digest, digest.len())) {
             Some((digest, 32)) if digest == compressed => Ok(()),
-            Some((_, 32)) => damaged("its compressed bytes do not match its seal"),
-            Some((_, 33..)) => damaged("there are bytes after its seal"),
-            _ => damaged("its seal is missing or damaged"),
+            Some((_, 32)) => damaged("the compressed bytes do not match the seal"),
+            Some((_, 33..)) => damaged("there are bytes after the seal"),
+            _ => damaged("the seal is missing or damaged"),
         }
     }
 
@@ -243,7 +243,7 @@ impl FrameReader {
 fn unreadable(error: io::Error) -> Unreadable {
     match (error.raw_os_error(), error.kind()) {
         (Some(_), _) => Unreadable::Io(error),
-        (None, ErrorKind::UnexpectedEof) => Unreadable::Damaged("the archive is cut off here".into()),
+        (None, ErrorKind::UnexpectedEof) => Unreadable::Damaged("the archive is truncated here".into()),
         (None, _) => Unreadable::Damaged(format!("the compressed data is damaged here ({error})")),
     }
 }
@@ -251,26 +251,31 @@ fn unreadable(error: io::Error) -> Unreadable {
 /// Parses the content size in a frame header (RFC 8878 §3.1.1.1). The header must have the form that
 /// [`FrameWriter::begin`] writes.
 fn stated_size(head: &[u8]) -> Result<u64, String> {
-    let cut_off = || "the archive is cut off in its head".to_owned();
-    let odd = |what: &str| Err(format!("the head of its compressed data is not as packed: {what}"));
+    let cut_off = || "the archive is truncated in its header".to_owned();
+    let odd = |what: &str| {
+        Err(format!(
+            "the header of the compressed data differs from the packed form: \
+                                        {what}"
+        ))
+    };
     let descriptor = *head.get(MAGIC.len()).ok_or_else(cut_off)?;
     let (size_flag, one_segment) = (descriptor >> 6, descriptor & 0b10_0000 != 0);
     match descriptor & 0b1_1111 {
         0b0_0100 => {}
-        bits if bits & 0b11 != 0 => return odd("it needs a dictionary"),
-        bits if bits & 0b100 == 0 => return odd("it has no checksum"),
+        bits if bits & 0b11 != 0 => return odd("a dictionary is required"),
+        bits if bits & 0b100 == 0 => return odd("the checksum is missing"),
         _ => return odd("a reserved bit is set"),
     }
     let mut rest = &head[MAGIC.len() + 1..];
     if !one_segment {
         let window = *rest.first().ok_or_else(cut_off)?;
         if window != (WINDOW_LOG - 10) << 3 {
-            return odd("its window is not 8 MiB");
+            return odd("the window is not 8 MiB");
         }
         rest = &rest[1..];
     }
     let length = match (size_flag, one_segment) {
-        (0, false) => return odd("it does not state its size"),
+        (0, false) => return odd("the size is not stated"),
         (0, true) => 1,
         (flag, _) => 1 << flag,
     };
@@ -302,9 +307,9 @@ mod tests {
         check(&[0b1010_0100, 0, 0, 1, 0], Ok(65536));
         check(&[0b1000_0100, 0x68, 0, 0, 0, 1], Ok(1 << 24));
         check(&[0b1110_0100, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff], Ok(u64::MAX));
-        check(&[0b1000_0100, 0x69, 0, 0, 0, 1], Err("its window is not 8 MiB"));
-        check(&[0b0000_0100, 0x68, 0], Err("does not state its size"));
-        check(&[0b0010_0000, 7], Err("no checksum"));
+        check(&[0b1000_0100, 0x69, 0, 0, 0, 1], Err("the window is not 8 MiB"));
+        check(&[0b0000_0100, 0x68, 0], Err("the size is not stated"));
+        check(&[0b0010_0000, 7], Err("the checksum is missing"));
         check(&[0b0010_0101, 0, 7], Err("dictionary"));
         check(&[0b0010_1100, 7], Err("reserved"));
         check(&[0b0011_0100, 7], Err("reserved"));

@@ -207,7 +207,7 @@ impl Archive {
         }
         if !is_archive(path)? {
             return Err(match is_called_archive(path) {
-                true => broken("it does not start like an archive: fetch it again".to_owned()),
+                true => broken("the file does not start like an archive: fetch the archive again".to_owned()),
                 false => SnapshotError::NotASnapshot(path.to_path_buf()),
             });
         }
@@ -223,7 +223,8 @@ impl Archive {
         let mut manifest = Manifest::parse(&manifest_bytes).map_err(|error| error.in_manifest(&place))?;
         let mut problems = manifest_problems(&manifest, &manifest_bytes)?;
         if name != manifest.name {
-            let what = format!("its folder is `{}`, its release `{}`", name.escape_debug(), manifest.name);
+            let what =
+                format!("the folder is `{}`, but the release is `{}`", name.escape_debug(), manifest.name);
             problems.push(Problem { path: MANIFEST_FILE.into(), flaw: Flaw::NotAsPacked(what) });
         }
         let mut files = BTreeMap::new();
@@ -299,10 +300,10 @@ fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadab
     let name = path.strip_suffix(MANIFEST_FILE).and_then(|folder| folder.strip_suffix('/'));
     let name = name.filter(|name| !name.contains('/') && crate::check_path(name).is_ok());
     let name = name.ok_or_else(|| {
-        Unreadable::Damaged(format!("it must come first, but `{}` does", path.escape_debug()))
+        Unreadable::Damaged(format!("the manifest must come first, but `{}` does", path.escape_debug()))
     })?;
     if size > MANIFEST_LIMIT {
-        return Err(Unreadable::Damaged(format!("it is larger than {MANIFEST_LIMIT} bytes")));
+        return Err(Unreadable::Damaged(format!("the manifest is larger than {MANIFEST_LIMIT} bytes")));
     }
     let expected = Item { path: MANIFEST_FILE.into(), size, digest: Digest::of(b"") };
     if entry::header(name, &expected).as_ref() != Some(&block) {
@@ -339,7 +340,7 @@ fn read_items(
     }
     for _ in 0..END / BLOCK {
         match reader.block().map_err(stop(WHOLE))? {
-            None => return Err(at(WHOLE, Flaw::NotAsPacked("it is cut off before its end".into()))),
+            None => return Err(at(WHOLE, Flaw::NotAsPacked("the archive is truncated".into()))),
             Some(block) if block.iter().any(|byte| *byte != 0) => {
                 return Err(Stop::Problem(entry::diagnose(&block, manifest, None)));
             }
@@ -397,7 +398,7 @@ fn read_listed<'a>(
             _ => return Err(at(path, Flaw::Missing)),
         };
         let Some(expected) = entry::header(&manifest.name, item) else {
-            return Err(at(path, Flaw::NotAsPacked("its path is too long for an archive".into())));
+            return Err(at(path, Flaw::NotAsPacked("the path is too long for an archive".into())));
         };
         if block != expected {
             return Err(Stop::Problem(entry::diagnose(&block, manifest, Some(item))));

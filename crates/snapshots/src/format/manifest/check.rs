@@ -24,13 +24,25 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
         )));
     }
     match (manifest.kind, manifest.commitment) {
-        (ReleaseKind::Sealed, None) => return Err(unsound("it is sealed, but has no commitment".into())),
-        (ReleaseKind::Open, Some(_)) => return Err(unsound("it is open, but has a commitment".into())),
+        (ReleaseKind::Sealed, None) => {
+            return Err(unsound(
+                "the manifest is sealed, but has no \
+            commitment"
+                    .into(),
+            ));
+        }
+        (ReleaseKind::Open, Some(_)) => {
+            return Err(unsound(
+                "the manifest is open, but has a \
+            commitment"
+                    .into(),
+            ));
+        }
         _ => {}
     }
     if manifest.withheld.is_some() {
         if manifest.kind == ReleaseKind::Open {
-            return Err(unsound("it is open, but withholds files".into()));
+            return Err(unsound("the manifest is open, but withholds files".into()));
         }
         if let Some(item) = manifest.items.iter().find(|item| item.path.starts_with(HELD)) {
             return Err(unsound(format!(
@@ -67,7 +79,7 @@ fn check_format(manifest: &Manifest) -> Result<(), SnapshotError> {
     let shape = shape(manifest);
     if manifest.format != shape {
         return Err(unsound(format!(
-            "it says format {}, but has the shape of format {shape}",
+            "the manifest states format {}, but has the layout of format {shape}",
             manifest.format
         )));
     }
@@ -89,7 +101,7 @@ fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     // One file and up to `MANIFEST_LIMIT` bytes are reserved for the manifest.
     if items.len() as u64 >= limits.files {
         return Err(unsound(format!(
-            "{} items are too many (the limit is {})",
+            "the manifest has {} items; the limit is {}",
             items.len(),
             limits.files - 1
         )));
@@ -115,7 +127,7 @@ fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     }
     let total = items.iter().fold(MANIFEST_LIMIT, |total, item| total.saturating_add(item.size));
     if total > limits.total_bytes {
-        return Err(unsound(format!("its files are larger than {} bytes in total", limits.total_bytes)));
+        return Err(unsound(format!("the files are larger than {} bytes in total", limits.total_bytes)));
     }
     check_tree(items, limits)
 }
@@ -135,7 +147,7 @@ fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
         let shared = shared_components(before, path)?;
         folders += (depth - shared.min(depth)) as u64;
         if folders > limits.files {
-            return Err(unsound(format!("it has more than {} folders", limits.files)));
+            return Err(unsound(format!("the manifest has more than {} folders", limits.files)));
         }
         before = path;
     }
@@ -192,8 +204,8 @@ mod tests {
 
     #[test]
     fn headers() {
-        refuse(|m| m.format = 1, "it says format 1, but has the shape of format 2");
-        refuse(|m| m.version = None, "it says format 2, but has the shape of format 1");
+        refuse(|m| m.format = 1, "the manifest states format 1, but has the layout of format 2");
+        refuse(|m| m.version = None, "the manifest states format 2, but has the layout of format 1");
         refuse(
             |m| m.version = Some("0.12.0; rm x".into()),
             "the version `0.12.0; rm x` is not three numbers",

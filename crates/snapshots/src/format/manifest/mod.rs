@@ -261,11 +261,11 @@ impl Manifest {
         check::check(self)?;
         bounded::bounded(&self.recipe).map_err(|error| check::unsound(error.to_string()))?;
         if self.root != self.computed_root()? {
-            return Err(check::unsound("its root is not that of its items: seal the root last".into()));
+            return Err(check::unsound("the root does not match the items: seal the root last".into()));
         }
         if self.checksum != self.computed_checksum() {
             return Err(check::unsound(
-                "its checksum is not that of its lock file and sizes: seal the root last".into(),
+                "the checksum does not match the lock file and the sizes: seal the root last".into(),
             ));
         }
         let bytes = self.text()?.into_bytes();
@@ -455,14 +455,14 @@ pub(crate) mod tests {
         let text = two_files().text().expect("plain recipe");
         refuse(
             &text.replace("\"format\": 2", "\"format\": 3"),
-            "it says format 3, but has the shape of format 2",
+            "the manifest states format 3, but has the layout of format 2",
         );
         refuse(r#"{ "format": -1 }"#, "invalid value");
         refuse("{}", "missing field `format`");
         refuse("", "EOF");
         refuse(
             &text.replace("\"format\": 2", "\"format\": 0"),
-            "it says format 0, but has the shape of format 2",
+            "the manifest states format 0, but has the layout of format 2",
         );
     }
 

@@ -191,7 +191,7 @@ impl<'a> Plan<'a> {
         if self.recipe.generated.games + self.invented_games() > 0 && !self.before.is_empty() {
             decisive["known"] = serde_json::json!(self.recipe.known);
         }
-        let keys = decisive.as_object_mut().expect("it was made as one");
+        let keys = decisive.as_object_mut().expect("the value was made as an object");
         SECTIONS.iter().for_each(|section| section.decide(self.recipe, keys));
         Ok(canonical_digest(&decisive)?)
     }

@@ -134,7 +134,7 @@ mod tests {
         assert_eq!(invented_of(16_000.0, 100, false).unwrap(), None);
         assert_eq!(invented_of(16_000.0, 900, true).unwrap(), Some(1000));
         let error = invented_of(16_000.0, 1001, true).unwrap_err().to_string();
-        assert!(error.contains("`invented.games` is 1001, but at most 1000"), "{error}");
+        assert!(error.contains("`invented.games` is 1001, but the limit is 1000"), "{error}");
         assert!(error.contains("about 16000 sets of rules that no earlier release has used"), "{error}");
     }
 }

@@ -15,11 +15,12 @@ use std::fmt::Write;
 /// The description of a sealed release that is not revealed yet.
 const SEALED: &str = "sealed: seed and winning episodes are held back until it is revealed";
 /// The limitation of a sealed release that is not revealed yet.
-const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only after the release is revealed, and wholly \
-     only by minting it again.\n";
+const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only \
+                         after the release is revealed, and wholly only by minting it again.\n";
 
 /// The description of a sealed release of which only the published coin wins are revealed.
-const SOLVED: &str = "sealed: a winning episode of each level is public, seed and second episodes are held back until it is revealed";
+const SOLVED: &str = "sealed: a winning episode of each level is public, seed and second episodes are held \
+                      back until it is revealed";
 
 /// Returns the datasheet after the reveal. The publisher's own changes are kept.
 pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
@@ -28,8 +29,12 @@ pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
     }
     datasheet
         .replace(SOLVED, SEALED)
-        .replace(SEALED, "sealed, and revealed: its seed and the winning episodes are public now")
-        .replace(UNCHECKED, "- That games come from the seed that was committed to is shown wholly only by minting it again.\n")
+        .replace(SEALED, "sealed and revealed: the seed and the winning episodes are now public")
+        .replace(
+            UNCHECKED,
+            "- Only minting the release again proves that the games come from the \
+                             committed seed.\n",
+        )
 }
 
 /// Returns the whole datasheet as Markdown.
@@ -38,7 +43,9 @@ pub(super) fn datasheet(minted: &Minted) -> String {
     let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();
     let parent = manifest
         .parent
-        .map_or("none: compared with no earlier release".to_owned(), |root| format!("`{root}`"));
+        .map_or("none; the release was not compared with earlier releases".to_owned(), |root| {
+            format!("`{root}`")
+        });
     let kind = match manifest.kind {
         ReleaseKind::Open => "open: its seed is public",
         ReleaseKind::Sealed => SEALED,
@@ -52,8 +59,8 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         manifest.minted_by(),
         manifest.canary,
     );
-    text += "## What is in it\n\n\
-        Games in VGDL with their levels. For each level there is an episode that wins it, found by a program and replayed by \
+    text += "## Contents\n\n\
+        The release contains games in VGDL with their levels. Each level has an episode that wins it, found by a program and replayed by \
         `arcade verify`.\n\n";
     let _ = writeln!(
         text,
@@ -85,31 +92,32 @@ pub(super) fn datasheet(minted: &Minted) -> String {
     text.push('\n');
     ladder(&mut text, &card.ladder);
     made(&mut text, minted);
-    text += "## What it is for\n\n\
-        Measuring how well players, language models above all, understand and win games that they have not seen. It is no \
-        training set: a score on a release that a model was trained on says nothing.\n\n\
+    text += "## Intended use\n\n\
+        The release measures how well players, above all language models, understand and win unseen games. Do not train on \
+        the release: a model's score on a release from its training data is meaningless.\n\n\
         ## Known limits\n\n\
         - All games are of one family: grid games in VGDL for one player, with a few dozen kinds of rules.\n\
         - Games and levels were chosen by programs.";
     if !card.ladder.is_empty() {
-        text += " How hard a level is was measured with planners, not with people, in few plays \
-            each: labels have errors, and are easier to reach for games that planners are good at.";
+        text += " Difficulty was measured with planners, not with people, in few episodes per planner, so \
+                 labels have errors and depend on how well planners play a game.";
     }
     // The recipe was checked, unless a different version minted it.
     let recipe: Option<Recipe> = serde_json::from_value(manifest.recipe.clone()).ok();
     for caveat in recipe.iter().flat_map(Recipe::caveats) {
         let _ = write!(text, "\n- {caveat}");
     }
-    text += "\n- Whatever is published may be in the training data of later models. Search for the canary; compare with a release that is \
-        newer than the model.\n";
+    text += "\n- Published content may be in the training data of later models. Search for the canary, \
+             and compare with a release that is newer than the model.\n";
     text += match manifest.kind {
         ReleaseKind::Open => "- The seed and the winning episodes are public from the start.\n",
         ReleaseKind::Sealed => UNCHECKED,
     };
     text += "\n## People\n\n\
-        No person's data is in it, and nobody was asked to play, write or label anything for it.\n\n\
+        The release contains no personal data, and nobody was asked to play, write or label anything for it.\n\n\
         ## Licence, citation, errata\n\n\
-        [LICENSE](LICENSE), [CITATION.cff](CITATION.cff), [CHANGELOG.md](CHANGELOG.md). None of the papers is covered by the root.\n";
+        [LICENSE](LICENSE), [CITATION.cff](CITATION.cff), [CHANGELOG.md](CHANGELOG.md). The root does not \
+        cover the papers.\n";
     text
 }
 
@@ -120,7 +128,7 @@ fn counted(counts: &BTreeMap<String, u64>) -> String {
 
 fn ladder(text: &mut String, rungs: &[Rung]) {
     if rungs.is_empty() {
-        *text += "Difficulty was not measured: the recipe does not ask for `skill`.\n\n";
+        *text += "Difficulty was not measured: the recipe does not request `skill`.\n\n";
         return;
     }
     *text += "| player | wins | 95 %, games drawn again |\n|---|---|---|\n";
@@ -153,7 +161,7 @@ fn made(text: &mut String, minted: &Minted) {
         let _ = writeln!(text, "\n{}", tally.judges_table(minted.card.games).to_markdown());
     }
     if !corpus.is_empty() {
-        let _ = writeln!(text, "Hand-written games that were taken up: {}.", corpus.join(", "));
+        let _ = writeln!(text, "Hand-written games in the release: {}.", corpus.join(", "));
     }
     text.push('\n');
 }

@@ -122,13 +122,13 @@ fn quoted(text: &str) -> String {
 fn errata(manifest: &Manifest) -> String {
     let sealed = match manifest.kind {
         ReleaseKind::Open => "",
-        ReleaseKind::Sealed => " When it is revealed, files are added and none is changed.",
+        ReleaseKind::Sealed => " The reveal adds files and changes no file.",
     };
     format!(
         "# Errata of `{}`\n\n\
-         A release never changes: its root names every byte.{sealed} What is found to be wrong with it is told here, the newest \
-         first: when it was found, by whom, which games and levels it concerns, and which scores.\n\n\
-         Nothing so far.\n",
+         A release never changes: its root covers every byte.{sealed} This page lists the errors found in the release, newest \
+         first: when and by whom each error was found, and which games, levels and scores it concerns.\n\n\
+         No errors so far.\n",
         manifest.name
     )
 }

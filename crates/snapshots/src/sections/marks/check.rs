@@ -26,7 +26,7 @@ pub(super) fn problems(
         return Ok(Vec::new());
     }
     if manifest.item(&path).is_none() {
-        return Ok(vec![named("missing: the recipe asks for marks".to_owned())]);
+        return Ok(vec![named("missing, although the recipe requests marks".to_owned())]);
     }
     let Some(text) = contents.find(&path)? else {
         // A listed file is absent only if it is withheld.
@@ -37,7 +37,11 @@ pub(super) fn problems(
     };
     if manifest.generation != GENERATION {
         let carries = carries(&text, &manifest.canary);
-        return Ok(if carries { Vec::new() } else { vec![named("without the release's canary".to_owned())] });
+        return Ok(if carries {
+            Vec::new()
+        } else {
+            vec![named("the release's canary is missing".to_owned())]
+        });
     }
     let marks = match Marks::read(&text) {
         Ok(marks) => marks,
@@ -50,24 +54,24 @@ pub(super) fn problems(
 
 fn of_marks(marks: &Marks, asked: Option<&MarksPart>, canary: &str, cards: &[&Card]) -> Vec<String> {
     if marks.canary != canary {
-        return vec!["its canary is not the release's".to_owned()];
+        return vec!["the canary differs from that of the release".to_owned()];
     }
     if asked != Some(&marks.asked) {
-        return vec!["it is not what the recipe asks for".to_owned()];
+        return vec!["the settings of the marks do not match the recipe".to_owned()];
     }
     let by_id: BTreeMap<&str, &Card> = cards.iter().map(|card| (card.id.as_str(), *card)).collect();
     if !marks.games.iter().map(|game| game.id.as_str()).eq(by_id.keys().copied()) {
-        return vec!["its games are not those of the release".to_owned()];
+        return vec!["the games do not match those of the release".to_owned()];
     }
     let mut problems = Vec::new();
     for game in &marks.games {
         problems.extend(of_game(game, by_id[game.id.as_str()], &marks.asked));
     }
     if problems.is_empty() && rates(&marks.asked, &marks.games) != marks.rates {
-        problems.push("its `rates` are not those of its games".to_owned());
+        problems.push("the `rates` do not match the games".to_owned());
     }
     if problems.is_empty() && Falls::of(&marks.asked, &marks.games) != marks.falls {
-        problems.push("its `falls` are not those of its games".to_owned());
+        problems.push("the `falls` do not match the games".to_owned());
     }
     problems
 }
@@ -85,10 +89,10 @@ fn of_game(game: &GameMarks, card: &Card, asked: &MarksPart) -> Option<String> {
 /// Returns a sentence about the fault of a game's reference results in the result of a job; `None` if they are sound.
 pub(super) fn shape_problem(wins: &[Wins], levels: usize, asked: Option<&MarksPart>) -> Option<String> {
     let Some(asked) = asked else {
-        return (!wins.is_empty()).then(|| "marks that the recipe does not ask for".to_owned());
+        return (!wins.is_empty()).then(|| "marks that the recipe does not request".to_owned());
     };
     if wins.len() != levels {
-        return Some("no marks for each level".to_owned());
+        return Some("the levels do not all have marks".to_owned());
     }
     let wins: Vec<&Wins> = wins.iter().collect();
     numbers_problem(&wins, (asked.players.len(), asked.commits.len(), asked.plays))
@@ -126,10 +130,10 @@ mod tests {
     #[test]
     fn forged_marks_are_noticed() {
         check(|_| (), "");
-        check(|marks| marks.canary.clear(), "its canary");
-        check(|marks| marks.asked.plays = 3, "not what the recipe asks for");
-        check(|marks| drop(marks.games.pop()), "not those of the release");
-        check(|marks| marks.games[1].id.push('x'), "not those of the release");
+        check(|marks| marks.canary.clear(), "the canary differs");
+        check(|marks| marks.asked.plays = 3, "do not match the recipe");
+        check(|marks| drop(marks.games.pop()), "do not match those of the release");
+        check(|marks| marks.games[1].id.push('x'), "do not match those of the release");
         check(|marks| marks.games[0].levels[0].tier = Tier::Two, "tiers of its card");
         check(|marks| drop(marks.games[0].levels.pop()), "tiers of its card");
         check(|marks| marks.games[0].levels[1].wins[1][1] = 3, "3 wins in 2 plays");

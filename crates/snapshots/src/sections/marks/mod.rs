@@ -91,7 +91,7 @@ impl MarksPart {
             [("marks.plays", self.plays, MOST_PLAYS), ("marks.max_steps", self.max_steps, MOST_STEPS)]
         {
             if !(1..=most).contains(&value) {
-                return wrong(key, format!("is {value}; it takes 1 to {most}"));
+                return wrong(key, format!("is {value}; the value must be from 1 to {most}"));
             }
         }
         if self.players.is_empty() || self.players.len() > MOST_PLAYERS || !self.players.iter().all_unique() {
@@ -111,7 +111,13 @@ impl MarksPart {
             let most = if spec.name() == PLANNING { MOST_PLAN_CALLS } else { MOST_CALLS };
             if calls > most || calls == 0 && spec.spends_its_budget() {
                 let help = format!("takes planners with 1 to {most} calls per decision");
-                return wrong("marks.players", format!("names `{player}`; it {help}, such as `olets:200`"));
+                return wrong(
+                    "marks.players",
+                    format!(
+                        "contains `{player}`; the list {help}, such as \
+                              `olets:200`"
+                    ),
+                );
             }
         }
         Ok(())
@@ -347,7 +353,7 @@ pub(crate) mod tests {
     fn requests_stay_within_bounds() {
         let marks = |text: &str| format!("{GOOD}[marks]\n{text}");
         assert_eq!(Recipe::from_toml(&marks("")).unwrap().marks, Some(MarksPart::default()));
-        check(&marks("plays = 0"), "`marks.plays` is 0; it takes 1 to 20");
+        check(&marks("plays = 0"), "`marks.plays` is 0; the value must be from 1 to 20");
         check(&marks("max_steps = 2001"), "`marks.max_steps` is 2001");
         check(&marks("players = []"), "takes 1 to 16 different players");
         check(&marks("players = ['random', 'random']"), "different players");

@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn coins_are_needed_and_sealed() {
         check(&format!("{GOOD}[memory]\n"), "needs a sealed release");
-        check(&format!("{GOOD}[memory]\nsiblings = false\nwitnesses = false"), "asks for neither");
+        check(&format!("{GOOD}[memory]\nsiblings = false\nwitnesses = false"), "requests neither");
         check(&format!("{GOOD}[memory]\nsibling = true"), "unknown field `sibling`");
         let part = Recipe::to_commit(&format!("{GOOD}[memory]\nsiblings = false")).unwrap().memory;
         assert_eq!(part, Some(MemoryPart { siblings: false, witnesses: true }));

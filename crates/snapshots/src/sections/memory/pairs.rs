@@ -29,7 +29,12 @@ impl SecretGame {
         let game = Game::from_source(source).map_err(|problems| format!("not a game: {problems}"))?;
         let level = |(number, text): (usize, &String)| {
             let level = game.level(text);
-            let level = level.map_err(|problems| format!("lvl{number}.txt is not a level of it: {problems}"));
+            let level = level.map_err(|problems| {
+                format!(
+                    "lvl{number}.txt is not a level of this game: \
+                {problems}"
+                )
+            });
             Ok((text.clone(), level?))
         };
         let levels = levels.iter().enumerate().map(level).collect::<Result<_, String>>()?;
@@ -41,10 +46,10 @@ impl SecretGame {
     pub(crate) fn flaw(&self, published: &Game, levels: &Levels, root: Option<Seed>) -> Option<String> {
         let (one, other) = (published.digest(), self.game.digest());
         if one == other {
-            return Some("identical to the game whose sibling it is".to_owned());
+            return Some("identical to the original game".to_owned());
         }
         if GameForm::of(published).digest() != GameForm::of(&self.game).digest() {
-            return Some("its rules are not those of the game under other names".to_owned());
+            return Some("the rules are not those of the game under different names".to_owned());
         }
         // The states must be equal under a fixed seed.
         let start = |game: &Game, level: &Level| game.start(level, Seed::from_text("start")).state_hash();
@@ -55,10 +60,10 @@ impl SecretGame {
                 .zip(levels)
                 .any(|((_, own), (level, _))| start(&self.game, own) != start(published, level));
         if differing {
-            return Some("its levels are not those of the game under other names".to_owned());
+            return Some("the levels are not those of the game under different names".to_owned());
         }
         let is_tossed = root.is_none_or(|root| publishes_sibling(root, one, other));
-        (!is_tossed).then(|| "its coin publishes it: the other one should be withheld".to_owned())
+        (!is_tossed).then(|| "the coin publishes this sibling: the other game should be withheld".to_owned())
     }
 }
 
@@ -66,17 +71,17 @@ impl SecretGame {
 pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Option<Seed>) -> Option<String> {
     let published = published?;
     if !differ(&published.actions, &second.actions) {
-        return Some("it begins like the win that is published".to_owned());
+        return Some("the second win begins like the published win".to_owned());
     }
     let is_tossed = root.is_none_or(|root| publishes_win(root, published, second));
-    (!is_tossed).then(|| "its coin publishes it: the other win should be withheld".to_owned())
+    (!is_tossed).then(|| "the coin publishes this win: the other win should be withheld".to_owned())
 }
 
 /// Returns a sentence about the fault of a game's pairs in the result of a job. `root` is the root seed of the plan.
 pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
     let FrozenGame { levels, witnesses, sibling, seconds, .. } = frozen;
     if !seconds.is_empty() && seconds.len() != levels.len() {
-        return Some("no place for a second win of each level".to_owned());
+        return Some("the second wins do not match the number of levels".to_owned());
     }
     let loaded: Option<Vec<(Level, Option<Episode>)>> = levels
         .iter()
@@ -90,16 +95,16 @@ pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Opt
             Err(what) => Some(what),
         };
         if let Some(what) = flaw {
-            return Some(format!("a sibling with a fault: {what}"));
+            return Some(format!("invalid sibling: {what}"));
         }
     }
     for ((level, published), second) in loaded.iter().zip(seconds) {
         let Some(SecondWin { episode, path }) = second else { continue };
         let foreign = path.is_empty() || SeedPath::new(root, path.clone()).seed() != episode.seed;
-        let flaw = foreign.then(|| "its randomness does not come from the plan's seed".to_owned());
+        let flaw = foreign.then(|| "the randomness does not come from the plan's seed".to_owned());
         let flaw = flaw.or_else(|| pair_flaw(published.as_ref(), episode, Some(root)));
         if let Some(what) = flaw.or_else(|| replay_problem(episode, game, level)) {
-            return Some(format!("a second win with a fault: {what}"));
+            return Some(format!("invalid second win: {what}"));
         }
     }
     None
@@ -143,20 +148,20 @@ mod tests {
     fn siblings_are_the_game_under_other_names() {
         let same = |_: &mut String, _: &mut Vec<String>| ();
         check(same, true, None);
-        check(same, false, Some("its coin publishes it"));
+        check(same, false, Some("the coin publishes this"));
         check(|text, _| text.clear(), true, Some("not a game"));
-        check(|_, levels| levels[0] = "?".to_owned(), true, Some("lvl0.txt is not a level of it"));
-        check(|_, levels| levels.clear(), true, Some("its levels are not those"));
+        check(|_, levels| levels[0] = "?".to_owned(), true, Some("lvl0.txt is not a level of this game"));
+        check(|_, levels| levels.clear(), true, Some("the levels are not those"));
         check(
             |text, _| *text = text.replace("scoreChange=1", "scoreChange=2"),
             true,
-            Some("its rules are not"),
+            Some("the rules are not"),
         );
         let mirrored = |_: &mut String, levels: &mut Vec<String>| {
             let flip = |line: &str| line.chars().rev().collect::<String>() + "\n";
             levels[0] = levels[0].lines().map(flip).collect();
         };
-        check(mirrored, true, Some("its levels are not those"));
+        check(mirrored, true, Some("the levels are not those"));
         let itself = |text: &mut String, levels: &mut Vec<String>| {
             (*text, *levels) = (GAME.to_owned(), vec![LEVEL.to_owned()]);
         };
@@ -182,9 +187,12 @@ mod tests {
             let (published, withheld) =
                 if publishes_win(root, &one, &other) { (&one, &other) } else { (&other, &one) };
             assert_eq!(flaw(root, published, withheld), None);
-            assert!(flaw(root, withheld, published).unwrap().contains("its coin publishes it"));
+            assert!(flaw(root, withheld, published).unwrap().contains("the coin publishes this"));
         }
-        assert!(flaw(Seed::from_text("x"), &one, &of(&[Up])).unwrap().contains("begins like the win"));
+        assert!(flaw(Seed::from_text("x"), &one, &of(&[Up])).unwrap().contains(
+            "begins like the published \
+                                      win"
+        ));
         assert_eq!(pair_flaw(None, &other, None), None);
     }
 }

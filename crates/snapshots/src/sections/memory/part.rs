@@ -25,14 +25,14 @@ impl MemoryPart {
     /// Returns an error if neither kind of coin is requested, or if the release has no commitment.
     pub(crate) fn check(&self, commitment: Option<Digest>) -> Result<(), RecipeError> {
         if !(self.siblings || self.witnesses) {
-            return wrong("memory", "asks for neither `siblings` nor `witnesses`: leave it out");
+            return wrong("memory", "requests neither `siblings` nor `witnesses`: remove the section");
         }
         match commitment {
             Some(_) => Ok(()),
             None => wrong(
                 "memory",
-                "needs a sealed release, because everybody knows the coins of a public `seed`: commit to a secret with \
-                 `arcade release RECIPE --commit`, or leave it out",
+                "needs a sealed release, because a public `seed` determines the coins: commit to a secret \
+                 with `arcade release RECIPE --commit`, or remove the section",
             ),
         }
     }

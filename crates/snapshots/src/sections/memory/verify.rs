@@ -47,13 +47,13 @@ fn check_sibling(
     let Some(source) = read(&path)? else { return Ok(()) };
     let mut wrong = |what: String| found.problems.push(format!("{path}: {what}"));
     if !carries(&source, &release.manifest.canary) {
-        wrong("without the release's canary".to_owned());
+        wrong("the release's canary is missing".to_owned());
     }
     let texts = files.iter().map(|file| Ok(read(file)?.and_then(|bytes| String::from_utf8(bytes).ok())));
     let texts: Option<Vec<String>> =
         texts.collect::<Result<Vec<Option<String>>, SnapshotError>>()?.into_iter().collect();
     let (Ok(source), Some(texts)) = (String::from_utf8(source), texts) else {
-        wrong("it or one of its levels is missing or not a text".to_owned());
+        wrong("the sibling or a level of it is missing or not a text file".to_owned());
         return Ok(());
     };
     let root = release.secret.and_then(|secret| secret.seed_for(&release.manifest.recipe));
@@ -85,12 +85,12 @@ fn check_second(
     let witness: Witness = match serde_json::from_slice(&bytes) {
         Ok(witness) => witness,
         Err(error) => {
-            wrong(format!("not a witness: {error}"));
+            wrong(format!("not a valid witness: {error}"));
             return Ok(());
         }
     };
     if witness.canary != release.manifest.canary {
-        wrong("its canary is not the release's".to_owned());
+        wrong("the canary differs from that of the release".to_owned());
     }
     if release.secret.is_some_and(|secret| !secret.leads_to(&witness, &release.manifest.recipe)) {
         wrong(UNRELATED_WITNESS.to_owned());

@@ -190,16 +190,19 @@ impl PuzzleKind {
             (level_tries, part.level_tries, 100),
         ] {
             if !(1..=most).contains(&value) {
-                return wrong(key, format!("is {value}; it takes 1 to {most}"));
+                return wrong(key, format!("is {value}; the value must be from 1 to {most}"));
             }
         }
         if !(1.0..=20.0).contains(&part.candidates) {
-            return wrong(candidates, format!("is {}; it takes 1 to 20 for each game", part.candidates));
+            return wrong(
+                candidates,
+                format!("is {}; the value must be from 1 to 20 for each game", part.candidates),
+            );
         }
         if !(3..=most_things).contains(&part.things) {
             let help = match most_things {
                 3 => "is for `[puzzles]` only: omit it".to_owned(),
-                most => format!("is {}; it takes 3 to {most}", part.things),
+                most => format!("is {}; the value must be from 3 to {most}", part.things),
             };
             return wrong(things, help);
         }
@@ -211,7 +214,7 @@ impl PuzzleKind {
             }
         }
         if tiers.is_empty() {
-            return wrong(games, "needs `tiers`, the shares of levels that are made to each");
+            return wrong(games, "needs `tiers`, the fractions of levels of each tier");
         }
         Ok(())
     }
@@ -231,24 +234,31 @@ mod tests {
         check(&format!("{puzzles}columns = [10, 16]\n[tiers]\n4 = 1.0"), "at most 128 cells");
         let endless = "columns = [8, 4294967296]\nrows = [8, 4294967296]\n[tiers]\n4 = 1.0";
         check(&format!("{puzzles}{endless}"), "at most 128 cells");
-        check(&format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")), "it takes 1 to 15");
+        check(
+            &format!("{}[tiers]\n4 = 1.0", puzzles.replace("= 2", "= 17")),
+            "the value must be from 1 to 15",
+        );
         let locks = format!("{}[tiers]\n4 = 1.0", puzzles.replace("[puzzles]", "[locks]"));
         check(&locks.replace("games = 2", "games = 2\nthings = 4"), "`locks.things` is for `[puzzles]` only");
-        check(&format!("{puzzles}things = 6\n[tiers]\n4 = 1.0"), "`puzzles.things` is 6; it takes 3 to 5");
-        check(&locks.replace("= 2", "= 5"), "`locks.games` is 5; it takes 1 to 3");
+        check(
+            &format!("{puzzles}things = 6\n[tiers]\n4 = 1.0"),
+            "`puzzles.things` is 6; the value must \
+                        be from 3 to 5",
+        );
+        check(&locks.replace("= 2", "= 5"), "`locks.games` is 5; the value must be from 1 to 3");
         check(
             &locks.replace("games = 2", "games = 2\nrows = [16, 17]\ncolumns = [16, 16]"),
             "at most 256 cells",
         );
         assert_eq!(Recipe::from_toml(&locks).unwrap().games(), 2);
         let yards = locks.replace("[locks]", "[yards]");
-        check(&yards.replace("= 2", "= 5"), "`yards.games` is 5; it takes 1 to 2");
+        check(&yards.replace("= 2", "= 5"), "`yards.games` is 5; the value must be from 1 to 2");
         check(
             &yards.replace("games = 2", "games = 2\nrows = [14, 15]\ncolumns = [14, 14]"),
             "at most 196 cells",
         );
         let strays = locks.replace("[locks]", "[strays]");
-        check(&strays.replace("= 2", "= 12"), "`strays.games` is 12; it takes 1 to 10");
+        check(&strays.replace("= 2", "= 12"), "`strays.games` is 12; the value must be from 1 to 10");
         let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
         assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
         // Recipes without either section keep their bytes.

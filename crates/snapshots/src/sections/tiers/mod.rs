@@ -47,7 +47,7 @@ impl Tiers {
         if self.is_empty() || are_shares && (total - 1.0).abs() < 1e-6 {
             return Ok(());
         }
-        wrong("tiers", format!("adds up to {total}; it takes shares that add up to 1"))
+        wrong("tiers", format!("adds up to {total}; the fractions must add up to 1"))
     }
 
     /// Divides `levels` among the tiers, from tier 1 to tier 4, in proportion to the fractions.

@@ -172,11 +172,11 @@ fn entries_that_no_release_has() {
     check(&|e| drop(e.list.remove(6)), level, "witness/lvl0.json: missing");
     check(&|e| e.list.truncate(1), "CARD.json", "missing");
     check(&|e| e.list.clear(), "MANIFEST.json", "");
-    check(&|e| e.list.swap(0, 1), "MANIFEST.json", "it must come first, but `mole/CARD.json` does");
+    check(&|e| e.list.swap(0, 1), "MANIFEST.json", "the manifest must come first, but `mole/CARD.json` does");
     check(&|e| e.list.swap(3, 4), "game.vgdl", "out of order");
-    check(&|e| e.add(3, "README.md", b"other"), "README.md", "it occurs twice in the archive");
-    check(&|e| e.add(7, "README.md", b"other"), "README.md", "it occurs twice in the archive");
-    check(&|e| e.add(7, MANIFEST_FILE, b"other"), MANIFEST_FILE, "it occurs twice in the archive");
+    check(&|e| e.add(3, "README.md", b"other"), "README.md", "the entry occurs twice in the archive");
+    check(&|e| e.add(7, "README.md", b"other"), "README.md", "the entry occurs twice in the archive");
+    check(&|e| e.add(7, MANIFEST_FILE, b"other"), MANIFEST_FILE, "the entry occurs twice in the archive");
     check(&|e| e.add(7, "games/x", b"other"), "games/x", "extra");
     check(&|e| e.add(1, "A", b"other"), "A", "extra");
     check(&|e| e.list[2].1.push(b'x'), "README.md", "");
@@ -194,13 +194,13 @@ fn entries_that_no_release_has() {
 
 #[test]
 fn headers_that_no_release_has() {
-    check(&|e| e.list[2].0.set_mode(0o755), "README.md", "a different owner, mode");
-    check(&|e| e.list[2].0.set_uid(1000), "README.md", "a different owner");
-    check(&|e| e.list[2].0.set_gid(1000), "README.md", "a different owner");
-    check(&|e| e.list[2].0.set_mtime(1), "README.md", "a different owner");
-    check(&|e| e.list[2].0.set_username("me").expect("short"), "README.md", "a different owner");
-    check(&|e| e.list[2].0.set_device_major(1).expect("ustar"), "README.md", "a different owner");
-    check(&|e| e.list[0].0.set_mode(0o600), "MANIFEST.json", "a different owner");
+    check(&|e| e.list[2].0.set_mode(0o755), "README.md", "an unexpected owner, mode");
+    check(&|e| e.list[2].0.set_uid(1000), "README.md", "an unexpected owner");
+    check(&|e| e.list[2].0.set_gid(1000), "README.md", "an unexpected owner");
+    check(&|e| e.list[2].0.set_mtime(1), "README.md", "an unexpected owner");
+    check(&|e| e.list[2].0.set_username("me").expect("short"), "README.md", "an unexpected owner");
+    check(&|e| e.list[2].0.set_device_major(1).expect("ustar"), "README.md", "an unexpected owner");
+    check(&|e| e.list[0].0.set_mode(0o600), "MANIFEST.json", "an unexpected owner");
     let kind = |kind: EntryType| move |e: &mut Entries| e.list[2].0.set_entry_type(kind);
     check(&kind(EntryType::Symlink), "README.md", "symbolic link");
     check(&kind(EntryType::Link), "README.md", "hard link");
@@ -266,52 +266,57 @@ fn ends() {
     let sound = compress(&tar);
     check_bytes(&file, &sound, "", "");
     assert!(verify(&file).expect("readable").problems.is_empty());
-    check_bytes(&file, &[&sound[..], b"x"].concat(), "mole.tar.zst: not as packed", "bytes after its seal");
+    check_bytes(
+        &file,
+        &[&sound[..], b"x"].concat(),
+        "mole.tar.zst: different from the packed form",
+        "bytes after the seal",
+    );
     check_bytes(
         &file,
         &[&sound[..], &sound[..]].concat(),
-        "mole.tar.zst: not as packed",
-        "bytes after its seal",
+        "mole.tar.zst: different from the packed form",
+        "bytes after the seal",
     );
     let skippable = [0x50, 0x2a, 0x4d, 0x18, 1, 0, 0, 0, 7];
     check_bytes(
         &file,
         &[&sound[..], &skippable[..]].concat(),
-        "mole.tar.zst: not as packed",
-        "bytes after its seal",
+        "mole.tar.zst: different from the packed form",
+        "bytes after the seal",
     );
     let unsealed = &sound[..sound.len() - 40];
-    check_bytes(&file, unsealed, "mole.tar.zst: not as packed", "its seal is missing");
+    check_bytes(&file, unsealed, "mole.tar.zst: different from the packed form", "the seal is missing");
     check_bytes(
         &file,
         &seal(&[unsealed, unsealed].concat()),
-        "mole.tar.zst: not as packed",
-        "its seal is missing or damaged",
+        "mole.tar.zst: different from the packed form",
+        "the seal is missing or damaged",
     );
     check_bytes(
         &file,
         &[unsealed, &seal(b"")].concat(),
-        "mole.tar.zst: not as packed",
-        "do not match its seal",
+        "mole.tar.zst: different from the packed form",
+        "do not match the seal",
     );
     check_bytes(&file, &[&skippable[..], &sound[..]].concat(), "mole.tar.zst", "does not start like");
     check_bytes(
         &file,
         &compress(&[&tar[..], &[0; 512]].concat()),
-        "mole.tar.zst: not as packed",
+        "mole.tar.zst: different from the packed form",
         "more after its end",
     );
     check_bytes(
         &file,
         &compress(&tar[..tar.len() - 512]),
-        "mole.tar.zst: not as packed",
-        "cut off before its end",
+        "mole.tar.zst: different from the packed form",
+        "the archive is truncated",
     );
     check_bytes(
         &file,
         &compress(&tar[..tar.len() - 1024]),
-        "mole.tar.zst: not as packed",
-        "cut off before its end",
+        "mole.tar.zst: different from the packed form",
+        "the archive is truncated",
     );
     let mut padded = tar.clone();
     let last = padded.len() - 1025;
@@ -324,8 +329,8 @@ fn ends() {
     }
     // Different compressions of the same bytes are not accepted.
     let plain = zstd::encode_all(&tar[..], 3).expect("in memory");
-    check_bytes(&file, &plain, "mole.tar.zst", "not as packed");
-    // A file with an archive's name is a damaged archive. With a different name, it is not an archive.
+    check_bytes(&file, &plain, "mole.tar.zst", "different from the packed form");
+    // A file with an archive's name is a damaged archive; with a different name, it is not an archive.
     fs::write(&file, "BasicGame").expect("written");
     assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));
     fs::write(&file, "").expect("written");
@@ -342,7 +347,7 @@ fn bombs() {
     let file = home.path().join("mole.tar.zst");
     let zeros = compress(&vec![0; 64 << 20]);
     assert!(zeros.len() < 16_384);
-    check_bytes(&file, &zeros, "mole.tar.zst", "it would unpack to 67108864 bytes");
+    check_bytes(&file, &zeros, "mole.tar.zst", "the archive would unpack to 67108864 bytes");
     // One frame states less than it holds, and one states more.
     let tar = Entries::of(&small("mole", None)).tar();
     let sound = compress(&tar);

@@ -75,7 +75,7 @@ fn hostile_proofs_are_refused_in_words() {
     );
     refuse(&text.replacen('{', "{\"deep\": [[[]]],", 1), "unknown field `deep`");
     refuse(&text.replacen('{', "{\"format\": 1,", 1), "duplicate field `format`");
-    refuse(&text.replace("\"format\": 1", "\"format\": 2"), "its format is 2");
+    refuse(&text.replace("\"format\": 1", "\"format\": 2"), "the proof has format 2");
     refuse(&text.replace("\"format\": 1", "\"format\": 1e99"), "invalid type");
     refuse(&text.replace("\"index\": 2", "\"index\": 99999999999999999999"), "invalid type");
     refuse(&text.replace(&honest.root.to_string(), "12ab"), "`12ab` is not 64 hexadecimal digits");
@@ -94,7 +94,7 @@ fn hostile_proofs_are_refused_in_words() {
     refuse(&written(&many), "`README.md` has 65 steps to the root");
     let mut none = honest.clone();
     none.files.clear();
-    refuse(&written(&none), "it lists no files");
+    refuse(&written(&none), "the proof lists no files");
     refuse(&text.replace("\"size\": 7", "\"size\": 100001"), "leaf 2 of 100001, which no release has");
     refuse(&text.replace("\"index\": 2", "\"index\": 7"), "leaf 7 of 7, which no release has");
     refuse(

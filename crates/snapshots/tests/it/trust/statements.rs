@@ -35,21 +35,24 @@ fn check(alter: impl FnOnce(&mut Small), problems: &[&str]) {
 #[test]
 fn manifest_and_recipe_agree() {
     check(|_| {}, &[]);
-    check(|release| release.manifest.name = "2027-01".into(), &["its `name` is not that of its recipe"]);
+    check(
+        |release| release.manifest.name = "2027-01".into(),
+        &["the `name` differs from that of the recipe"],
+    );
     check(
         |release| release.manifest.parent = Some(Digest::of(b"x")),
-        &["its `parent` is not", "`known` names no release, but there is a parent"],
+        &["its `parent` is not", "`known` lists no release, but there is a parent"],
     );
     check(
         |release| release.manifest.recipe = json!("a pie"),
-        &["its `name` is not that of its recipe", "its `canary` is not that of its recipe"],
+        &["the `name` differs from that of the recipe", "the `canary` does not match the recipe"],
     );
 }
 
 #[test]
 fn every_file_carries_the_canary() {
     for file in ["README.md", "game.vgdl"] {
-        let expect = format!("{file}: without the release's canary");
+        let expect = format!("{file}: the release's canary is missing");
         check(
             |release| {
                 let mark = release.manifest.canary.clone();
@@ -62,12 +65,12 @@ fn every_file_carries_the_canary() {
 
 #[test]
 fn cards_tell_of_the_episode_that_wins() {
-    let expect = &["card.json: not the ticks and score of the episode that wins lvl0.txt"][..];
+    let expect = &["card.json: the ticks and score differ from those of the episode that wins lvl0.txt"][..];
     check(
         |release| {
             change(release, "card.json", |text| text.replace("\"witness_ticks\": 3", "\"witness_ticks\": 4"))
         },
-        &[expect[0], "CARD.json: its `witness_ticks` is not what the cards"],
+        &[expect[0], "CARD.json: the card's `witness_ticks` does not match the cards"],
     );
     check(
         |release| {
@@ -114,19 +117,19 @@ fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
 fn secrets_must_match_games_and_recipe() {
     check(
         |release| seal_with(release, &secret(7), &secret(8)),
-        &["lvl0.json: its seed is not derived from the release's secret"],
+        &["lvl0.json: the seed is not derived from the release's secret"],
     );
     check(
         |release| {
             seal(release);
             release.manifest.recipe["corpus"] = json!({ "games": 3 });
         },
-        &["held/secret.json: the manifest's recipe is not the one that was committed to"],
+        &["held/secret.json: the manifest's recipe does not match the commitment"],
     );
     let made_up = Secret { seed: "hunter2".to_owned(), ..secret(7) };
     check(
         |release| seal_with(release, &made_up, &made_up),
-        &["held/secret.json: its `seed` is not 64 lower-case hexadecimal digits"],
+        &["held/secret.json: the `seed` is not 64 lower-case hexadecimal digits"],
     );
     let pair = Secret { recipe: None, ..secret(7) };
     check(
@@ -134,7 +137,7 @@ fn secrets_must_match_games_and_recipe() {
             seal_with(release, &pair, &pair);
             release.manifest.generation = COMMITS_TO_RECIPE_SINCE;
         },
-        &["held/secret.json: it does not specify a recipe"],
+        &["held/secret.json: the secret does not specify a recipe"],
     );
     // The release is sealed like releases of earlier generations.
     check(
@@ -175,7 +178,7 @@ fn a_sealed_release_commits_to_a_witness_of_every_level() {
             seal(release);
             release.manifest.recipe = json!({ "name": "2026-12", "commitment": Digest::of(b"x") });
         },
-        &["its `commitment` is not that of its recipe"],
+        &["the `commitment` differs from that of the recipe"],
     );
 }
 
@@ -201,9 +204,9 @@ fn mismatched_parts_are_not_joined() {
         let error = joined(secret, played, change).expect_err(words);
         assert!(error.contains(words), "{error}");
     };
-    refused(&secret(7), &secret(8), &|_| {}, "its seed is not derived from the release's secret");
+    refused(&secret(7), &secret(8), &|_| {}, "the seed is not derived from the release's secret");
     let other = |release: &mut Small| release.manifest.recipe["board"] = json!({ "rows": [5, 6] });
-    refused(&secret(7), &secret(7), &other, "the manifest's recipe is not the one that was committed to");
+    refused(&secret(7), &secret(7), &other, "the manifest's recipe does not match the commitment");
     let made_up = Secret { seed: "hunter2".to_owned(), ..secret(7) };
     refused(&made_up, &made_up, &|_| {}, "is not 64 lower-case hexadecimal digits");
 }
@@ -276,10 +279,10 @@ fn impossible_card_numbers() {
             &[&format!("card.json: lvl0.txt: {words}")],
         );
     };
-    of_level("difficulty", json!(1e300), "a difficulty of 1000");
-    of_level("difficulty", json!(-0.5), "a difficulty of -0.5");
-    of_level("columns", json!(7), "a board of 7 by 3, but it has 6 by 3");
-    of_level("optimal_ticks", json!(4), "a shortest win of 4 ticks beside a witness of 3");
+    of_level("difficulty", json!(1e300), "the difficulty 1000");
+    of_level("difficulty", json!(-0.5), "the difficulty -0.5");
+    of_level("columns", json!(7), "a board of 7 by 3, but the board has 6 by 3");
+    of_level("optimal_ticks", json!(4), "a shortest win of 4 ticks, but a witness of 3");
     of_level("optimal_ticks", json!(0), "a shortest win of 0 ticks");
     of_level("witness_score", json!(1e300), "a score of 1000");
     for who in ["mcts", "random", "idle"] {
@@ -289,14 +292,14 @@ fn impossible_card_numbers() {
         of_level(who, rate, &format!("`{who}` has the interval 0 to 0.5"));
     }
     let ladder = json!({ "rungs": [], "held_out": [], "ease": 1e300, "difficulty": "medium" });
-    of_level("ladder", ladder, "an ease outside 0 to 1");
+    of_level("ladder", ladder, "the ease is outside 0 to 1");
 }
 
 #[test]
 fn large_cards_are_not_read() {
     complains(
         |release| change_card(release, |card| card["title"] = json!("x".repeat(1 << 20))),
-        &["card.json: 1050", "a card has at most 1048576"],
+        &["card.json: 1050", "the limit is 1048576"],
     );
     let patterns =
         json!({ "from": "generated", "generator": "x", "patterns": vec!["a"; 2000], "candidate": 0 });
@@ -311,7 +314,7 @@ fn releases_describe_themselves() {
     for file in ["README.md", "CARD.json"] {
         complains(
             |release| release.files.retain(|(path, _)| path != file),
-            &[&format!("{file}: missing: a release has one")],
+            &[&format!("{file}: missing, but required in every release")],
         );
     }
     complains(
@@ -331,13 +334,13 @@ fn releases_describe_themselves() {
             &[&format!("CARD.json: {words}")],
         );
     };
-    with("games", json!(7), "its `games` is 7, and the release has 1");
-    with("levels", json!("many"), "its `levels` is \"many\", and the release has 1");
-    with("canary", json!("x"), "its canary is not the release's");
+    with("games", json!(7), "the card's `games` is 7, but the release has 1");
+    with("levels", json!("many"), "the card's `levels` is \"many\", but the release has 1");
+    with("canary", json!("x"), "the canary differs from that of the release");
     with("more", json!(1), "not the card of a release: unknown field `more`");
-    with("generators", json!({ "search": 1 }), "its `generators` is not what");
-    with("goals", json!({}), "its `goals` is not what");
-    with("difficulty", json!({ "easy": 1 }), "its `difficulty` is not what");
+    with("generators", json!({ "search": 1 }), "the card's `generators` does not match");
+    with("goals", json!({}), "the card's `goals` does not match");
+    with("difficulty", json!({ "easy": 1 }), "the card's `difficulty` does not match");
 }
 
 #[test]
@@ -351,7 +354,7 @@ fn the_canary_is_that_of_the_recipe() {
                 *content = text.replace(&mark, &release.manifest.canary).into_bytes();
             }
         },
-        &["MANIFEST.json: its `canary` is not that of its recipe"],
+        &["MANIFEST.json: the `canary` does not match the recipe"],
     );
 }
 
@@ -416,7 +419,7 @@ fn replays_are_bounded() {
     assert_eq!((fits.problems.len(), fits.work), (0, work));
     let over = verified(&mut small("2026-12", None), &bounds(work - 1, 0));
     assert_eq!(over.work, work - 1);
-    let expect = format!("its witnesses take more than {} units of work to replay", work - 1);
+    let expect = format!("replaying the witnesses takes more than {} units of work", work - 1);
     assert!(over.problems[0].contains(&expect), "{:?}", over.problems);
     // The bound of a release grows with the number of levels that it declares.
     assert_eq!(Bounds::RELEASE.of(600), (1 << 31) + 600 * (1 << 21));
@@ -441,7 +444,7 @@ fn no_witness_is_longer_than_an_episode_can_be() {
         |release| lengthen(release, 2001),
         &[
             "lvl0.json: the episode has 2001 ticks",
-            "a witness of 2001 ticks, but only 1 to 2000 are possible",
+            "a witness of 2001 ticks, but a witness has 1 to 2000 ticks",
         ],
     );
     complains(|release| lengthen(release, 4), &["continues after its end in tick 3"]);
@@ -461,10 +464,10 @@ fn known_content_matches_the_parent() {
         let problems = verified(&mut release, &Bounds::RELEASE).problems;
         assert!(problems.iter().any(|problem| problem.contains(words)), "{problems:?}");
     };
-    known(json!({}), "`known` names no release, but there is a parent");
+    known(json!({}), "`known` lists no release, but there is a parent");
     known(json!("nothing"), "`known` is malformed");
-    known(json!({ "releases": ["2026-12", "2026-12"] }), "names a release twice, or itself");
-    known(json!({ "releases": ["2027-01"] }), "names a release twice, or itself");
+    known(json!({ "releases": ["2026-12", "2026-12"] }), "lists a release twice, or the release itself");
+    known(json!({ "releases": ["2027-01"] }), "lists a release twice, or the release itself");
     let mut orphan = first;
     orphan.manifest.recipe["known"] = json!({ "releases": ["2026-11"] });
     let problems = verified(&mut orphan, &Bounds::RELEASE).problems;
@@ -499,23 +502,23 @@ fn cards_say_of_the_rules_what_the_game_says() {
     let html = "<script>alert(1)</script>";
     check(
         |release| change_card(release, |card| card["rules"] = json!(html)),
-        &["card.json: its `rules` are not those of game.vgdl in words"],
+        &["card.json: the card's `rules` do not match game.vgdl"],
     );
     for text in ["goal", "description"] {
         check(
             |release| change_card(release, |card| card[text] = json!(html)),
-            &[&format!("card.json: its `{text}` is not what game.vgdl says")],
+            &[&format!("card.json: the card's `{text}` does not match game.vgdl")],
         );
     }
     for title in [html, "Mole "] {
         check(
             |release| change_card(release, |card| card["title"] = json!(title)),
-            if title == html { &["card.json: its `title` is not that of game.vgdl"] } else { &[] },
+            if title == html { &["card.json: the card's `title` does not match game.vgdl"] } else { &[] },
         );
     }
     complains(
         |release| change_card(release, |card| card["deterministic"] = json!(false)),
-        &["card.json: its `deterministic` is not what game.vgdl says"],
+        &["card.json: the card's `deterministic` does not match game.vgdl"],
     );
     // Other versions have different wording.
     let mut release = small("2026-12", None);

@@ -195,8 +195,8 @@ fn lists_bind_what_was_withheld() {
     check(&added, &|_| true, "held/notes.bin: not a file of a sealed release");
     let mut salted = release.clone();
     hide(&mut salted, &Secret { nonce: Digest::of(b"other"), ..secret.clone() });
-    check(&salted, &|_| true, "held/REST.json: its salt does not follow from the release's secret");
-    // These files were committed to, but are not lists.
+    check(&salted, &|_| true, "held/REST.json: the salt does not follow from the release's secret");
+    // Files that were committed to, but are not lists.
     let listed = |change: &dyn Fn(&mut Value)| {
         let mut release = release.clone();
         let (_, content) = release.files.iter_mut().find(|(path, _)| path == LISTS[0]).unwrap();
@@ -236,9 +236,9 @@ fn manifests_name_no_withheld_file() {
     refused(&|manifest| manifest.items.push(snapshots::Item::of("held/x", b"")), "all of held/ is withheld");
     refused(
         &|manifest| (manifest.kind, manifest.commitment) = (ReleaseKind::Open, None),
-        "it is open, but withholds files",
+        "the manifest is open, but withholds files",
     );
-    refused(&|manifest| manifest.format = 2, "it says format 2, but has the shape of format 3");
+    refused(&|manifest| manifest.format = 2, "the manifest states format 2, but has the layout of format 3");
     let home = home();
     let place = parts(&release, &home, |_| false);
     let text = fs::read_to_string(Path::new(&place).join(MANIFEST_FILE)).unwrap();

@@ -165,8 +165,8 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
         setSource(nextSource);
       }
       setLevels(nextLevels);
-      if (kept.length > 0) setNotice({ text: `${kept.join(', ')} changed outside, and here too. Saving will ask which to keep.`, bad: true });
-      else if (taken.length > 0) setNotice({ text: `${taken.join(', ')} changed outside and was read again.`, bad: false });
+      if (kept.length > 0) setNotice({ text: `${kept.join(', ')} changed outside, and here too. When you save, you choose which version to keep.`, bad: true });
+      else if (taken.length > 0) setNotice({ text: `${taken.join(', ')} changed outside and was reloaded.`, bad: false });
       else if (gone.length > 0) setNotice({ text: `${gone.map((one) => one.name).join(', ')} was removed outside.`, bad: false });
     } catch {
       return; // The next look may succeed; saving reports what is wrong.
@@ -445,7 +445,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
           onMine={() => {
             setFile(conflict.name, (one) => ({ ...one, base: conflict.digest, saved: conflict.theirs }));
             setConflict(null);
-            setNotice({ text: 'Yours is kept. Save once more to write it.', bad: false });
+            setNotice({ text: 'Your text is kept. Save again to write it.', bad: false });
           }}
           onTheirs={() => {
             setFile(conflict.name, (one) => ({ ...one, text: conflict.theirs, saved: conflict.theirs, base: conflict.digest }));
@@ -462,7 +462,7 @@ export function Design({ game, level, onChanged }: { game: Game; level: number; 
             const asked = { source: source.text, levels: texts };
             const made = await post<{ edits: Edit[]; levels: Edit[][] }>('/api/rename', { ...asked, at: renaming.at, name });
             setRenaming(null);
-            if (state.current.source.text !== asked.source) return setNotice({ text: 'The rules changed meanwhile: nothing was renamed.', bad: true });
+            if (state.current.source.text !== asked.source) return setNotice({ text: 'The rules changed in the meantime, so nothing was renamed.', bad: true });
             window.setTimeout(() => editor.current?.apply(made.edits), 0);
             // A level character changes in the levels too.
             levels.forEach((one, index) => {
@@ -517,7 +517,7 @@ function ConflictDialog({ conflict, mine, onClose, onMine, onTheirs }: { conflic
   );
   return (
     <Dialog title={`${conflict.name} changed outside`} onClose={onClose}>
-      <p>Another program wrote this file since it was read here. Lines that the other text lacks are marked.</p>
+      <p>Another program changed this file after the studio read it. Lines that the other text lacks are marked.</p>
       <div class="compare">{side('Yours', mine, theirLines)}{side('In the file', conflict.theirs, myLines)}</div>
       <div class="buttons">
         <button type="button" onClick={onClose}>Decide later</button>
@@ -561,7 +561,7 @@ function CopyWithChanges({ game, onClose, onCopy }: { game: Game; onClose: () =>
   const [error, setError] = useState<string | null>(null);
   return (
     <Dialog title="Save a copy" onClose={onClose}>
-      <p>{game.title} itself stays as it is. The copy, with your changes, is written as a folder of its own.</p>
+      <p>{game.title} itself stays as it is. The copy, with your changes, is written to a new folder.</p>
       <form onSubmit={(event) => { event.preventDefault(); onCopy(title).catch((failure: unknown) => setError(words(failure))); }}>
         <label class="field">Title<input value={title} onInput={(event) => setTitle(event.currentTarget.value)} autofocus /></label>
         {error && <p class="notice bad" role="alert">{error}</p>}

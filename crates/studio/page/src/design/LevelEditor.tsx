@@ -276,12 +276,12 @@ export function LevelEditor(props: Props) {
           );
         })}
         {legend.length > 0 && floor === ' ' && (
-          <button type="button" role="radio" tabIndex={symbol === ' ' ? 0 : -1} aria-checked={symbol === ' '} title="Erases: a space is an empty square" aria-label="eraser, an empty square" onClick={() => setBrush(' ')}>
+          <button type="button" role="radio" tabIndex={symbol === ' ' ? 0 : -1} aria-checked={symbol === ' '} title="Eraser: a space is an empty square" aria-label="eraser, an empty square" onClick={() => setBrush(' ')}>
             <span class="swatch"><Icon name="eraser" /></span>
             <span class="name">eraser</span>
           </button>
         )}
-        {legend.length === 0 && <p class="soft">The palette appears when the rules compile.</p>}
+        {legend.length === 0 && <p class="soft">The palette appears once the rules compile.</p>}
       </div>
       {asText ? (
         <textarea class="level-text" aria-label="Level as text" spellcheck={false} value={text} onInput={(event) => { strokes += 1; onChange(event.currentTarget.value, strokes); }} />

@@ -77,7 +77,7 @@ export function MorePanel({ source, level, width, height, onUse, onAdd }: { sour
       </form>
       {error && <p class="notice bad" role="alert">{error}</p>}
       {abort && made.length === 0 && <p class="soft"><span class="spinner" aria-hidden="true" /> Making levels that can be won</p>}
-      {failed.length > 0 && <p class="soft">{`${failed.length} more could not be made as asked: ${failed[0]}`}</p>}
+      {failed.length > 0 && <p class="soft">{`${failed.length} more could not be made as requested: ${failed[0]}`}</p>}
       <ul class="cards small">
         {made.map((one, index) => (
           <li>

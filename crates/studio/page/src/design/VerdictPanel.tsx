@@ -150,7 +150,7 @@ function Headline({ said, onEpisode, onLonger }: { said: Said; onEpisode: Props[
       <div class="headline bad"><Icon name="cross" /><div>
         <strong>Cannot be won</strong>
         <p><Words text={answer.text} /></p>
-        {answer.states > 0 && <p class="soft">All {answer.states.toLocaleString('en')} states were seen.</p>}
+        {answer.states > 0 && <p class="soft">All {answer.states.toLocaleString('en')} reachable states were searched.</p>}
       </div></div>
     );
   }
@@ -290,7 +290,7 @@ function Whole({ settled, ...props }: Props & { settled: boolean }) {
     running.current = null;
     setProgress(null);
     if (error === null) setResult({ key, criteria });
-    else setFailed({ key, text: error === 'superseded' ? 'other pages of this studio came first.' : error });
+    else setFailed({ key, text: error === 'superseded' ? 'other pages of this studio had priority.' : error });
   };
 
   // Another text, or a verdict on a level that has begun, comes first.

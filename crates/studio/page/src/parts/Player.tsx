@@ -137,7 +137,7 @@ const OUTCOMES = { won: 'Won', lost: 'Lost', draw: 'Over', stopped: 'Stopped', p
 
 function paceWords(pace: number): string {
   if (pace < 2) return pace < 1 ? 'slow: a tick in 2 s' : 'slow: a tick a second';
-  return `${pace} ticks a second`;
+  return `${pace} ticks per second`;
 }
 
 function step(run: Run): void {

@@ -134,7 +134,7 @@ function CopyDialog({ game, onClose, onCopied }: { game: Game; onClose: () => vo
   };
   return (
     <Dialog title="Edit a copy" onClose={onClose}>
-      <p>{game.title} itself stays as it is. The copy is written as a folder of its own into the folder that the studio works in.</p>
+      <p>{game.title} itself stays as it is. The copy is written to a new folder in the studio's working folder.</p>
       <form onSubmit={(event) => { event.preventDefault(); void copy(); }}>
         <label class="field">Title<input value={title} onInput={(event) => setTitle(event.currentTarget.value)} autofocus /></label>
         {error && <p class="notice bad" role="alert">{error}</p>}

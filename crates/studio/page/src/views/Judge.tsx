@@ -58,7 +58,7 @@ export function Judge() {
       <header class="heading">
         <div>
           <h1>{`Pair ${pair.pair + 1} of ${pair.of}`}</h1>
-          <p class="soft">Play or watch both. Where they come from stays hidden until the report.</p>
+          <p class="soft">Play or watch both. The origin of the games stays hidden until the report.</p>
         </div>
         <a href={href('judge', 'report')}>Report</a>
       </header>
@@ -194,12 +194,12 @@ export function JudgeReportPage() {
   const left = report ? report.of - report.judged : 0;
   return (
     <main class="judge-report">
-      <header class="heading"><div><h1>What the judgements say</h1>{report && !report.blind && <p class="soft">Shares with 95 % intervals.</p>}</div><a href={href('judge')}>Back to judging</a></header>
+      <header class="heading"><div><h1>What the judgements say</h1>{report && !report.blind && <p class="soft">Percentages with 95% intervals.</p>}</div><a href={href('judge')}>Back to judging</a></header>
       {(asked.error ?? error) && <p class="notice bad" role="alert">{asked.error ?? error}</p>}
       {report?.blind && (
         <section class="blind">
-          <p>{`${report.judged} of ${report.of} pairs are judged.`} The report is shown when all are.</p>
-          <p class="soft">{`It tells which source wins: the ${left === 1 ? 'answer' : `${left} answers`} still to come would no longer be blind, and would be marked so in the record.`}</p>
+          <p>{`${report.judged} of ${report.of} pairs are judged.`} The report is shown when all pairs are judged.</p>
+          <p class="soft">{`The report shows which source wins: the ${left === 1 ? 'answer' : `${left} answers`} still to come would no longer be blind, and would be marked as not blind in the record.`}</p>
           <p><button type="button" onClick={end}>Show the report and end blinding</button></p>
         </section>
       )}
@@ -209,7 +209,7 @@ export function JudgeReportPage() {
           {report.sources.length === 0 && <p class="soft">Nothing is judged yet.</p>}
           {report.sources.length > 0 && (
             <Wide name="Sources"><table>
-              <thead><tr><th>Source</th><th class="n">Wins</th><th class="n">Losses</th><th class="n">Ties</th><th>Share of wins</th></tr></thead>
+              <thead><tr><th>Source</th><th class="n">Wins</th><th class="n">Losses</th><th class="n">Ties</th><th>Percentage of wins</th></tr></thead>
               <tbody>{report.sources.map((one) => <tr><td>{one.name}</td><td class="n">{one.wins}</td><td class="n">{one.losses}</td><td class="n">{one.ties}</td><td><Share {...one} /></td></tr>)}</tbody>
             </table></Wide>
           )}

@@ -21,7 +21,7 @@ export function NewDialog({ workspace, onClose, onBegun }: { workspace: Workspac
   };
   return (
     <Dialog title="New game" onClose={onClose}>
-      <p>A small game with comments and two levels, to be played at once and changed. It is written as a folder of its own.</p>
+      <p>A small commented game with two levels, ready to play and to change. The game is written to a new folder.</p>
       <form onSubmit={(event) => { event.preventDefault(); void begin(); }}>
         <label class="field">Title<input value={title} onInput={(event) => setTitle(event.currentTarget.value)} autofocus /></label>
         <ul class="genres" role="radiogroup" aria-label="Kind of game">

@@ -53,7 +53,7 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
   };
   useEffect(() => {
     setRun((before) => { before?.close(); return null; });
-    if (watch !== null && !witness) { setError(`${game.title} has no witness named ${watch}.`); return undefined; }
+    if (watch !== null && !witness) { setError(`${game.title} has no witness called ${watch}.`); return undefined; }
     return hold(witness ? studio.witness(game, witness).then((replay) => Run.replay(replay)) : begin());
   }, [game, shownLevel, watch]);
   useEffect(() => () => run?.close(), [run]);
@@ -63,7 +63,7 @@ export function Play({ game, level, watch }: { game: Game; level: number; watch:
     const episode = JSON.parse(await chosen.text()) as Episode;
     const order = [shownLevel, ...game.levels.map((_, index) => index).filter((index) => index !== shownLevel)];
     let first: Run | null = null;
-    let failure: unknown = new Error('This file is no episode of this game.');
+    let failure: unknown = new Error('This file is not an episode of this game.');
     for (const index of order) {
       try {
         const replay = await studio.replay(game.source.text, game.levels[index]?.text ?? '', episode);

@@ -31,7 +31,7 @@ export function ReleasePage() {
       <header class="heading"><div><h1>{release.name}</h1><p class="soft">A release: games and levels under one digest.</p></div></header>
       <dl class="facts-list digests">
         {rows.map(([name, value]) => value && <div><dt>{name}</dt><dd>{name === 'Root' || name === 'Parent' ? <code>{value}</code> : value}</dd></div>)}
-        {!release.parent && <div><dt>Parent</dt><dd class="soft">none: the first of its line</dd></div>}
+        {!release.parent && <div><dt>Parent</dt><dd class="soft">none: this is the first release of its chain</dd></div>}
       </dl>
       {live && <Verify />}
       <Levels release={release} />
@@ -88,7 +88,7 @@ function Verify() {
       {error && <p class="notice bad" role="alert">{error}</p>}
       {verdict && (
         <div class={`notice ${verdict.ok ? 'good' : 'bad'}`} role="status">
-          <strong>{verdict.ok ? 'Every digest agrees.' : verdict.sound ? 'The release agrees with its manifest, but not all that belongs to it does.' : 'This release is not what its manifest says.'}</strong>
+          <strong>{verdict.ok ? 'Every digest agrees.' : verdict.sound ? 'The release agrees with its manifest, but some related files do not.' : 'This release does not match its manifest.'}</strong>
           {verdict.lines.map((line) => <p><Words text={line} /></p>)}
         </div>
       )}
@@ -163,7 +163,7 @@ function Compare({ release }: { release: Release }) {
     <section>
       <h2>Compared with another release</h2>
       {asked.error && <p class="notice bad" role="alert">{asked.error}</p>}
-      {!compared && !asked.error && <p class="soft">Start the studio with <code>--against SNAPSHOT</code> to see what is new beside an earlier release.</p>}
+      {!compared && !asked.error && <p class="soft">Start the studio with <code>--against SNAPSHOT</code> to see the differences from an earlier release.</p>}
       {compared && (
         <>
           <p>Beside <strong>{compared.other}</strong>: {compared.new.length} new, {compared.changed.length} changed, {compared.kept.length} kept, {compared.gone.length} gone.</p>
@@ -178,8 +178,8 @@ function Compare({ release }: { release: Release }) {
           </div>
           {compared.nearest.length > 0 && (
             <>
-              <h3>The nearest of the other release</h3>
-              <p class="soft">A distance of 0 would be the same rules.</p>
+              <h3>The nearest game of the other release</h3>
+              <p class="soft">A distance of 0 means identical rules.</p>
               <ul class="cards small">
                 {[...compared.nearest].sort((a, b) => a.distance - b.distance).map((near) => {
                   const game = release.games.find((one) => one.id === near.id);

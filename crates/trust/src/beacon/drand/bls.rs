@@ -18,7 +18,7 @@ const G2_BYTES: usize = 96;
 /// # Errors
 /// Returns an error if the key is not a valid key of the scheme.
 pub(super) fn signed(scheme: &str, key: &[u8], message: &[u8], signature: &[u8]) -> Result<bool, String> {
-    let no_key = || format!("has a `public_key` that is none of the scheme {scheme}");
+    let no_key = || format!("has a `public_key` that is not valid in the scheme {scheme}");
     let verdict = if scheme == "bls-unchained-g1-rfc9380" {
         if key.len() != G2_BYTES {
             return Err(no_key());

@@ -117,8 +117,8 @@ pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     }
     hash.map(|hash| Some(Network::Hash(hash))).ok_or_else(|| {
         format!(
-            "`{source}` isn't a drand network: write `drand quicknet`, `drand default`, or `drand` and the \
-             chain hash of another network, 64 hexadecimal digits"
+            "`{source}` isn't a drand network: write `drand quicknet`, `drand default`, or `drand` and \
+             the chain hash of a different network (64 hexadecimal digits)"
         )
     })
 }
@@ -145,15 +145,14 @@ impl Network {
             (Network::Known(known), None) => (known.public_key, known.scheme),
             (Network::Hash(_), None) => {
                 return Err(format!(
-                    "has no `chain`, but the key of {} is not known here: add what the network serves under \
-                     /info",
+                    "has no `chain`, but the key of {} is unknown: add the network's answer to /info",
                     round.source
                 ));
             }
             (Network::Hash(hash), Some(chain)) => {
                 if chain.computed_hash() != Some(*hash) || chain.hash != *hash {
                     return Err(format!(
-                        "its `chain` is not the one of {}, because its hash differs: take it from the \
+                        "its `chain` does not belong to {}, because the hash differs: fetch it from the \
                          network's /info again",
                         round.source
                     ));
@@ -161,7 +160,7 @@ impl Network {
                 if let Some(known) = KNOWN.iter().find(|known| known.public_key == chain.public_key) {
                     // A different genesis time gives a different hash, but the rounds depend only on the key.
                     return Err(format!(
-                        "its `chain` has the key of `{}`: name that as the source",
+                        "its `chain` has the key of `{}`: specify that network as the source",
                         known.name
                     ));
                 }
@@ -176,7 +175,7 @@ impl Network {
         match verifies(scheme, &key, round.round, previous.as_deref(), signature)? {
             true => Ok(()),
             false => Err(format!(
-                "its `signature` is not the one of round {} of {}: take the round from the network again",
+                "its `signature` does not belong to round {} of {}: fetch the round from the network again",
                 round.round, round.source
             )),
         }
@@ -199,7 +198,7 @@ fn verifies(
     let message = match (scheme, previous) {
         ("pedersen-bls-chained", Some(previous)) => Sha256::new().chain_update(previous).chain_update(number),
         ("pedersen-bls-chained", None) => {
-            return Err("has no `previous_signature`, which a round of a chained network is about".to_owned());
+            return Err("has no `previous_signature`, which a chained network signs in each round".to_owned());
         }
         ("pedersen-bls-unchained" | "bls-unchained-g1-rfc9380", None) => Sha256::new().chain_update(number),
         ("pedersen-bls-unchained" | "bls-unchained-g1-rfc9380", Some(_)) => {
@@ -207,8 +206,8 @@ fn verifies(
         }
         _ => {
             return Err(format!(
-                "is of the scheme {scheme}, which is not checked here: take a network of pedersen-bls-chained, \
-                 pedersen-bls-unchained or bls-unchained-g1-rfc9380"
+                "has the scheme {scheme}, which is not supported: use a network with the scheme \
+                 pedersen-bls-chained, pedersen-bls-unchained or bls-unchained-g1-rfc9380"
             ));
         }
     };

@@ -82,14 +82,14 @@ fn real_rounds_hold() {
     assert_eq!(verifies("pedersen-bls-unchained", &key, 223_343, None, &signature), Ok(false));
 
     // These signatures belong to a different round, network or predecessor.
-    check(&answer("drand quicknet", 1001, QUICKNET_1000, none.clone()), Some("not the one of round 1001"));
-    check(&answer("drand quicknet", 1000, QUICKNET_123, none.clone()), Some("not the one of round 1000"));
-    check(&answer("drand default", 1000, QUICKNET_1000, previous.clone()), Some("not the one of round 1000"));
-    check(&answer("drand quicknet", 72785, DEFAULT_72785, none.clone()), Some("not the one of round 72785"));
+    check(&answer("drand quicknet", 1001, QUICKNET_1000, none.clone()), Some("not belong to round 1001"));
+    check(&answer("drand quicknet", 1000, QUICKNET_123, none.clone()), Some("not belong to round 1000"));
+    check(&answer("drand default", 1000, QUICKNET_1000, previous.clone()), Some("not belong to round 1000"));
+    check(&answer("drand quicknet", 72785, DEFAULT_72785, none.clone()), Some("not belong to round 72785"));
     check(&answer("drand quicknet", 1000, QUICKNET_1000, previous), Some("leave it out"));
     check(&answer("drand default", 72785, DEFAULT_72785, none), Some("has no `previous_signature`"));
     let other = json!({ "previous_signature": DEFAULT_72785 });
-    check(&answer("drand default", 72785, DEFAULT_72785, other), Some("not the one of round 72785"));
+    check(&answer("drand default", 72785, DEFAULT_72785, other), Some("not belong to round 72785"));
 }
 
 /// A publisher who invents a value has no signature for it.
@@ -97,8 +97,8 @@ fn real_rounds_hold() {
 fn a_round_of_drand_needs_its_signature() {
     let file = json!({ "source": "drand quicknet", "round": 1000, "randomness": value(QUICKNET_1000) });
     check(&file, Some("has no `signature` of round 1000 of drand quicknet"));
-    check(&answer("drand quicknet", 1000, "00", json!({})), Some("not the one of round 1000"));
-    check(&answer("drand quicknet", 1000, &"c0".repeat(48), json!({})), Some("not the one of round 1000"));
+    check(&answer("drand quicknet", 1000, "00", json!({})), Some("not belong to round 1000"));
+    check(&answer("drand quicknet", 1000, &"c0".repeat(48), json!({})), Some("not belong to round 1000"));
 }
 
 /// The uncompressed form of the same signature has a different hash.
@@ -106,7 +106,7 @@ fn a_round_of_drand_needs_its_signature() {
 fn a_point_has_one_encoding() {
     let signature = min_sig::Signature::from_bytes(&hex(QUICKNET_1000).unwrap()).unwrap();
     let long: String = signature.serialize().iter().map(|byte| format!("{byte:02x}")).collect();
-    check(&answer("drand quicknet", 1000, &long, json!({})), Some("not the one of round 1000"));
+    check(&answer("drand quicknet", 1000, &long, json!({})), Some("not belong to round 1000"));
 }
 
 #[test]
@@ -169,7 +169,7 @@ fn other_networks_are_named_by_their_chain_hash() {
         check(&answer(&source, 9, &signature, more.clone()), Some("has no `chain`"));
         more["chain"] = serde_json::to_value(&chain).unwrap();
         check(&answer(&source, 9, &signature, more.clone()), None);
-        check(&answer(&source, 8, &signature, more.clone()), Some("not the one of round 8"));
+        check(&answer(&source, 8, &signature, more.clone()), Some("not belong to round 8"));
         check(&answer("drand quicknet", 9, &signature, more.clone()), Some("is already known: leave it out"));
         check(&answer("dice", 9, &signature, more.clone()), Some("which only drand networks have"));
         for (field, other) in [
@@ -180,14 +180,14 @@ fn other_networks_are_named_by_their_chain_hash() {
         ] {
             let mut forged = more.clone();
             forged["chain"][field] = other;
-            check(&answer(&source, 9, &signature, forged), Some("is not the one of drand"));
+            check(&answer(&source, 9, &signature, forged), Some("does not belong to drand"));
         }
         // The hash does not cover the scheme, but a signature is valid only under its own scheme.
         for (other, words) in [
             ("bls-unchained-g1-rfc9380", ""),
             ("pedersen-bls-unchained", ""),
             ("pedersen-bls-chained", ""),
-            ("bls-unchained-on-g1", "which is not checked here"),
+            ("bls-unchained-on-g1", "which is not supported"),
         ] {
             let mut forged = more.clone();
             forged["chain"]["schemeID"] = json!(other);
@@ -214,5 +214,5 @@ fn a_known_key_has_one_name() {
     chain.hash = chain.computed_hash().unwrap();
     let source = format!("drand {}", chain.hash);
     let file = answer(&source, 1000, QUICKNET_1000, json!({ "chain": chain }));
-    check(&file, Some("its `chain` has the key of `drand quicknet`: name that as the source"));
+    check(&file, Some("its `chain` has the key of `drand quicknet`: specify that network as the source"));
 }

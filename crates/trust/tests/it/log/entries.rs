@@ -104,7 +104,7 @@ fn swapped_beacons_are_told() {
                 if let Entry::Root { beacon, .. } = &mut forged[place + 1] {
                     *beacon = made_up;
                 }
-                "its `signature` is not the one of round"
+                "its `signature` does not belong to round"
             }
             6 => {
                 // The value belongs to a different round of the network, which suits the publisher.
@@ -116,7 +116,7 @@ fn swapped_beacons_are_told() {
                 if let Entry::Root { beacon, .. } = &mut forged[place + 1] {
                     *beacon = Some(other.value);
                 }
-                "its `signature` is not the one of round"
+                "its `signature` does not belong to round"
             }
             _ => {
                 // The value never came.
@@ -166,7 +166,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                 if let Some(Entry::Reveal(revealed)) = forged.get_mut(place + 3) {
                     revealed.seed = format!("better {number}");
                 }
-                broken(&forged, "is not the one that was committed to");
+                broken(&forged, "does not match the commitment");
             }
         }
     }

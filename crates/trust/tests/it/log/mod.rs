@@ -278,6 +278,6 @@ fn other_keys_are_told() {
                 previous: Some(any_digest(&mut chance)),
             },
         });
-        broken(&forged, "does not follow the one before it in the log");
+        broken(&forged, "does not follow the previous set in the log");
     }
 }

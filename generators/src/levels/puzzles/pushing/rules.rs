@@ -63,7 +63,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
         return Err("the avatar does not move cell by cell in four directions");
     }
     if !analysis.is_deterministic() || !analysis.is_turn_based() {
-        return Err("things move by themselves or by chance, so puzzles cannot be generated backwards");
+        return Err("sprites move by themselves or at random, so puzzles cannot be generated backwards");
     }
     let wall = palette.wall.ok_or("the game has no walls")?;
     let mut wins = analysis.goals().iter().filter(|goal| goal.win);
@@ -71,7 +71,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
         return Err("the game has no single winning termination");
     };
     let (Condition::AtMost(counted, 0) | Condition::Exactly(counted, 0)) = &goal.condition else {
-        return Err("the game is not won by removing things");
+        return Err("the game is not won by removing sprites");
     };
     let is_placed = |stype: &SpriteType| palette.symbol(*stype).is_some();
     let kinds: Vec<SpriteType> = counted.iter().copied().filter(is_placed).collect();
@@ -83,11 +83,11 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
         return Err("the sprites that must be removed cannot be pushed");
     }
     if kinds.len() > KINDS {
-        return Err("more than two kinds of things must be pushed");
+        return Err("more than two kinds of sprites must be pushed");
     }
     let walls = analysis.game().places(wall);
     if !kinds.iter().all(|&kind| walls.iter().any(|&wall| analysis.blocks(wall, kind))) {
-        return Err("walls do not stop pushed things");
+        return Err("walls do not stop pushed sprites");
     }
     let sinks = |kind: SpriteType| {
         let pushable = analysis.pushables().iter().find(|pushable| pushable.stype == kind);
@@ -99,7 +99,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
             let ends = |sink: &Sink| sink.partner == two && sink.fate == Fate::Goes && sink.fills;
             merges[a][b] = sinks(one).iter().any(ends);
             if !merges[a][b] && !analysis.blocks(two, one) {
-                return Err("pushed things do not stop each other");
+                return Err("pushed sprites do not stop each other");
             }
         }
     }
@@ -127,17 +127,17 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
                 for (b, &target) in targets.iter().enumerate().filter(|&(b, _)| b != a) {
                     let target = target.expect("a kind with targets");
                     if sinks(kind).iter().any(|sink| sink.partner == target) {
-                        return Err("one kind of things goes where the other does");
+                        return Err("one kind of sprites can be pushed onto the targets of the other kind");
                     }
                     crosses[a][b] = !analysis.blocks(target, kind);
                     if crosses[a][b] && !walkable[b] {
-                        return Err("things lie where the avatar cannot follow them");
+                        return Err("sprites lie where the avatar cannot follow");
                     }
                 }
             }
             Ok(Rules { kinds, destinations, targets, walkable, crosses, merges, sill })
         }
-        _ => Err("things are pushed onto each other in an unsupported way"),
+        _ => Err("sprites are pushed onto each other in an unsupported way"),
     }
 }
 
@@ -187,7 +187,7 @@ fn single(
         fair.then_some((sink.partner, destination, palette.walk(symbol)))
     });
     let (target, destination, walk) =
-        destinations.into_iter().next().ok_or("pushed things have no destination")?;
+        destinations.into_iter().next().ok_or("pushed sprites have no destination")?;
     let walkable = match walk {
         Walk::Open => true,
         Walk::Blocked | Walk::Deadly => false,

@@ -110,10 +110,10 @@ impl<'a> PuzzleVariation<'a> {
             return unsuitable("the board is too small for a push");
         }
         if puzzle.things == Some(0) || puzzle.floor_plans == 0 {
-            return unsuitable("a puzzle needs at least one thing to push and one floor plan");
+            return unsuitable("a puzzle needs at least one sprite to push and one floor plan");
         }
         if puzzle.way.is_some_and(|(from, to)| !(0.0..=to).contains(&from) || to > 1.0) {
-            return unsuitable("the share of the solution must be between 0 and 1, in ascending order");
+            return unsuitable("the fraction of the solution must be between 0 and 1, in ascending order");
         }
         let variation = PuzzleVariation { levels, rules, config, puzzle };
         let trial = |index: u64| variation.made(Seed::from_text("trial").child("puzzle", index), BATCH, None);

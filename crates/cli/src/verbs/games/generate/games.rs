@@ -57,17 +57,17 @@ pub(crate) struct Args {
     /// Text to derive the seeds from
     #[arg(long, value_name = "TEXT", default_value = "games")]
     seed: String,
-    /// Only games of kernels of this kind, such as shooter or rescue. May be given again
+    /// Make only games of hand-written kernels of this kind, such as shooter or rescue. May be repeated
     #[arg(long, value_name = "KIND", value_parser = kind)]
     kind: Vec<Kind>,
     /// Number of levels of each game
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=20))]
     levels: u32,
-    /// Write a report on the games here, judged again: report.html, report.json, sheet.png. The folder must be absent
-    /// or empty
+    /// Judge the games again, and write a report to this folder, absent or empty: report.html, report.json,
+    /// sheet.png
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// The folder of the new games: absent or empty
+    /// The folder for the new games, absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Continue an interrupted run of the same command
@@ -105,7 +105,7 @@ impl Args {
 fn kind(text: &str) -> Result<Kind, String> {
     let names = || kinds().map(Kind::name);
     kinds().find(|kind| kind.name() == text).ok_or_else(|| {
-        let all = || format!("there are {}", names().join(", "));
+        let all = || format!("the kinds are {}", names().join(", "));
         let help = engine::nearest(text, names()).map_or_else(all, |near| format!("did you mean `{near}`?"));
         format!("unknown kind; {help}")
     })
@@ -115,7 +115,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.is_of_kernels() && args.method != Method::Constructive {
         let method = args.method;
         bail!(
-            "--kind names kinds of hand-written kernels, whose games are only drawn: leave out --method {method}, or --kind"
+            "--kind selects hand-written kernels, which --method {method} does not use: leave out \
+             --method or --kind"
         );
     }
     let order = args.order();
@@ -317,7 +318,7 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     if missing > 0 {
         let _ = writeln!(
             text,
-            "{missing} could not be made: all attempts are used up: request fewer, other kinds, or use a different seed"
+            "{missing} could not be made: all attempts are used up: request fewer games or other kinds, or use a different seed"
         );
     }
     let out = args.out.in_message();

@@ -49,27 +49,28 @@ pub(crate) struct Args {
     /// Difficulty, as measured by a ladder of players: very_easy, easy, medium, hard, very_hard
     #[arg(long, value_name = "LABEL")]
     difficulty: Option<Difficulty>,
-    /// Columns and rows, the border included: 12x9. By default sizes like those of the game's own levels
+    /// Columns and rows, including the border, such as 12x9. By default, sizes similar to those of the game's
+    /// own levels
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(usize, usize)>,
     /// Minimum number of ticks of the shortest win found
     #[arg(long, value_name = "TICKS")]
     min_solution: Option<usize>,
-    /// A rule that the win has to use: its two sprites (`box hole`), with the effect if necessary, or its line in the
-    /// InteractionSet, from 1. May be given again
+    /// A rule that the win must use, given by its two sprites (`box hole`), with the effect if necessary, or
+    /// by its line in the InteractionSet, counted from 1. May be repeated
     #[arg(long, value_name = "RULE")]
     uses: Vec<String>,
-    /// Exact number of sprites of a type: `box=3`. May be given again
+    /// Exact number of sprites of a type, such as `box=3`. May be repeated
     #[arg(long, value_name = "TYPE=N", value_parser = count)]
     with: Vec<(String, usize)>,
-    /// Write a report on the levels here, judged again: report.html, report.json, sheet.png. The folder must be
-    /// absent or empty
+    /// Judge the levels again, and write a report to this folder, absent or empty: report.html, report.json,
+    /// sheet.png
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// Load the game as the reference engine does: overlook faults that it overlooks
+    /// Load the game as the reference engine does, and overlook the faults that the reference engine overlooks
     #[arg(long)]
     as_reference: bool,
-    /// The folder of the new levels: absent or empty
+    /// The folder for the new levels, absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }
@@ -286,7 +287,7 @@ fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
         let _ = writeln!(text, "rejected: {}", cost.reasons());
     }
     if missing > 0 {
-        let _ = writeln!(text, "{missing} could not be made: request fewer, or use a different seed");
+        let _ = writeln!(text, "{missing} could not be made: request fewer levels, or use a different seed");
     }
     let out = args.out.in_message();
     let _ = writeln!(text, "in {out}; view: arcade render {out} 0 -o level.png, play: arcade play {out} 0");

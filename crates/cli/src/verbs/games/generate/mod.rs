@@ -6,7 +6,7 @@ mod levels;
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 
-/// Makes new games, or new levels for a game, hand-made or generated.
+/// Makes new games, or new levels for a hand-made or generated game.
 ///
 /// Examples: arcade generate games --count 5 --out new-games
 /// and: arcade generate levels --game hailglass --count 5 --out new-levels

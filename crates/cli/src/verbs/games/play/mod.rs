@@ -30,7 +30,7 @@ pub(crate) struct Args {
     level: Option<String>,
     #[arg(long, value_name = "NAME", help = format!("Watch this planner play: {}", PLANNERS.join(", ")))]
     planner: Option<String>,
-    /// Forward-model calls of a decision, for a planner without a number of its own such as `mcts:500`
+    /// Forward-model calls per decision, unless the planner's name states them, as in `mcts:500`
     #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true,
         value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: u64,
@@ -43,13 +43,13 @@ pub(crate) struct Args {
     /// Watch a recorded episode
     #[arg(long, value_name = "FILE", conflicts_with = "planner")]
     replay: Option<PathBuf>,
-    /// Ticks a second, if the clock runs
+    /// Ticks per second, if the clock runs
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=MAX_PACE))]
     fps: u16,
-    /// Use no symbols beyond ASCII
+    /// Use ASCII symbols only
     #[arg(long)]
     ascii: bool,
-    /// Load the game as the reference engine does: overlook faults that it overlooks
+    /// Load the game as the reference engine does, and overlook the faults that the reference engine overlooks
     #[arg(long)]
     as_reference: bool,
 }

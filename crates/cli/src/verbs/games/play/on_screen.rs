@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let Some(path) = args.record.as_deref().map(MessagePath::in_message) {
         console.say(match written {
             Some(_) => format!("recorded in {path}"),
-            None => format!("nothing was played: {path} is not written"),
+            None => format!("nothing was played, so {path} was not written"),
         });
     }
     Ok(true)

@@ -30,17 +30,18 @@ pub(crate) struct Args {
     /// The port; 0 selects any free port
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
-    /// Print the address, and open no browser
+    /// Print the address without opening a browser
     #[arg(long)]
     no_open: bool,
     /// The folder for copies of games [default: the opened folder of games, or the current one]. With --judge, the file that
     /// judgements are added to
     #[arg(long, value_name = "PATH")]
     out: Option<PathBuf>,
-    /// A release to compare with the opened one
+    /// A release to compare with the opened release
     #[arg(long, value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     against: Option<PathBuf>,
-    /// Snapshots, or folders of snapshots, to search for the releases before the opened one when it is verified, in addition to
+    /// Snapshots, or folders of snapshots, to search for the releases before the opened release when verifying
+    /// it, in addition to
     /// the parent folders of the opened release and of --against
     #[arg(long, value_name = "DIR", num_args = 1.., requires = "place")]
     chain: Vec<PathBuf>,
@@ -55,7 +56,7 @@ pub(crate) struct Args {
     /// The number of pairs
     #[arg(long, value_name = "N", default_value_t = 20, requires = "judge", value_parser = clap::value_parser!(u64).range(1..=MOST_PAIRS as u64))]
     pairs: u64,
-    /// Print the results of a file of judgements, and open no page
+    /// Print the results in a file of judgements without opening a page
     #[arg(long, value_name = "FILE", conflicts_with_all = ["place", "judge", "out", "against"])]
     judge_report: Option<PathBuf>,
 }
@@ -103,7 +104,7 @@ fn serve(studio: Studio, args: &Args, console: &Console) -> Answer {
     } else {
         console.say(&url);
     }
-    console.remark("serving this machine until Ctrl-C");
+    console.remark("the studio serves only this machine; press Ctrl-C to stop");
     // Dropping this file at the end removes it.
     let opened = if args.no_open { None } else { browser::open(&url) };
     let (stop, run) = server.stoppable();

@@ -36,7 +36,8 @@ pub(crate) struct Args {
     /// Level files, or numbers of the game's own levels [default: all of the game's own levels]
     #[arg(value_name = "LEVEL")]
     levels: Vec<String>,
-    /// Forward-model calls to find a win, for each level; all other criteria take at most about eight times as many
+    /// Forward-model calls to find a win, for each level; all other criteria together take up to about eight
+    /// times this number
     #[arg(long, value_name = "CALLS", default_value_t = Criteria::default().budget, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     budget: u64,
     /// Also check the game and all its levels against the gates for generated games (`arcade docs gates`)
@@ -45,10 +46,10 @@ pub(crate) struct Args {
     /// Text to derive the validators' seed from
     #[arg(long, value_name = "TEXT", default_value = "validate")]
     seed: String,
-    /// Load the game as the reference engine does: overlook faults that it overlooks
+    /// Load the game as the reference engine does, and overlook the faults that the reference engine overlooks
     #[arg(long)]
     as_reference: bool,
-    /// Write the winning episode here (one level only)
+    /// Write the winning episode to this file (for one level only)
     #[arg(long, value_name = "FILE")]
     witness: Option<PathBuf>,
 }

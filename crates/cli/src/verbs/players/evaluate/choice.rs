@@ -52,7 +52,7 @@ pub(super) struct ChoiceArgs {
         value_parser = number(TARGETS)
     )]
     target_difference: Option<f64>,
-    /// Choose this number of episodes; with --target-error and --adaptive, at most this number
+    /// Choose this number of episodes; with --target-error and --adaptive, the maximum number
     #[arg(long, value_name = "N", requires = "scale", help_heading = "Choice of levels", value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES))]
     episodes: Option<u64>,
     /// The ability that the plan expects, in logits [default: 0, the mean difficulty of the first month]
@@ -130,7 +130,10 @@ pub(super) fn choose(
             );
         }
         if args.dry_run {
-            bail!("--adaptive depends on which episodes are won, so there is no forecast; --plan has one");
+            bail!(
+                "--adaptive has no forecast, because its choices depend on which episodes are won; use \
+                   --plan for a fixed choice with a forecast"
+            );
         }
         if target_error.is_none() && episodes.is_none() {
             bail!("--adaptive needs a stopping condition: pass --target-error, --episodes, or both");

@@ -60,13 +60,13 @@ pub(crate) struct Args {
     /// The player's name in results, for a model (--model), `human` or `mailbox:DIR`
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Only these games
+    /// Play only these games
     #[arg(long, value_name = "GAME", value_delimiter = ',')]
     games: Vec<String>,
-    /// Only these levels, by number (`--games`, `--levels` and `--max-requests` limit an evaluation)
+    /// Play only these levels, given by number (`--games`, `--levels` and `--max-requests` limit an evaluation)
     #[arg(long, value_name = "N", value_delimiter = ',')]
     levels: Vec<usize>,
-    /// Forward-model calls of a decision, for planners without a number of their own [default: 1000]
+    /// Forward-model calls per decision, unless the planner's name states them [default: 1000]
     #[arg(long, value_name = "CALLS", value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: Option<u64>,
     /// Episodes on each level
@@ -84,10 +84,10 @@ pub(crate) struct Args {
     /// Folder for the results, absent or empty [default: results/ and the player's name]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Resume the evaluation in the folder
+    /// Resume the evaluation in the --out folder
     #[arg(long)]
     resume: bool,
-    /// Load games as the reference engine does: overlook faults that it overlooks
+    /// Load games as the reference engine does, and overlook the faults that the reference engine overlooks
     #[arg(long)]
     as_reference: bool,
     /// Only print the forecast
@@ -193,7 +193,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     let evaluation = evaluation?;
     if let Some(origin) = origin {
-        let mut text = serde_json::to_string_pretty(&origin).expect("what was checked is plain data");
+        let mut text = serde_json::to_string_pretty(&origin).expect("checked settings are plain data");
         text.push('\n');
         whole_file::write(&folder.join(ORIGIN_FILE), text.as_bytes())?;
     }

@@ -39,7 +39,7 @@ pub(crate) struct ModelArgs {
     /// Sampling temperature; not sent if not given
     #[arg(long, value_name = "T", requires = "model", value_parser = number(0.0..=2.0))]
     temperature: Option<f64>,
-    /// Nucleus sampling; not sent if not given
+    /// Nucleus sampling threshold; not sent if not given
     #[arg(long, value_name = "P", requires = "model", value_parser = number(0.0..=1.0))]
     top_p: Option<f64>,
     /// Maximum number of tokens per answer, reasoning included
@@ -48,7 +48,7 @@ pub(crate) struct ModelArgs {
     /// The provider's sampling seed
     #[arg(long, value_name = "N", requires = "model")]
     sampling_seed: Option<u64>,
-    /// `low`, `medium`, `high`, or another value of the provider
+    /// `low`, `medium`, `high`, or a different value that the provider accepts
     #[arg(long, value_name = "EFFORT", requires = "model")]
     reasoning_effort: Option<String>,
     /// Number of repeated requests after an answer without a usable action
@@ -92,7 +92,8 @@ pub(crate) struct ModelArgs {
 #[derive(clap::Args)]
 #[command(next_help_heading = "Prompts (see `arcade docs prompts`)")]
 pub(crate) struct PromptArgs {
-    /// A bundle of prompt settings, whose results are never mixed with others: the default prompts, meaningless names, three
+    /// A bundle of prompt settings, whose results are never mixed with results of other settings: the default
+    /// prompts, meaningless names, three
     /// levels for discovering the rules in place of the rules, or an image in place of the board (see `arcade docs tracks`)
     #[arg(long, value_parser = PossibleValuesParser::new(Track::ALL.map(Track::name)).map(track_named))]
     pub(super) track: Option<Track>,
@@ -105,7 +106,7 @@ pub(crate) struct PromptArgs {
     /// The form of the rules in prompts
     #[arg(long, value_parser = named::<Rules, 3>(["described", "vgdl", "none"]), default_value = "described")]
     rules: Rules,
-    /// Aids beyond the default
+    /// Aids to add to the defaults
     #[arg(long, value_enum, value_delimiter = ',', value_name = "AID")]
     with: Vec<Aid>,
     /// Aids to leave out
@@ -120,7 +121,7 @@ pub(crate) struct PromptArgs {
     /// Shuffle the characters of the board, with this number as the seed
     #[arg(long, value_name = "N")]
     shuffle_symbols: Option<u64>,
-    /// File with advice to add verbatim
+    /// File with advice that prompts include verbatim
     #[arg(long, value_name = "FILE")]
     strategy: Option<PathBuf>,
     /// Maximum number of tokens of a conversation; the oldest turns beyond it are left out [default: 20000]
@@ -199,7 +200,8 @@ impl PromptArgs {
         let of_track = settings.aids_beyond(&free);
         if let Some(aid) = asked.aids_beyond(&free).into_iter().find(|aid| !of_track.contains(aid)) {
             bail!(
-                "the track `{}` is a fixed bundle of settings, which `{aid}` contradicts; leave out its flag, or --track",
+                "the track `{}` has fixed settings, which `{aid}` contradicts; leave out the flag for \
+                 `{aid}`, or --track",
                 track.name()
             );
         }
@@ -262,9 +264,9 @@ impl Aid {
     }
 }
 
-/// The defaults of flags that are rejected for players on which these flags have no effect.
-const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("it is positive");
-const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("it is positive");
+/// The defaults of flags that are rejected for players on which they have no effect.
+const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("the default is positive");
+const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("the default is positive");
 const TIMEOUT: u64 = 600;
 
 impl ModelArgs {

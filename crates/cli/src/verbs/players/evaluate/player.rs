@@ -110,13 +110,13 @@ impl RequestedPlayer {
         let fit: Vec<&str> = fit.into_iter().filter(|id| !problems.contains_key(id)).collect();
         match (problems.len(), fit.is_empty()) {
             (_, false) => Err(malformed!(
-                "{game}: {why}; it can play {} of {} games: --games {}",
+                "{game}: {why}; the player can play {} of {} games: pass --games {}",
                 fit.len(),
                 subjects.len(),
                 fit.join(",")
             )),
             (1, _) => Err(malformed!("{game}: {why}")),
-            (many, _) => Err(malformed!("{game}: {why}; it can play none of the {many} games")),
+            (many, _) => Err(malformed!("{game}: {why}; the player cannot play any of the {many} games")),
         }
     }
 
@@ -163,7 +163,7 @@ impl RequestedPlayer {
                 let remark = console.remarks();
                 let track = args.model.prompt.track.unwrap_or(Track::Told);
                 let process = move || {
-                    let process = process(&command, timeout).expect("it was read before");
+                    let process = process(&command, timeout).expect("the command line was parsed before");
                     process.with_notices(remark.clone()).on_track(track)
                 };
                 Box::new(move |_| Contestant::Agent(Box::new(process())))

@@ -41,7 +41,7 @@ impl Progress for Bar<'_> {
         if !goes_on {
             self.bar.suspend(|| {
                 self.console.remark(
-                    "none is usable, so no more requests are sent; --resume --keep-going continues anyway",
+                    "no answer is usable, so no more requests are sent; --resume --keep-going continues anyway",
                 );
             });
         }

@@ -133,7 +133,7 @@ fn help_with(unknown: &str, games: &[Subject]) -> String {
     let listed: Vec<&str> = games.iter().map(|game| game.id.as_str()).take(MAX_LISTED).collect();
     let more = games.len().saturating_sub(MAX_LISTED);
     let more = if more == 0 { String::new() } else { format!(" and {more} more") };
-    format!("there are {}{more}", listed.join(", "))
+    format!("the games are {}{more}", listed.join(", "))
 }
 
 /// Returns `true` if the path is a release: a folder with a manifest, or an archive.

@@ -33,29 +33,31 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
         (RequestedPlayer::Planner(spec), Track::Masked | Track::Discover | Track::Vision) => {
             match spec.name() {
                 "random" | "random-with-nil" | "do-nothing" => Ok(()),
-                _ => {
-                    refuse("it plans with the rules and the state, whatever prompts show; leave out --track")
-                }
+                _ => refuse(
+                    "the player plans with the rules and the state, whatever prompts show; leave \
+                            out --track",
+                ),
             }
         }
-        (RequestedPlayer::Replay(_), _) => refuse("it repeats an episode; leave out --track"),
+        (RequestedPlayer::Replay(_), _) => refuse("the player repeats an episode; leave out --track"),
         (RequestedPlayer::Human(_), Track::Vision) => {
             refuse("a terminal cannot show images; `mailbox:DIR` puts a PNG file beside each prompt")
         }
-        (RequestedPlayer::Human(_), Track::Discover) => {
-            refuse("the last question takes several lines; `mailbox:DIR` asks people for whole answers")
-        }
+        (RequestedPlayer::Human(_), Track::Discover) => refuse(
+            "the answer to the last question has several lines; use `mailbox:DIR`, where people \
+                    write whole answers",
+        ),
         (RequestedPlayer::Touching, Track::Vision) => {
-            refuse("it cannot read images; it can play on `told`, `masked` and `discover`")
+            refuse("the player cannot read images; choose `told`, `masked` or `discover`")
         }
         (RequestedPlayer::Prompted(PromptPlayer::Reflex, _), Track::Discover) => {
-            refuse("it needs the rules; `touch-everything` needs none")
+            refuse("the player needs the rules; use `touch-everything`, which plays without rules")
         }
         (RequestedPlayer::Prompted(PromptPlayer::Planner(_), _), _) => {
-            refuse("it needs the rules as VGDL; leave out --track, and pass --rules vgdl")
+            refuse("the player needs the rules as VGDL; leave out --track, and pass --rules vgdl")
         }
         (RequestedPlayer::Prompted(..), Track::Vision) => {
-            refuse("it reads the board as text, not as an image; it can play on `told` and `masked`")
+            refuse("the player reads the board as text, not as an image; choose `told` or `masked`")
         }
         (RequestedPlayer::Process(_), Track::Vision) => refuse(
             "programs are sent the board as lines of JSON; a program that reads images plays through \

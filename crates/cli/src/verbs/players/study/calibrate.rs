@@ -57,7 +57,7 @@ pub(crate) struct Args {
     /// The name of the release on the scale [default: the name of its folder]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Resume the calibration in the folder
+    /// Resume the calibration in the --out folder
     #[arg(long)]
     resume: bool,
 }
@@ -135,7 +135,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             .map_err(stopped)?;
         for StoppedEpisodes { game, reason, episodes } in &tally.stopped {
             console.remark(format_args!(
-                "warning: the engine stopped {} of {} in {game}: {reason}; they are left out",
+                "warning: the engine stopped {} of {} in {game}: {reason}; these plays are left out",
                 count(*episodes as usize, "episode"),
                 examinee.name
             ));
@@ -169,8 +169,8 @@ fn examinees(
     if known.is_empty() {
         let path = path.as_deref().unwrap_or(Path::new("scale.json")).in_message();
         bail!(
-            "{path}: this version of arcade has none of its examinees; calibrate with the version that has \
-             them"
+            "{path}: this version of arcade lacks the examinees of this scale; calibrate with the version \
+             that has them"
         );
     }
     Ok(known)
@@ -184,7 +184,7 @@ fn calibrated(
     persons: &[PersonPlays],
     name: &str,
 ) -> Result<ScaleFile, Failure> {
-    let failed = || malformed!("the plays cannot be calibrated: there are too few of them; see --runs");
+    let failed = || malformed!("there are too few plays to calibrate; raise --runs");
     if let Some(mut scale) = earlier {
         if scale.months.iter().any(|month| month.name == name) {
             bail!("the scale already has a release `{name}`; give this one a different name with --name");
@@ -288,7 +288,7 @@ fn default_name(subjects: &[String]) -> String {
 }
 
 fn print(scale: &ScaleFile, path: &Path, console: &Console) -> Result<(), Failure> {
-    let month = scale.months.last().expect("one was just added");
+    let month = scale.months.last().expect("a month was just added");
     console.document(&json!({
         "scale": paths::in_json(path),
         "month": { "name": month.name, "shifts": month.shifts, "planners_shift": month.planners_shift, "link": month.link, "drift": month.drift },

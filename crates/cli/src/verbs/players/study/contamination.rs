@@ -96,17 +96,20 @@ fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     let (name, place) = (&manifest.name, args.release.in_message());
     let how = "mint a sealed release whose recipe has `[memory]` (`arcade docs memory`)";
     if manifest.kind == ReleaseKind::Open {
-        bail!("{place}: `{name}` is open, so no coin has withheld anything; {how}");
+        bail!("{place}: `{name}` is open, so nothing was withheld; {how}");
     }
     if MemoryPart::of(manifest).is_none() {
-        bail!("{place}: `{name}` has no coins, because its recipe has no `[memory]`; {how}");
+        bail!(
+            "{place}: `{name}` has no withheld siblings or wins, because its recipe has no `[memory]`; \
+               {how}"
+        );
     }
     let coins = Coins { games: released.games.iter().map(coin).collect() };
     if coins.counts() == (0, 0) {
         let has = |part: &str| manifest.items.iter().any(|item| item.path.starts_with(part));
         if manifest.is_hiding() || has("held/siblings/") || has("held/seconds/") {
             bail!(
-                "{place}: the parts that the coins of `{name}` withheld are missing; reveal the release, or \
+                "{place}: the withheld parts of `{name}` are missing; reveal the release, or \
                  ask its publisher to: arcade release PUBLIC --reveal HELD --out DIR"
             );
         }

@@ -11,7 +11,7 @@ use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Places players on a scale: their ability as each release shows it, with its error in parts.
+/// Places players on a scale: their ability on each release, with a breakdown of the error.
 ///
 /// Ability and difficulty are in logits above the mean difficulty of the scale's first release. The error has three parts: the
 /// number of episodes (sampling), games that suit the player (mismatch), and the link between the months (see
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let found = abilities(&scale, &persons);
     if found.iter().all(|person| person.months.is_empty() && person.left_out.is_empty()) {
         bail!(
-            "none of the levels in these results is on the scale; evaluate a release that is on it: {}",
+            "no level in these results is on the scale; evaluate a release that is on the scale: {}",
             scale.months.iter().map(|month| visible(&month.name)).join(", ")
         );
     }

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             .flat_map(|person| left_out(&person.player.label(), &person.left_out, scale.max_steps));
         remarks.for_each(|line| console.remark(line));
         bail!(
-            "none of the episodes in these results is on the scale; evaluate a release that is on it: {}",
+            "no episode in these results is on the scale; evaluate a release that is on the scale: {}",
             scale.months.iter().map(|month| &month.name).join(", ")
         );
     }

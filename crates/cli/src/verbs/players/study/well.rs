@@ -13,7 +13,7 @@ use snapshots::Recipe;
 use std::path::PathBuf;
 use validators::novelty::GameForm;
 
-/// Simulates a chain of months on rules alone, and measures how many new games are left.
+/// Simulates a chain of monthly releases with rules only, and measures how many new games are left.
 ///
 /// Each month draws the invented games of the recipe as minting does: it knows all games of the earlier months, prefers the
 /// mechanics that they used least, and rejects rules close to theirs or to the corpus. No boards are made. Instead, a fraction of
@@ -36,7 +36,7 @@ pub(crate) struct Args {
     /// Fraction of the new rules for which boards are found
     #[arg(long = "yield", value_name = "SHARE", default_value_t = 0.1, value_parser = number(0.0..=1.0))]
     passing: f64,
-    /// Text that all draws are derived from
+    /// Text to derive all draws from
     #[arg(long, value_name = "TEXT", default_value = "the well")]
     seed: String,
 }
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     console.document(&well)?;
     console.say(format_args!(
         "{:.0} rule sets: choices of mechanics and an ending that can be built, {:.0}% of all; {:.0}% of \
-         them are taken to pass",
+         them are assumed to pass",
         well.sets,
         100.0 * well.sound,
         100.0 * order.passing

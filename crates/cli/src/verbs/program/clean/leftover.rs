@@ -21,8 +21,8 @@ pub(super) enum LeftoverKind {
     Draft(Abandoned),
     /// A shard of a release, with its description.
     Shard(String),
-    /// An unfinished file. While this process holds it open, no other process considers it abandoned.
-    File(#[expect(dead_code, reason = "it holds the lock")] File),
+    /// An unfinished file. While it is held open, no other process considers it abandoned.
+    File(#[expect(dead_code, reason = "the open file holds the lock")] File),
     Scratch,
     /// A file that redirected a browser to the page of `arcade studio`.
     Page,

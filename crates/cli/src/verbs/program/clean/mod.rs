@@ -26,7 +26,7 @@ pub(crate) struct Args {
     /// Folders to search [default: the current folder]
     #[arg(value_name = "DIR")]
     folders: Vec<PathBuf>,
-    /// Print what would be removed, and remove nothing
+    /// Print what would be removed without removing anything
     #[arg(long)]
     dry_run: bool,
     /// Also remove interrupted runs that --resume could continue
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut found = Vec::new();
     for folder in folders {
         if !paths::metadata(folder)?.is_some_and(|found| found.is_dir()) {
-            bail!("{}: there is no such folder", folder.in_message());
+            bail!("{}: there is no such folder; check the path", folder.in_message());
         }
         search(folder, console, &mut found)?;
     }

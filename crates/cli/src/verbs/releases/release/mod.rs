@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// Print the contents and the cost of the mint, but mint nothing. With --resume, only the remaining part
     #[arg(long)]
     dry_run: bool,
-    /// The folder of the previous release: nothing that is in this release or an earlier one is minted again
+    /// The previous release's folder. No content of the previous release or an earlier one is minted again
     #[arg(long, value_name = "DIR", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
     /// The secret of a sealed release, as made by --commit
@@ -65,7 +65,7 @@ pub(crate) struct Args {
     /// Draw a secret for this recipe, write it to the file --out, and print the commitment
     #[arg(long, conflicts_with_all = ["shard", "resume", "dry_run", "secret", "reveal"])]
     commit: bool,
-    /// Join a sealed release with this folder, its held-back part, if both match their commitments
+    /// Join a sealed release with its withheld part in this folder, if both match the commitments
     #[arg(long, value_name = "DIR", conflicts_with_all = ["shard", "resume", "dry_run", "secret", "parent"])]
     reveal: Option<PathBuf>,
     /// Reveal one of the two recorded wins per level, and keep the others sealed (see `arcade docs memory`)
@@ -131,7 +131,7 @@ impl Request<'_> {
             Some(parent) => follow(&mut recipe, parent)?,
             None if recipe.parent.is_some() => {
                 bail!(
-                    "the recipe has a parent: pass its folder with --parent, so that no content is minted \
+                    "the recipe has a parent: pass the parent's folder with --parent, so that no content is minted \
                      twice"
                 );
             }
@@ -140,7 +140,7 @@ impl Request<'_> {
         let out = match (&args.out, args.shard) {
             (Some(out), _) => out.clone(),
             (None, None) => Path::new("releases").join(&recipe.name),
-            (None, Some(_)) => bail!("--shard needs --out: a folder for the shard"),
+            (None, Some(_)) => bail!("--shard needs --out, the folder of the shard"),
         };
         protected::check(&out)?;
         if args.dry_run && recipe.seed.is_none() && secret.is_none() {
@@ -276,7 +276,7 @@ pub(crate) fn find_recipe(
                 file = file.in_message()
             ),
             Some(near) => format!("did you mean `{near}`? Or pass a .toml file"),
-            None => format!("there are {}, or pass a .toml file", known.join(", ")),
+            None => format!("the recipes are {}; or pass a .toml file", known.join(", ")),
         };
         bail!("no recipe named `{name}`; {help}");
     };

@@ -51,7 +51,7 @@ impl Progress for ProgressBars<'_> {
 
     fn made(&self, name: &str, games: &[FrozenGame]) {
         let titles: Vec<&str> = games.iter().map(|game| game.card.title.as_str()).collect();
-        let what = if titles.is_empty() { "nothing passed".to_owned() } else { titles.join(", ") };
+        let what = if titles.is_empty() { "no candidate passed".to_owned() } else { titles.join(", ") };
         self.bar.set_message(format!("{name}: {what}"));
         self.bar.inc(1);
         let Ok(mut last_report) = self.last_report.lock() else { return };

@@ -200,7 +200,8 @@ pub(super) fn reveal(
             let command = |verb: &str| shell::command([OsStr::new(verb), out.as_os_str()]);
             if what == Reveal::Solutions {
                 console.say(format_args!(
-                    "{}: the wins that coins published are revealed; seed, siblings and second wins stay withheld",
+                    "{}: one win of each level is revealed; the seed, the siblings and the second wins \
+                     stay withheld",
                     manifest.name
                 ));
                 console.say(format_args!("root {}\nin   {place}", manifest.root));

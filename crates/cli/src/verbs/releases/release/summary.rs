@@ -61,7 +61,7 @@ pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Opt
     let beacon = ["--beacon", "FILE"].map(OsStr::new);
     let beacon = beacon.into_iter().filter(|_| recipe.beacon.is_some());
     let _ = writeln!(text, "to publish it, sign it:  {}", sign_command(&public));
-    let _ = writeln!(text, "then, in a log, enter it:  {}", log_command(beacon.chain(entered)));
+    let _ = writeln!(text, "then append it to a log:  {}", log_command(beacon.chain(entered)));
     if manifest.commitment.is_some() {
         let _ = writeln!(text, "then publish:   {}", public.in_message());
         let _ = writeln!(text, "keep private until the reveal: {}", out.join("held").in_message());

@@ -10,7 +10,7 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use trust::{KeySet, NamedKey, PublicKey, Signatures, read_bounded, sign_into};
 
-/// Makes the next set of keys, keys-N.json, or shows the newest.
+/// Makes the next set of keys, keys-N.json, or shows the newest set.
 ///
 /// A set states who may sign, how many of them must, and which keys no longer count. The first set is trusted as it is published.
 /// Each later set must be signed by enough keys of the previous set and of its own, so that anyone who knows one set can follow
@@ -27,7 +27,7 @@ pub(crate) struct Args {
     /// New keys, each with the name of its holder
     #[arg(long, value_name = "NAME=FILE", num_args = 1..)]
     add: Vec<String>,
-    /// Keys that no longer count, each with the reason
+    /// Keys to revoke, each with the reason
     #[arg(long, value_name = "NAME=REASON", num_args = 1..)]
     revoke: Vec<String>,
     /// The number of keys that have to sign [default: as in the previous set]
@@ -98,10 +98,10 @@ fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
     }
     match problems.is_empty() {
         true if set.version == 1 => console.say(format_args!(
-            "publish this file where it cannot be changed unnoticed: readers start from it; digest {}",
+            "publish this file where it cannot be changed unnoticed: readers start from this set; digest {}",
             set.digest()?
         )),
-        true => console.say(format_args!("it follows from keys-1.json; digest {}", set.digest()?)),
+        true => console.say(format_args!("the set follows from keys-1.json; digest {}", set.digest()?)),
         false => console.say(format_args!(
             "readers do NOT follow it yet: sign with  arcade trust keys {} --secret FILE...",
             crate::shell::quoted(&args.folder)

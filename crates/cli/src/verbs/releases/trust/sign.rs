@@ -27,7 +27,8 @@ pub(crate) struct Args {
     snapshot: PathBuf,
     #[command(flatten)]
     secrets: SecretArgs,
-    /// The set of keys in force (keys-N.json); it is copied beside the statement with the sets before it
+    /// The set of keys in force (keys-N.json), which is copied beside the statement together with the earlier
+    /// sets
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
     /// The commit of the sources [default: as recorded in this build]
@@ -52,7 +53,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let set = args.keys.as_deref().map(|file| match anchor(file)? {
         Anchor::Set(set) => Ok(*set),
         Anchor::Key(_) => Err(malformed!(
-            "`{}` is a public key: --keys takes a set of them, keys-N.json, which `arcade trust keys` makes",
+            "`{}` is a public key, but --keys takes a set of keys: pass keys-N.json, which `arcade trust \
+             keys` makes",
             file.in_message()
         )),
     });

@@ -41,7 +41,7 @@ pub(crate) struct Args {
     /// The snapshot's folder or .tar.zst; with --proof, the item's file or the game's folder
     #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
-    /// Snapshots, or folders of snapshots, to search for the releases before this one
+    /// Snapshots, or folders of snapshots, to search for earlier releases
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "proof")]
     chain: Vec<PathBuf>,
     /// A file of the snapshot, such as games/x/lvl0.txt, or a game's folder name for all of its files
@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// Check this proof for the item, without the rest of the snapshot
     #[arg(long, value_name = "FILE", requires = "item", requires = "root")]
     proof: Option<PathBuf>,
-    /// The published root, to compare with
+    /// The published root that the snapshot must have
     #[arg(long, value_name = "DIGEST", value_parser = digest)]
     root: Option<Digest>,
     #[command(flatten)]
@@ -61,7 +61,7 @@ pub(crate) struct Args {
     /// Accept a snapshot of other semantics as sound although its witnesses were not replayed
     #[arg(long)]
     accept_unreplayed: bool,
-    /// Maximum number of units of work of all replays together, instead of the default above
+    /// Maximum number of units of work for all replays together, instead of the default above
     #[arg(long, value_name = "UNITS", value_parser = clap::value_parser!(u64).range(1..))]
     max_work: Option<u64>,
 }

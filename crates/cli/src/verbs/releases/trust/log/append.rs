@@ -51,7 +51,7 @@ pub(crate) struct Args {
     /// The folder of the previous release, as it was given to `arcade release --commit`
     #[arg(long, value_name = "DIR", requires = "commitment", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
-    /// The committed release follows no other, although the log has earlier ones
+    /// The committed release has no parent, although the log has earlier releases
     #[arg(long, requires = "commitment", conflicts_with = "parent")]
     first: bool,
     /// Values of public randomness, as JSON files
@@ -97,8 +97,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let entry = release(sound(place)?, place)?;
         if matches!(entry, Entry::Root { statement: None, .. }) && !args.unsigned {
             bail!(
-                "`{}` is not signed, and its entry could not be changed later: sign it first with `{}`, or enter it \
-                 without a signature with --unsigned",
+                "`{}` is not signed, and its entry could not be changed later: sign it first with `{}`, \
+                 or append it without a signature with --unsigned",
                 place.in_message(),
                 sign_command(place)
             );
@@ -117,7 +117,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     for text in &args.calibration {
         let Some((name, file)) = text.split_once('=') else {
-            bail!("`{text}` is not a scale with the name of its release: write NAME=FILE");
+            bail!("`{text}` does not give the name of a release and its scale: write NAME=FILE");
         };
         let root = root_of(name, &new)?;
         let scale = ScaleFile::read(Path::new(file))?;
@@ -250,7 +250,7 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
             }
         }
         _ => console.remark(format_args!(
-            "note: without the secret, `{}`, nothing shows that recipe and parent are those committed to",
+            "note: without the secret, `{}`, nothing shows that the recipe and the parent match the commitment",
             secret.in_message()
         )),
     }

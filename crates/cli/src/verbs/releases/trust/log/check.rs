@@ -28,7 +28,7 @@ pub(crate) struct Args {
     /// The public key of the log
     #[arg(long, value_name = "FILE")]
     key: PathBuf,
-    /// A checkpoint seen before, which the log must extend
+    /// An earlier checkpoint that the log must extend
     #[arg(long, value_name = "FILE")]
     seen: Option<PathBuf>,
     /// Write the checkpoint here if the log is sound
@@ -77,12 +77,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let (Some(growth), Some(seen)) = (&args.growth, &args.seen) {
         return consistency(growth, seen, &key, console);
     }
-    let folder = args.log.as_deref().expect("the arguments require it");
+    let folder = args.log.as_deref().expect("the arguments require the log's folder");
     let log = match Log::open(folder) {
         // A log exists but is damaged, so this is an answer and not a failure.
         Err(error @ TrustError::Document { .. }) => return damaged(&error, console),
         Ok(None) => return Err(absent(folder)),
-        log => log?.expect("there is one"),
+        log => log?.expect("the log exists"),
     };
     // The checkpoint that was seen last may be replaced by the new checkpoint.
     if let Some(file) = &args.save {
@@ -137,7 +137,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.say(format_args!("{number:>5}  {}", line(entry, &entries)));
     }
     for name in &unkept {
-        console.say(format_args!("`{name}` was committed to, but has no root yet"));
+        console.say(format_args!("`{name}` has a commitment, but no root yet"));
     }
     found.iter().chain(&notes).chain(&problems).for_each(|line| console.say(line));
     let entries = counted(size);
@@ -160,7 +160,7 @@ fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {
     let mut problems = Vec::new();
     for text in asked {
         let Some((name, file)) = text.split_once('=') else {
-            bail!("`{text}` is not a witness with its public key: write NAME=FILE");
+            bail!("`{text}` does not give the name of a witness and its public key: write NAME=FILE");
         };
         if log.checkpoint.witnessed(name, &public_key(Path::new(file))?).is_none() {
             problems.push(format!("the witness `{name}` has not signed the checkpoint"));
@@ -173,7 +173,7 @@ fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {
 fn reached(entries: &[Entry], month: &str) -> String {
     match root_of(entries, month) {
         Some(number) => format!("the release of {month} is entry {number}"),
-        None => format!("the log has no release of {month}, but one of a later month"),
+        None => format!("the log has a release of a later month, but no release of {month}"),
     }
 }
 
@@ -202,7 +202,8 @@ fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option
     let fault = match found {
         None => Some(format!("`{shown}`: `{release}` with root {root} is not in the log")),
         Some(Entry::Root { root: logged, .. }) if logged != root => Some(format!(
-            "`{shown}`: its root is {root}, and the log has `{release}` with root {logged}: two releases of one name"
+            "`{shown}`: its root is {root}, but the log has `{release}` with root {logged}: two releases \
+             have the same name"
         )),
         Some(Entry::Root { parent: a, commitment: b, beacon: c, .. })
             if (a, b, c) != (parent, commitment, beacon) =>
@@ -236,7 +237,8 @@ fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Rep
     });
     let Some(logged) = logged else {
         return only(format!(
-            "no row of the log has its digest, {digest}: it was altered later, or never appended"
+            "no row of the log has the digest of these results, {digest}: the results were altered later, \
+             or never appended"
         ));
     };
     // If an episode does not replay, the row is wrong. This is an answer and not a failure.

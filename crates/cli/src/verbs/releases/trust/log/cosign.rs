@@ -52,7 +52,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let seen = checkpoint(file)?;
         if seen.check(&key).is_err() || seen.witnessed(&args.witness, &secret.public()).is_none() {
             bail!(
-                "`{}` is not signed by the log and by this witness: pass the one signed last",
+                "`{}` is not signed by both the log and this witness: pass the checkpoint that the \
+                 witness signed last",
                 file.in_message()
             );
         }

@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if let Some(file) = &args.since {
         let seen = checkpoint(file)?;
         if let Some(fault) = log.fork(&seen) {
-            bail!("there is no such proof: {fault}");
+            bail!("the proof cannot be written: {fault}");
         }
         let Some(proof) = log.prove_growth(seen.size) else {
             bail!("every log extends an empty log, so there is nothing to prove")

@@ -6,7 +6,7 @@ use crate::failure::Answer;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Lists the entries of a log. Nothing is checked: `arcade trust log check` needs the key of the log for that.
+/// Lists the entries of a log without checking them. `arcade trust log check` checks a log with its public key.
 ///
 /// Example: arcade trust log show log
 #[derive(clap::Args)]
