@@ -139,7 +139,7 @@ def mint(
 
     Returns:
         A dictionary with ``out``, ``root``, ``games`` (their cards), ``card`` and ``caveats``. For a shard, a
-        dictionary with ``out``, ``shard`` and ``lots`` (the number of jobs).
+        dictionary with ``out``, ``shard`` and ``jobs`` (the number of jobs).
 
     Raises:
         ArcadeError: if the recipe cannot be minted, or the folder cannot be written.

@@ -54,7 +54,7 @@ pub(crate) fn mint(
             Outcome::Complete => Ok(json!({ "out": order.out, "complete": true }).to_string()),
             Outcome::Shard(jobs) => {
                 let shard = order.shard.map(|shard| shard.to_string());
-                Ok(json!({ "out": order.out, "shard": shard, "lots": jobs }).to_string())
+                Ok(json!({ "out": order.out, "shard": shard, "jobs": jobs }).to_string())
             }
             Outcome::Release(minted) => Ok(document(&minted, &order.recipe, &order.out)),
         }

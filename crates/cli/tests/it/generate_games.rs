@@ -67,7 +67,7 @@ fn an_interrupted_run_goes_on_with_the_same_bytes() {
     let mut command = arcade(home.path());
     let child = command.args(&args).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let finished = || {
-        let jobs = fs::read_dir(home.path().join("new.partial/lots")).into_iter().flatten().flatten();
+        let jobs = fs::read_dir(home.path().join("new.partial/jobs")).into_iter().flatten().flatten();
         jobs.filter(|job| job.path().extension().is_some_and(|kind| kind == "json")).count()
     };
     while finished() < 2 {

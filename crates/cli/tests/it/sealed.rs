@@ -291,8 +291,8 @@ fn shards_of_a_sealed_release_are_private() {
         let said = text(&run(folder, &[&mint[..], &["--resume"]].concat(), 0).stdout);
         assert!(said.contains("already complete"), "{said}");
         let shard = folder.join(out);
-        let lots = files(&shard).into_keys().map(|name| shard.join(name));
-        let places: Vec<_> = lots.chain([shard.clone(), shard.join("lots")]).collect();
+        let jobs = files(&shard).into_keys().map(|name| shard.join(name));
+        let places: Vec<_> = jobs.chain([shard.clone(), shard.join("jobs")]).collect();
         assert_eq!(places.len(), 4, "{places:?}");
         for place in places {
             let mode = fs::metadata(&place).unwrap().permissions().mode();
@@ -337,11 +337,11 @@ fn other_recipes_do_not_reuse_finished_jobs() {
     let one = recipe("x").replacen("commitment", "seed", 1);
     fs::write(folder.join("one.toml"), format!("{one}[taxonomy.goals]\ndeliver = [1.0, 1.0]\n")).unwrap();
     run(folder, &["release", "one.toml", "--out", "out"], 2);
-    let before = files(&folder.join("out.partial/lots"));
+    let before = files(&folder.join("out.partial/jobs"));
     assert!(before.len() > 2, "{:?}", before.keys());
     let output = run(folder, &["release", "tiny", "--resume", "--out", "out"], 2);
     assert!(text(&output.stderr).contains("a different recipe"), "{}", text(&output.stderr));
-    assert_eq!(files(&folder.join("out.partial/lots")), before);
+    assert_eq!(files(&folder.join("out.partial/jobs")), before);
     fs::write(folder.join("one.toml"), one).unwrap();
     run(folder, &["release", "one.toml", "--out", "out", "--resume"], 0);
 }

@@ -58,13 +58,13 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     run(folder, &["release", "other.toml", "--shard", "2/3", "--out", "other2"], 0);
     assert!(said(&["merge", "shard1", "other2", "shard3", "--out", "x"]).contains("different recipes"));
 
-    let (lot, content) =
-        files(&folder.join("shard1")).into_iter().find(|(name, _)| name.starts_with("lots/")).unwrap();
+    let (job, content) =
+        files(&folder.join("shard1")).into_iter().find(|(name, _)| name.starts_with("jobs/")).unwrap();
     let mut altered = content.clone();
     altered[content.len() / 2] ^= 1;
-    fs::write(folder.join("shard1").join(&lot), altered).unwrap();
+    fs::write(folder.join("shard1").join(&job), altered).unwrap();
     let said = said(&["merge", "shard1", "shard2", "shard3", "--out", "x"]);
-    assert!(said.contains(&lot) && said.contains("changed after it was made"), "{said}");
+    assert!(said.contains(&job) && said.contains("changed after it was made"), "{said}");
     assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
 
     // `arcade clean` lists shards and removes them on request, but does not remove a shard with a foreign file in
@@ -92,14 +92,14 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
         command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
     };
     let is_lot = |entry: &fs::DirEntry| entry.path().extension().is_some_and(|end| end == "json");
-    let lots = || {
-        let there = fs::read_dir(folder.join("out.partial/lots"));
+    let jobs = || {
+        let there = fs::read_dir(folder.join("out.partial/jobs"));
         there.map_or(0, |there| there.flatten().filter(is_lot).count())
     };
     let interrupted = || {
         let mut child = start(&[]);
         // Wait for the first job, however long that takes.
-        while lots() == 0 && child.try_wait().unwrap().is_none() {
+        while jobs() == 0 && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(5));
         }
         terminate(&child);
@@ -116,7 +116,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     assert_eq!(output.status.code(), Some(143), "{said}");
     assert!(said.contains(&format!("interrupted; continue with: arcade {}", mint.join(" "))), "{said}");
     assert!(said.contains("--resume"), "{said}");
-    assert!(lots() > 0 && !folder.join("out").exists());
+    assert!(jobs() > 0 && !folder.join("out").exists());
     let said = text(&run(folder, &[mint, &["--out", "out"]].concat(), 2).stderr);
     assert!(said.contains("continue with the same command and --resume"), "{said}");
     if mint[0] == "release" {
@@ -127,9 +127,9 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
         let (whole, left) = (plan(&[]), plan(&["--resume"]));
         let minutes = |plan: &serde_json::Value| plan["core_minutes"].as_f64().unwrap();
         assert!(minutes(&left) < minutes(&whole), "{left} {whole}");
-        assert_eq!(left["lots_made"], lots());
+        assert_eq!(left["jobs_made"], jobs());
         let said = text(&run(folder, &[mint, &["--out", "out", "--dry-run", "--resume"]].concat(), 0).stdout);
-        assert!(said.contains(&format!("of which {} are finished", lots())), "{said}");
+        assert!(said.contains(&format!("of which {} are finished", jobs())), "{said}");
     }
     for milliseconds in [1, 30, 300] {
         let mut child = start(&["--resume"]);

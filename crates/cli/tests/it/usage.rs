@@ -283,7 +283,7 @@ fn only_leftovers_are_removed() {
     // The run was killed at its start.
     put(&work.join("begun.partial/.lock"), "");
     put(&work.join("mint.partial/.lock"), lock);
-    put(&work.join("mint.partial/lots/game-1.json"), "{}");
+    put(&work.join("mint.partial/jobs/game-1.json"), "{}");
     put(&work.join(".arcade-a1B2c3.partial"), "GIF8");
     // These are files of other programs.
     let foreign = [
@@ -297,7 +297,7 @@ fn only_leftovers_are_removed() {
         ".arcade-notes.partial",
         ".arcade-a1B2c3.partials",
         "shard/SHARD.json",
-        "lots/game-1.json",
+        "jobs/game-1.json",
     ];
     foreign.iter().for_each(|path| put(&work.join(path), "precious"));
     put(&home.path().join("elsewhere.partial/.lock"), lock);

@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn finished_lots_are_counted() {
+    fn finished_jobs_are_counted() {
         let (_home, out) = home();
         let partial = killed(&out);
         fs::create_dir(partial.join(JOBS)).expect("created");

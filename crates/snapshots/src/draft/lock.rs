@@ -16,7 +16,7 @@ pub(super) const MARK: &str =
 /// The folder that holds the work.
 pub(super) const TREE: &str = "tree";
 /// The folder whose content is kept if the work is interrupted.
-pub(super) const JOBS: &str = "lots";
+pub(super) const JOBS: &str = "jobs";
 
 /// Creates `partial` or takes it over, locks it, and marks it as a draft's.
 pub(super) fn acquire(partial: &Path) -> Result<Lock, SnapshotError> {
@@ -124,7 +124,7 @@ mod tests {
     /// A lock file alone proves nothing. Only its content does.
     #[test]
     fn foreign_locks_are_untouched() {
-        for (lock, other) in [("", "tree/a"), ("4711\n", "tree/a"), ("", "lots/a.json"), ("precious", "")] {
+        for (lock, other) in [("", "tree/a"), ("4711\n", "tree/a"), ("", "jobs/a.json"), ("precious", "")] {
             let (home, out) = home();
             let partial = home.path().join("new.partial");
             fs::create_dir(&partial).expect("created");

@@ -5,7 +5,7 @@
 //! ```text
 //! releases/2026-12.partial/.lock    held from creation until after the rename; its content marks the folder as ours
 //! releases/2026-12.partial/tree/    becomes releases/2026-12
-//! releases/2026-12.partial/lots/    finished jobs, kept after an interruption for `Draft::resume`
+//! releases/2026-12.partial/jobs/    finished jobs, kept after an interruption for `Draft::resume`
 //! ```
 //!
 //! The lock is the operating system's ([`Lock`]) and is released when its process ends, so a `.partial` folder whose
@@ -462,12 +462,12 @@ pub(crate) mod tests {
         let (home, out) = home();
         let mut draft = Draft::create(&out).expect("vacant");
         draft.keep_secret().expect("protected");
-        draft.write("lots/a.json", b"one").expect("written");
+        draft.write("jobs/a.json", b"one").expect("written");
         let mode = |path: &Path| fs::metadata(path).expect("there").permissions().mode() & 0o777;
         assert_eq!(mode(&home.path().join("new.partial")), 0o700);
         draft.commit().expect("published");
         assert_eq!(
-            (mode(&out), mode(&out.join("lots")), mode(&out.join("lots/a.json"))),
+            (mode(&out), mode(&out.join("jobs")), mode(&out.join("jobs/a.json"))),
             (0o700, 0o700, 0o600)
         );
     }

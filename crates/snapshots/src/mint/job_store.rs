@@ -192,7 +192,7 @@ mod tests {
     use forge::Tally;
 
     #[test]
-    fn a_lot_that_is_cut_changed_or_of_another_plan_does_not_count() {
+    fn a_job_that_is_cut_changed_or_of_another_plan_does_not_count() {
         let home = tempfile::tempdir().unwrap();
         let plan = Digest::of(b"plan");
         let store = JobFolder::open(home.path(), plan).unwrap();

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! SHARD.json          the shard's number, its recipe, and the files of its jobs with their digests
-//! lots/<name>.json    one file per job
+//! jobs/<name>.json    one file per job
 //! ```
 
 use super::job_store::{JobFolder, JobStore};
@@ -80,7 +80,6 @@ struct ShardFile {
     shard: Shard,
     plan: Digest,
     recipe: Recipe,
-    #[serde(rename = "lots")]
     jobs: Vec<Item>,
 }
 
@@ -161,7 +160,7 @@ impl Shard {
 
 /// Returns the path of a job's file in a shard.
 fn path(name: &str) -> String {
-    format!("lots/{name}.json")
+    format!("jobs/{name}.json")
 }
 
 /// A reason why shards cannot be merged.
@@ -504,7 +503,7 @@ mod tests {
     }
 
     #[test]
-    fn forged_lots_are_not_merged() {
+    fn forged_jobs_are_not_merged() {
         let same = |_: &mut ShardFile| ();
         check(|_| (), same, None);
         check(|game| game.text = "BasicGame".into(), same, Some("isn't a valid game"));
@@ -531,8 +530,8 @@ mod tests {
         );
         let action = |game: &mut FrozenGame| game.witnesses[0].hashes.swap(0, 1);
         check(action, same, Some("level 0: the state after tick 0"));
-        check(|_| (), |file| drop(file.jobs.pop()), Some("lacks `lots/corpus-fetch.json`"));
-        let other = |file: &mut ShardFile| file.jobs.push(Item::of("lots/constructive-7.json", b""));
-        check(|_| (), other, Some("lists `lots/constructive-7.json`"));
+        check(|_| (), |file| drop(file.jobs.pop()), Some("lacks `jobs/corpus-fetch.json`"));
+        let other = |file: &mut ShardFile| file.jobs.push(Item::of("jobs/constructive-7.json", b""));
+        check(|_| (), other, Some("lists `jobs/constructive-7.json`"));
     }
 }

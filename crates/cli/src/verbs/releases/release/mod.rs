@@ -214,7 +214,7 @@ fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answ
         Outcome::Shard(jobs) => {
             let (shard, place) =
                 (args.shard.map_or_else(String::new, |shard| shard.to_string()), out.in_message());
-            console.document(&json!({ "out": place.to_string(), "shard": shard, "lots": jobs }))?;
+            console.document(&json!({ "out": place.to_string(), "shard": shard, "jobs": jobs }))?;
             let jobs = base::count(jobs, "job");
             console.say(format_args!("shard {shard} of `{}`: {jobs}, in {place}", order.recipe.name));
             if order.secret.is_some() {

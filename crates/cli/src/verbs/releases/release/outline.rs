@@ -28,7 +28,7 @@ pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, c
     let taken = check_vacant(out).err();
     let there = made.iter().filter(|made| **made).count();
     console.document(&json!({
-        "recipe": recipe, "out": place, "lots": names, "lots_made": there, "core_minutes": forecast.median / 60.0,
+        "recipe": recipe, "out": place, "jobs": names, "jobs_made": there, "core_minutes": forecast.median / 60.0,
         "core_seconds": [forecast.median, forecast.tail],
         "slowness": slowness, "out_is_taken": taken.is_some(), "caveats": recipe.caveats(),
     }))?;
