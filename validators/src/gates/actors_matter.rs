@@ -79,7 +79,8 @@ impl GameValidator for ActorsMatter {
         );
         let narrow = !sweeps.is_empty() && swept < gates.sweep;
         if narrow { &mut problems } else { &mut notes }.push(Evidence::new(text));
-        let text = format!("on {met} of {levels} levels, a sprite that moves by itself meets the player's path");
+        let text =
+            format!("on {met} of {levels} levels, a sprite that moves by itself meets the player's path");
         let away = (met as f64) < gates.met_levels * f64::from(levels);
         if away { &mut problems } else { &mut notes }.push(Evidence::new(text));
         if actors.deadly && case.analysis.aims().avatar_must_live && losses > 0 {
