@@ -170,7 +170,7 @@ mod tests {
             difficulty: Difficulty::Medium,
         };
         check_ladder(&ladder, &[]);
-        check_ladder(&Ladder { ease: Some(0.9), ..ladder.clone() }, &["the difficulty `medium`"]);
+        check_ladder(&Ladder { ease: Some(0.9), ..ladder.clone() }, &["the difficulty is `medium`"]);
         check_ladder(
             &Ladder { ease: Some(1e300), ..ladder.clone() },
             &[

@@ -109,7 +109,7 @@ mod tests {
                 &[],
                 &[],
                 &[
-                    "papers/my notes.txt: unsafe name (it has the character ' ': only A-Z, a-z, 0-9, `.`, `_`, `-` and `/` may be used)",
+                    "papers/my notes.txt: unsafe name (the path has the character ' ': only A-Z, a-z, 0-9, `.`, `_`, `-` and `/` may be used)",
                 ],
             ),
         );

@@ -60,8 +60,8 @@ mod tests {
         check(1, 1, None, None);
         check(6, 2, None, None);
         check(9, 3, None, None);
-        check(9, 1, None, Some("GENERATION 9 never had SEMANTICS 1: it had 2 and 3"));
-        check(11, 2, None, Some("GENERATION 11 never had SEMANTICS 2: it had 3"));
+        check(9, 1, None, Some("GENERATION 9 never had SEMANTICS 1: the generation had 2 and 3"));
+        check(11, 2, None, Some("GENERATION 11 never had SEMANTICS 2: the generation had 3"));
         check(generation, semantics + 1, None, Some("never had"));
         check(generation, u32::MAX, None, Some("never had"));
         check(generation + 1, semantics, Some("0.99.0"), None);

@@ -129,7 +129,7 @@ mod tests {
         check(".", Flaw::TooMany { limit: 9 }, ".: more than 9 files or folders");
         let bell = Flaw::Name(PathProblem::Character('\u{7}'));
         let text = Problem { path: "a\u{7}b".into(), flaw: bell }.to_string();
-        assert!(text.starts_with("a\\u{7}b: unsafe name (it has the character '\\u{7}'"), "{text}");
+        assert!(text.starts_with("a\\u{7}b: unsafe name (the path has the character '\\u{7}'"), "{text}");
     }
 
     #[test]

@@ -92,7 +92,7 @@ mod tests {
             &format!("{sealed}{}", BEACON_TABLE.replace("drand quicknet", " ")),
             "`beacon.source` takes a text",
         );
-        check(&format!("{sealed}{BEACON_TABLE}value = '{}'", Digest::of(b"")), "leave it out");
+        check(&format!("{sealed}{BEACON_TABLE}value = '{}'", Digest::of(b"")), "remove the value");
     }
 
     /// The commitment covers the round but not its value, and the seed depends on both round and value.

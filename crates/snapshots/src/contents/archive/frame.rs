@@ -313,7 +313,7 @@ mod tests {
         check(&[0b0010_0101, 0, 7], Err("dictionary"));
         check(&[0b0010_1100, 7], Err("reserved"));
         check(&[0b0011_0100, 7], Err("reserved"));
-        check(&[0b1010_0100, 0, 0, 1], Err("cut off"));
-        check(&[], Err("cut off"));
+        check(&[0b1010_0100, 0, 0, 1], Err("truncated"));
+        check(&[], Err("truncated"));
     }
 }

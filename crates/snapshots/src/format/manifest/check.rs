@@ -223,7 +223,7 @@ mod tests {
         refuse(|m| m.items.swap(1, 2), "not sorted: `c` comes after `d`");
         refuse(|m| m.items[2].path = "c".into(), "`c` is listed twice");
         refuse(|m| m.items[0].path = "../b".into(), "`../b` cannot be in a snapshot");
-        refuse(|m| m.items[0].path = "/b".into(), "`/b` cannot be in a snapshot: it is absolute");
+        refuse(|m| m.items[0].path = "/b".into(), "`/b` cannot be in a snapshot: the path is absolute");
         refuse(|m| m.items[0].path = "MANIFEST".into(), "`MANIFEST` is reserved");
         refuse(|m| m.items[0].path = "Manifest.JSON".into(), "`Manifest.JSON` is reserved");
         refuse(|m| m.items[1].size = (64 << 20) + 1, "`c` is larger than 67108864 bytes");

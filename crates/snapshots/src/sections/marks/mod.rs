@@ -113,10 +113,7 @@ impl MarksPart {
                 let help = format!("takes planners with 1 to {most} calls per decision");
                 return wrong(
                     "marks.players",
-                    format!(
-                        "contains `{player}`; the list {help}, such as \
-                              `olets:200`"
-                    ),
+                    format!("contains `{player}`; the list {help}, such as `olets:200`"),
                 );
             }
         }
@@ -357,8 +354,8 @@ pub(crate) mod tests {
         check(&marks("max_steps = 2001"), "`marks.max_steps` is 2001");
         check(&marks("players = []"), "takes 1 to 16 different players");
         check(&marks("players = ['random', 'random']"), "different players");
-        check(&marks("players = ['olets']"), "names `olets`");
-        check(&marks("players = ['mcts:5000']"), "names `mcts:5000`");
+        check(&marks("players = ['olets']"), "contains `olets`");
+        check(&marks("players = ['mcts:5000']"), "contains `mcts:5000`");
         check(&marks("commits = ['none']"), "`marks.commits` takes distinct values from \"1\", \"2\"");
         check(&marks("commits = ['7']"), "unknown variant `7`");
         check(&marks("games = 3"), "unknown field `games`");

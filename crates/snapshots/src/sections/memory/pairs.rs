@@ -165,7 +165,7 @@ mod tests {
         let itself = |text: &mut String, levels: &mut Vec<String>| {
             (*text, *levels) = (GAME.to_owned(), vec![LEVEL.to_owned()]);
         };
-        check(itself, true, Some("identical to the game"));
+        check(itself, true, Some("identical to the original game"));
     }
 
     #[test]

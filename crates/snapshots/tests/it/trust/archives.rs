@@ -255,7 +255,7 @@ fn names_that_lead_elsewhere() {
     check(&top("/MANIFEST.json"), "MANIFEST.json", "must come first");
     check(&top("MANIFEST.json"), "MANIFEST.json", "must come first");
     check(&top("a/b/MANIFEST.json"), "MANIFEST.json", "must come first");
-    check(&top("vole/MANIFEST.json"), "MANIFEST.json", "its folder is `vole`, its release `mole`");
+    check(&top("vole/MANIFEST.json"), "MANIFEST.json", "the folder is `vole`, but the release is `mole`");
 }
 
 #[test]
@@ -329,7 +329,7 @@ fn ends() {
     }
     // Different compressions of the same bytes are not accepted.
     let plain = zstd::encode_all(&tar[..], 3).expect("in memory");
-    check_bytes(&file, &plain, "mole.tar.zst", "different from the packed form");
+    check_bytes(&file, &plain, "mole.tar.zst", "differs from the packed form");
     // A file with an archive's name is a damaged archive; with a different name, it is not an archive.
     fs::write(&file, "BasicGame").expect("written");
     assert!(matches!(verify(&file), Err(SnapshotError::Archive { .. })));

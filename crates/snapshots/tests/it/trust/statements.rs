@@ -41,7 +41,7 @@ fn manifest_and_recipe_agree() {
     );
     check(
         |release| release.manifest.parent = Some(Digest::of(b"x")),
-        &["its `parent` is not", "`known` lists no release, but there is a parent"],
+        &["the `parent` differs", "`known` lists no release, but there is a parent"],
     );
     check(
         |release| release.manifest.recipe = json!("a pie"),
@@ -281,10 +281,10 @@ fn impossible_card_numbers() {
     };
     of_level("difficulty", json!(1e300), "the difficulty 1000");
     of_level("difficulty", json!(-0.5), "the difficulty -0.5");
-    of_level("columns", json!(7), "a board of 7 by 3, but the board has 6 by 3");
-    of_level("optimal_ticks", json!(4), "a shortest win of 4 ticks, but a witness of 3");
-    of_level("optimal_ticks", json!(0), "a shortest win of 0 ticks");
-    of_level("witness_score", json!(1e300), "a score of 1000");
+    of_level("columns", json!(7), "the card states a board of 7 by 3, but the board has 6 by 3");
+    of_level("optimal_ticks", json!(4), "the card states a shortest win of 4 ticks, but a witness of 3");
+    of_level("optimal_ticks", json!(0), "the card states a shortest win of 0 ticks");
+    of_level("witness_score", json!(1e300), "the card states a score of 1000");
     for who in ["mcts", "random", "idle"] {
         let rate = json!({ "calls": 0, "interval": [0.0, 0.5], "mean_score": 0.0, "plays": 4, "wins": 99 });
         of_level(who, rate, &format!("`{who}` has 99 wins in 4 plays"));
@@ -299,7 +299,7 @@ fn impossible_card_numbers() {
 fn large_cards_are_not_read() {
     complains(
         |release| change_card(release, |card| card["title"] = json!("x".repeat(1 << 20))),
-        &["card.json: 1050", "the limit is 1048576"],
+        &["card.json: the card has 1050", "the limit is 1048576"],
     );
     let patterns =
         json!({ "from": "generated", "generator": "x", "patterns": vec!["a"; 2000], "candidate": 0 });
@@ -444,7 +444,7 @@ fn no_witness_is_longer_than_an_episode_can_be() {
         |release| lengthen(release, 2001),
         &[
             "lvl0.json: the episode has 2001 ticks",
-            "a witness of 2001 ticks, but a witness has 1 to 2000 ticks",
+            "the card states a witness of 2001 ticks, but a witness has 1 to 2000 ticks",
         ],
     );
     complains(|release| lengthen(release, 4), &["continues after its end in tick 3"]);
