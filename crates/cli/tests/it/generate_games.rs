@@ -96,7 +96,7 @@ fn impossible_requests_are_refused_with_advice() {
     fs::write(home.path().join("old/mine.txt"), "mine").unwrap();
     let cases: [(&[&str], &[&str]); 8] = [
         (&["--method", "magic"], &["magic", "constructive", "evolutionary"]),
-        (&["--kind", "shooter", "--method", "search"], &["kernels", "leave out --method search"]),
+        (&["--kind", "shooter", "--method", "search"], &["kernels", "leave out --method or --kind"]),
         (&["--kind", "shoter"], &["shoter", "did you mean `shooter`?"]),
         (&["--kind", "herding"], &["herding", "unknown kind"]),
         (&["--count", "0"], &["0"]),

@@ -89,6 +89,6 @@ fn undrawable_pictures_are_reported_with_advice() {
 fn play_without_a_terminal_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let output = run(folder.path(), &["play", "quiet-jars", "--record", "jars.json"], 2);
-    assert!(text(&output.stderr).contains("no terminal"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("requires a terminal"), "{}", text(&output.stderr));
     assert!(!folder.path().join("jars.json").exists());
 }

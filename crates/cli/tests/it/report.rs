@@ -362,7 +362,7 @@ fn logs_are_compared_with_their_replay() {
         ("status", &["line 14: ", "the game is over, but the game is not over"][..]),
         ("limit", &["line 14: ", "12 of 13 steps were taken"]),
         ("run", &["line 1: ", "the log is of run 1, but 0 was requested"]),
-        ("invalid", &["line 2: ", "step 0 is recorded as invalid, but it has an action"]),
+        ("invalid", &["line 2: ", "step 0 is recorded as invalid, but the step has an action"]),
         ("score", &["line 4: ", "step 2 leads to score 0, but the log records 1"]),
         ("after", &["line 14: ", "a step after its end"]),
         ("fewer", &["run1.jsonl", "evaluation.json does not list this episode"]),

@@ -206,7 +206,7 @@ fn more_candidates_reuse_finished_jobs() {
     // kind.
     greedy(folder);
     let said = text(&run(folder, &["release", "slices.toml", "--out", "out"], 2).stderr);
-    assert!(said.contains("avatar watches 0 (asked 2 to 2)"), "{said}");
+    assert!(said.contains("avatar watches 0 (requested 2 to 2)"), "{said}");
     // Without a bar, the output has a forecast and plain lines.
     assert!(said.contains("minting takes about ") && said.contains("4 of 4 jobs; about 0 s left"), "{said}");
     recipe(folder);

@@ -89,8 +89,8 @@ fn suggested(said: &str) -> Vec<Vec<String>> {
                 _ if before.ends_with(": ") || before.ends_with("; ") => rest.split("; ").next(),
                 _ => None,
             };
-            // `arcade [OPTIONS] <COMMAND>` is a usage line.
-            let command = command.filter(|command| !command.contains('<'));
+            // `arcade [OPTIONS] <COMMAND>` is a usage line, and excerpts of pages end with an ellipsis.
+            let command = command.filter(|command| !command.contains('<') && !command.ends_with('…'));
             found.extend(command.and_then(shlex::split));
         }
     }
