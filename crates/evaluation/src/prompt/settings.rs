@@ -10,7 +10,7 @@ use serde_json::Value;
 pub struct PromptSettings {
     /// The style of the prompt, which determines its parts and their order.
     pub style: PromptStyle,
-    /// Whether a prompt includes earlier turns.
+    /// The choice of earlier turns that a prompt includes.
     pub mode: Mode,
     /// The form in which the rules are shown.
     pub rules: Rules,
@@ -121,7 +121,7 @@ pub enum PromptStyle {
 }
 
 base::named_enum! {
-    /// Whether a prompt includes earlier turns.
+    /// The choice of earlier turns that a prompt includes.
     #[derive(Default)]
     pub enum Mode {
         /// Every turn is independent. Earlier turns are not shown.

@@ -222,7 +222,10 @@ fn a_line_of_any_width_gets_a_message() {
 fn duplicate_parameters_are_reported() {
     let folder = folder(&GAME.replace("color=YELLOW", "color=YELLOW speed=0.5 speed=1"), LEVEL);
     let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
-    assert!(said.contains("duplicate-parameter") && said.contains("`0.5` and `1`; the last value counts"), "{said}");
+    assert!(
+        said.contains("duplicate-parameter") && said.contains("`0.5` and `1`; the last value counts"),
+        "{said}"
+    );
 }
 
 #[cfg(unix)]

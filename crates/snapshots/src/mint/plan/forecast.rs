@@ -95,7 +95,12 @@ impl Plan<'_> {
         let criteria = self.criteria_of(job);
         let made = match job {
             Job::Constructive(_) => of(CONSTRUCTIVE, levels, criteria),
-            Job::Invented(..) => of(INVENTED, levels, criteria),
+            // Searches for boards have budgets of their own.
+            Job::Invented(..) => {
+                let [plain, gated, skill] = INVENTED;
+                let gated = if criteria.includes(Criterion::Skill) { skill } else { gated };
+                f64::from(levels) * if is_gated(criteria) { gated } else { plain }
+            }
             Job::Corpus(_) => of(CORPUS, levels, criteria),
             Job::Puzzle(kind, _) => of([kind.seconds(); 3], levels, criteria),
         };
