@@ -14,6 +14,8 @@ const LANE: usize = 5;
 const AWAY: usize = 6;
 /// The maximum fraction of a board's floor that may be narrow.
 const MAX_NARROW: f64 = 0.36;
+/// The maximum fraction of walls within the border. Boards in thick walls all look alike.
+const MAX_WALLS: f64 = 0.35;
 
 /// A board under construction or edit.
 #[derive(Clone, Debug)]
@@ -171,7 +173,7 @@ impl<'k> Draft<'k> {
     }
 
     /// Returns `true` if the board is sound. A sound board has one hero, and nothing harmful is next to the hero. All
-    /// cells that are not solid are connected, and little of the board is narrow. The numbers of all pieces are in
+    /// cells that are not solid are connected, and little of the board is narrow or wall. The numbers of all pieces are in
     /// their ranges, and there is no lone block of wall.
     pub(crate) fn is_sound(&self) -> bool {
         let Some(hero) = self.hero() else { return false };
@@ -189,7 +191,18 @@ impl<'k> Draft<'k> {
         counts_fit
             && !(0..self.grid.len()).any(|cell| cut_off(cell) || crowds(cell))
             && self.lone_blocks() == 0
+            && self.walls() <= MAX_WALLS
             && narrow(self.grid, |cell| !self.is_solid(cell)) <= MAX_NARROW
+    }
+
+    /// Returns the fraction of walls within the border.
+    fn walls(&self) -> f64 {
+        let (right, bottom) = (self.grid.columns - 1, self.grid.rows - 1);
+        let is_within = |cell: &usize| {
+            (1..right).contains(&self.grid.x(*cell)) && (1..bottom).contains(&self.grid.y(*cell))
+        };
+        let walls = (0..self.grid.len()).filter(is_within).filter(|&cell| self.is_wall(cell)).count();
+        walls as f64 / ((right - 1) * (bottom - 1)).max(1) as f64
     }
 
     /// Returns the maximum number of a piece on any board. Lines of barriers may exceed the usual number.
