@@ -181,7 +181,7 @@ impl<'a> PossibleFutures<'a> {
     }
 
     /// Records that a sprite can hold this amount of a resource, if the resource's limit allows it. Returns
-    /// `true` if this was not yet recorded.
+    /// `true` if the record is new.
     fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
         let fits = resource != SpriteType::NONE && self.is_within(resource, amount);
         let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };

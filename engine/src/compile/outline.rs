@@ -7,7 +7,7 @@ use crate::rules::class::SpriteClass;
 use crate::syntax::{Description, Header, MappingLine, Param, Section, SpriteLine, TerminationLine, Word};
 use std::collections::BTreeSet;
 
-/// Problem codes that make it uncertain which characters the LevelMapping has.
+/// Problem codes that make the characters in the LevelMapping uncertain.
 const HIDES_MAPPING: [&str; 9] = [
     "bad-mapping",
     "missing-arrow",
@@ -29,7 +29,8 @@ pub(crate) struct Outline {
     pub(crate) knows_avatars: bool,
 }
 
-/// Returns the outline of a description that was read with these problems, or `None` if it has no LevelMapping.
+/// Returns the outline of a description with these parsing problems, or `None` if the description has no
+/// LevelMapping.
 pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Option<Outline> {
     if !description.has[Section::LevelMapping as usize] || description.mapping.is_empty() {
         return None;
@@ -65,7 +66,7 @@ pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Opt
     Some(Outline { description, knows_characters, knows_avatars: sure && knows_characters })
 }
 
-/// The sprites of an outline, without their hierarchy.
+/// The sprites in an outline, without their hierarchy.
 struct Sprites {
     lines: Vec<SpriteLine>,
     names: BTreeSet<String>,

@@ -10,7 +10,7 @@ use crate::rules::{Outcome, SpriteType};
 use crate::state::State;
 use crate::world::{Sprite, flag};
 
-/// An observation: the part of a state that players may see.
+/// An observation: the part of a state that is visible to players.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
     /// The number of ticks played.
@@ -28,9 +28,9 @@ pub struct Observation {
     pub cells: Vec<Vec<String>>,
     /// The resources that the avatar holds, as names and amounts, sorted by name.
     pub resources: Vec<(String, i32)>,
-    /// The player's avatar, whatever its type is called, or `None` once it is gone.
+    /// The player's avatar, regardless of its type's name, or `None` once the avatar is gone.
     pub avatar: Option<AvatarView>,
-    /// The visible sprites that move in a direction of their own, other than avatars, in drawing order.
+    /// The visible sprites that move in their own direction, except avatars, in drawing order.
     pub movers: Vec<MoverView>,
 }
 

@@ -323,7 +323,7 @@ pub(crate) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     avatars
 }
 
-/// Returns `true` if an interaction happens regardless of the avatar's resources and of how the sprites move.
+/// Returns `true` if an interaction happens regardless of the avatar's resources and the sprites' movements.
 pub(crate) fn is_certain(encounter: &Encounter) -> bool {
     matches!(encounter.precondition, Precondition::Always | Precondition::Chance(_))
 }
