@@ -23,7 +23,7 @@ pub struct Encounter {
     pub line: usize,
     /// The index of the effect with all its parameters.
     pub(crate) effect: u16,
-    /// The index of the effect's keyword, for shields.
+    /// The keyword index of the effect, for matching shields.
     pub(crate) keyword: u16,
 }
 

@@ -1,4 +1,4 @@
-//! Limits of the parser: texts that are not games, lines and names that are too long, and sprites that are nested too
+//! The parser's limits: texts that are not games, overlong lines and names, and sprites that are nested too
 //! deep.
 
 use super::layout::Line;
@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::limits::{MAX_LINE, MAX_NAME, MAX_NESTING, MAX_SOURCE};
 use crate::syntax::description::Word;
 
-/// Returns the problem with a text that cannot be read as a game at all.
+/// Returns the problem with a text that cannot be read as a game.
 pub(crate) fn unreadable(source: &str) -> Option<Diagnostic> {
     if source.len() > MAX_SOURCE {
         let message = format!("the game is {} bytes long; the limit is {MAX_SOURCE}", source.len());

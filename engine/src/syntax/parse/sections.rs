@@ -1,5 +1,5 @@
-//! The sections of a game file, as written and as intended. A missing, misspelt or swapped name causes one
-//! problem at its position, not one problem for every line below it.
+//! A game file's sections, as written and as intended. A missing, misspelt or swapped name causes one problem
+//! at its position, not one problem for every line below it.
 
 use super::indents;
 use super::layout::Line;
@@ -25,7 +25,8 @@ pub(crate) fn named(text: &str) -> Option<Section> {
     all.find(|section| section.name().eq_ignore_ascii_case(text))
 }
 
-/// Returns the sections of a file as intended. If a section's name is wrong, the lines below the name decide.
+/// Returns a file's sections as intended. If a section's name is wrong, the lines below the name decide which
+/// section it is.
 pub(crate) fn mended<'a, 'b>(
     header: &'b Line<'a>,
     lines: &'b [Line<'a>],
@@ -76,8 +77,8 @@ fn split<'a, 'b>(
     (orphans, parts)
 }
 
-/// Reports swapped sections. A section is swapped if all its recognised lines belong to another section that
-/// has no recognised lines of its own.
+/// Reports swapped sections. A section is swapped if all its recognised lines belong to a different section
+/// that has no recognised lines of its own.
 fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
     let sound: Vec<Section> = parts
         .iter()
@@ -152,7 +153,7 @@ fn missing<'a, 'b>(
 }
 
 /// Reports section names that are not indented like the other section names. The reference reads a deeper
-/// name as a line of the section above.
+/// name as a line in the section above.
 fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
     // The head of a section without a name is a line of another section.
     let is_own = |&(at, part): &(usize, &Part<'_, '_>)| {
