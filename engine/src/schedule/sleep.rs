@@ -3,8 +3,8 @@
 //! A boulder on the ground falls a little, collides with the dirt below and is moved back in every tick. As
 //! long as nothing enters or leaves the cells of the boulder and the cells below, each tick repeats the last
 //! tick and changes nothing. Such a sprite is skipped. As soon as anything touches these cells, the sprite
-//! wakes. If its own movement is already due in this tick, but the rule that moves it back has not run yet,
-//! the movement is performed late.
+//! wakes. If the sprite's turn to move in this tick has already passed, but the rule that moves it back has
+//! not run yet, the movement is performed late.
 //!
 //! Sprites may sleep only if the result is the same (`spec/01` §4, `spec/03` §4). The conditions are:
 //!
@@ -355,8 +355,8 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Wakes one sprite. Performs its movement in this tick if that movement is overdue and the rule that
-    /// moves it back has not run yet.
+    /// Wakes one sprite. If the sprite's turn to move in this tick has passed, and the rule that moves it
+    /// back has not run yet, performs the movement late.
     fn wake_one(&mut self, sleeper: Sleeper) {
         let slot = sleeper.slot;
         for cell in sleeper.cells(self.world) {

@@ -1,4 +1,4 @@
-//! Letters as strokes: a built-in font, so that pictures need no system fonts.
+//! Letters as strokes: a built-in font, so that images need no system fonts.
 
 use super::colour::Colour;
 use super::shape::{Outline, Paint, Point, Shape};

@@ -226,8 +226,8 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
     }
 }
 
-/// Adds the repair that moves a line to just after the line that ends at `end`. A sprite becomes a type without a
-/// parent.
+/// Adds the repair that moves a line to the position after the line that ends at `end`. A sprite becomes a
+/// type without a parent.
 fn move_to(problem: Diagnostic, line: &Line<'_>, section: Section, end: usize, indent: usize) -> Diagnostic {
     let comment = line.beside.map_or(String::new(), |comment| format!("  # {comment}"));
     let text = format!("\n{}{}{comment}", " ".repeat(indent), line.text);
@@ -259,7 +259,7 @@ fn line_of(section: Section) -> &'static str {
 
 /// Recognises sections by their lines.
 struct Guess<'a> {
-    /// The names of sprites, as far as the lines reveal them.
+    /// The sprite names, as far as the lines reveal them.
     sprites: Vec<&'a str>,
 }
 
@@ -273,8 +273,8 @@ impl<'a> Guess<'a> {
         Guess { sprites }
     }
 
-    /// Returns the section that a line must belong to, or `None` if there are several possible sections or no possible
-    /// section.
+    /// Returns the only section to which a line can belong, or `None` if several sections or no section is
+    /// possible.
     fn section(&self, line: &Line<'_>) -> Option<Section> {
         let words: Vec<&str> = line.text.split_whitespace().filter(|word| !word.contains('=')).collect();
         let has_params = line.text.contains('=');
