@@ -2,7 +2,7 @@
 //! (`too-large`, `too-long`, `too-deep`). An episode that exceeds a limit at run time ends with
 //! [`Stopped`](crate::Outcome::Stopped). `docs/reference/limits.md` lists the limits for users.
 
-/// The maximum length of a game's text in bytes. A typical game has a few kilobytes.
+/// The maximum length of a game's text in bytes. A typical game contains a few kilobytes.
 pub const MAX_SOURCE: usize = 1 << 17;
 /// The maximum length in bytes of one line in a game, without its indent and comment.
 pub const MAX_LINE: usize = 2048;

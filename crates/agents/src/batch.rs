@@ -111,7 +111,7 @@ pub enum BatchError {
         /// The number of states.
         lanes: usize,
     },
-    /// The number of actions is not a multiple of the number of states.
+    /// The number of actions is not divisible by the number of states.
     #[error(
         "{actions} actions cannot be divided into plans for {lanes} states; pass the same number of \
          actions for each state"

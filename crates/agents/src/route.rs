@@ -28,7 +28,7 @@ impl Board {
         Board { columns: seen.columns, rows: seen.rows }
     }
 
-    /// Returns the neighbour of a cell, or `None` at the edge.
+    /// Returns a cell's neighbour, or `None` at the edge.
     pub fn beside(self, cell: usize, (right, down): (isize, isize)) -> Option<usize> {
         let column =
             (cell % self.columns).checked_add_signed(right).filter(|&column| column < self.columns)?;
@@ -36,7 +36,7 @@ impl Board {
         Some(row * self.columns + column)
     }
 
-    /// Returns the neighbours of a cell.
+    /// Returns a cell's neighbours.
     pub fn around(self, cell: usize) -> impl Iterator<Item = usize> {
         DIRECTIONS.into_iter().filter_map(move |(_, way)| self.beside(cell, way))
     }

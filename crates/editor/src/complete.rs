@@ -44,7 +44,7 @@ pub enum ItemKind {
     Effect,
     /// A termination.
     Termination,
-    /// The name of a parameter.
+    /// A parameter name.
     Parameter,
     /// A parameter value.
     Value,

@@ -64,7 +64,7 @@ pub struct Position {
     pub column: usize,
 }
 
-/// The lines of a text, for conversions between bytes and positions. Terminators are `\n`, `\r\n` and `\r`.
+/// The lines in a text, for conversions between bytes and positions. Terminators are `\n`, `\r\n` and `\r`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lines {
     /// The offset of the first byte of each line.
@@ -72,7 +72,7 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// Finds the lines of a text. Cost: linear in the text.
+    /// Finds the lines in a text. Cost: linear in the text's length.
     pub fn of(text: &str) -> Lines {
         let bytes = text.as_bytes();
         let mut starts = vec![0];

@@ -179,7 +179,7 @@ fn corner(place: Place, nth: usize) -> Place {
     Place { x: place.x + x, y: place.y + y, w, h }
 }
 
-/// Returns the rectangle for a sprite that is drawn over a different sprite.
+/// Returns the rectangle for a sprite drawn over a different sprite.
 pub(crate) fn over(place: Place) -> Place {
     let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
     Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER }

@@ -165,7 +165,7 @@ impl Picture {
     }
 }
 
-/// Returns the tile of a sprite type for legends and palettes. Only signs have a direction.
+/// Returns a sprite type's tile for legends and palettes. Only signs have a direction.
 pub fn sprite_tile(looks: &Looks, stype: SpriteType) -> Tile {
     Tile {
         shapes: art::tile(looks.look(stype), looks.front(stype)),
@@ -173,7 +173,7 @@ pub fn sprite_tile(looks: &Looks, stype: SpriteType) -> Tile {
     }
 }
 
-/// Returns the width of a line of text in pixels.
+/// Returns the width of a text line in pixels.
 pub(crate) fn text_width(text: &str, size: f32) -> f32 {
     text.chars().count() as f32 * size * ADVANCE
 }

@@ -61,9 +61,9 @@ impl StateAbstraction {
         self.chance
     }
 
-    /// Returns the key of a successor of the root state. If two successors have equal keys, they have equal keys and
-    /// outcomes after the same actions (except for losses by Timeout, if [`StateAbstraction::earlier_is_better`]).
-    /// Cost: O(sprites of types that can change).
+    /// Returns the key for a successor of the root state. If two successors have equal keys, they have equal
+    /// keys and outcomes after the same actions (except for losses by Timeout, if
+    /// [`StateAbstraction::earlier_is_better`]). Cost: O(sprites of types that can change).
     pub fn key(&self, analysis: &Analysis, state: &State) -> SearchKey {
         state.key_left_out(&analysis.game.0, self)
     }

@@ -97,7 +97,7 @@ impl<'a> Outlook<'a> {
         met.chain(timed.map(move |(timed, _)| (timed.target, None, summary(timed.effect))))
     }
 
-    /// Returns `true` if sprites of the type make draws with an uncertain outcome in their own updates, even
+    /// Returns `true` if the type's sprites make draws with an uncertain outcome in their own updates, even
     /// while a sprite of each of the `targets` exists. Adds the type's own target to `targets`.
     fn update_draws(&self, stype: SpriteType, targets: &mut BTreeSet<SpriteType>) -> bool {
         use ClassFamily as Family;

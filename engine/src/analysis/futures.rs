@@ -7,8 +7,8 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};
 
-/// An over-approximation of the sprites, resources and interactions that are possible from some start. It assumes that
-/// any two types that can exist can meet.
+/// An over-approximation of the possible sprites, resources and interactions from some start. The
+/// over-approximation assumes that any two possible types can collide.
 #[derive(Clone, Debug)]
 pub(super) struct PossibleFutures<'a> {
     rules: &'a Rules,
@@ -34,7 +34,7 @@ pub(super) struct PossibleFutures<'a> {
 /// The starting point of the possible futures.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Start {
-    /// The types that have sprites.
+    /// The types with existing sprites.
     pub(super) existing: Vec<SpriteType>,
     /// The types that existing sprites create, in addition to the types that follow from the sprites' own
     /// types.

@@ -1,7 +1,7 @@
 //! Static analysis of a game's rules, derived once from the compiled rules and shared by all generators,
 //! validators and texts.
 //!
-//! The analysis never runs the game. It covers
+//! The analysis never runs the game. The analysis covers:
 //!
 //! - the winning and losing terminations
 //! - the types that block, harm, open, transform, create or push other types, or can be collected
@@ -191,12 +191,12 @@ impl Analysis {
             .filter(move |encounter| encounter.second.is_none() && self.applies(encounter.first, stype))
     }
 
-    /// Returns the properties of a type that do not depend on other types.
+    /// Returns a type's properties that do not depend on other types.
     pub fn facts(&self, stype: SpriteType) -> &Facts {
         &self.facts[stype.index()]
     }
 
-    /// Returns the role of a type in a level.
+    /// Returns a type's role in a level.
     pub fn role(&self, stype: SpriteType) -> Role {
         self.roles[stype.index()]
     }
@@ -219,13 +219,13 @@ impl Analysis {
         &self.avatars
     }
 
-    /// Returns the avatar that episodes start with, or `None` if no level has an avatar. If levels can place
-    /// several avatars, returns the first.
+    /// Returns the avatar at the start of episodes, or `None` if no level contains an avatar. If levels can
+    /// place several avatars, returns the first avatar.
     pub fn start_avatar(&self) -> Option<&Avatar> {
         self.avatars.first().filter(|avatar| avatar.starts)
     }
 
-    /// Returns the result of an avatar of type `avatar` touching a sprite of type `other`.
+    /// Returns the result when an avatar of type `avatar` touches a sprite of type `other`.
     ///
     /// # Panics
     /// Panics if `avatar` is not among [`Analysis::avatars`].
@@ -268,7 +268,7 @@ impl Analysis {
         list
     }
 
-    /// Returns the type that a portal of this type leads to.
+    /// Returns the type to which a portal of this type leads.
     pub fn leads_to(&self, stype: SpriteType) -> Option<SpriteType> {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }

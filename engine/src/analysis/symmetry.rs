@@ -105,7 +105,7 @@ impl Analysis {
     }
 }
 
-/// Returns `true` if an update of a sprite of the type affects only that sprite.
+/// Returns `true` if the update of each of the type's sprites affects only that sprite.
 fn is_by_itself(info: &TypeInfo) -> bool {
     use SpriteClass as C;
     let plain = matches!(
@@ -162,7 +162,7 @@ fn holds(property: Provided, rules: &Rules, encounter: &Encounter, info: &Effect
     provided && !info.in_batch && !rules.remembering.contains(&encounter.effect)
 }
 
-/// Returns `true` if the effect moves everything back, whichever sprites met.
+/// Returns `true` if the effect moves everything back, regardless of the colliding sprites.
 fn is_undo(info: &EffectInfo) -> bool {
     info.summary.undoes().is_some() && info.score_change == 0 && info.counting.is_none()
 }

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 /// Smaller amounts count as keys.
 const MANY: i32 = 3;
 
-/// The classification of a game.
+/// A game's classification.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Taxonomy {
@@ -40,8 +40,8 @@ pub struct Taxonomy {
 base::named_enum! {
     /// Whether the game is turn-based or real-time.
     pub enum Time {
-        /// Nothing moves, appears or disappears unless the player acts. Exceptions are short effects of an action (a
-        /// shot, a puff of smoke), sprites that take part in no rule, and a limit on the number of ticks.
+        /// Nothing moves, appears or disappears unless the player acts. Exceptions are short effects of an
+        /// action (a shot, a puff of smoke), sprites without rules, and a limit on the number of ticks.
         TurnBased = "turn-based",
         /// Something changes without an action by the player.
         RealTime = "real-time",
@@ -57,9 +57,9 @@ base::named_enum! {
         Line = "line",
         /// The avatar moves along both axes, up, left, down and right, in steps of whole cells or parts of cells.
         Grid = "grid",
-        /// The avatar has a velocity, which the keys may change, and it does not fall.
+        /// The avatar has a velocity that the keys may change, and does not fall.
         Continuous = "continuous",
-        /// The avatar has a velocity that the keys change, and it falls.
+        /// The avatar has a velocity that the keys change, and falls.
         Gravity = "gravity",
     }
 }
@@ -234,9 +234,9 @@ impl Analysis {
         })
     }
 
-    /// Returns `true` if whoever reaches something first decides the game. Either a type that moves by itself loses the
-    /// game by touching the same type that the avatar wins by touching, or a touch by the first type can cause either
-    /// result.
+    /// Returns `true` if the game depends on who reaches something first. In such a game, a type that moves
+    /// by itself loses the game by touching the type that the avatar must touch to win. Alternatively, a
+    /// touch by the moving type can cause either result.
     fn is_race(&self) -> bool {
         let (wins, losses) = (&self.aims.create, &self.aims.prevent);
         let runs = |stype: &SpriteType| {

@@ -13,7 +13,7 @@ use crate::rules::traits::Traits;
 use crate::rules::{Rules, SpriteType, TypeInfo};
 use crate::syntax::{InteractionLine, Param, Word};
 
-/// The value of a parameter.
+/// A parameter's value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Term {
     /// `True` or `False`.
@@ -97,7 +97,7 @@ pub struct Clauses {
     /// The parameters of the whole game. The cell size in pixels is included only for games with continuous
     /// physics, which measures distances in pixels.
     pub header: Terms,
-    /// The clauses of the sprite types, by type.
+    /// The sprite types' clauses, by type.
     pub types: Vec<TypeClause>,
     /// The sprites that each mapped level character places, without built-in mappings that the game does not declare.
     pub mapping: Vec<(char, Vec<SpriteType>)>,

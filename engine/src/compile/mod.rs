@@ -213,7 +213,7 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
     }
 }
 
-/// Rejects games that would take long to process, before any name is resolved.
+/// Rejects games that would be slow to process, before any name is resolved.
 fn refuse_large(description: &Description) -> Result<(), Diagnostics> {
     let counts = [
         ("sprite types", description.sprite_lines().len(), MAX_TYPES),

@@ -1,5 +1,5 @@
-//! The part of a game that its levels need: the characters that place sprites, and whether the placed sprites
-//! are avatars.
+//! The part of a game that its levels depend on: the characters that place sprites, and whether the placed
+//! sprites are avatars.
 
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::meanings::{Place, meaning};
@@ -25,7 +25,7 @@ pub(crate) struct Outline {
     pub(crate) description: Description,
     /// `true` if the outline contains all characters that the game maps.
     pub(crate) knows_characters: bool,
-    /// `true` if it is known for every character whether it places an avatar.
+    /// `true` if the avatar-placing characters are known with certainty.
     pub(crate) knows_avatars: bool,
 }
 
@@ -70,7 +70,7 @@ pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Opt
 struct Sprites {
     lines: Vec<SpriteLine>,
     names: BTreeSet<String>,
-    /// `true` if it is known for every sprite whether it is an avatar.
+    /// `true` if the avatars among the sprites are known with certainty.
     sure: bool,
 }
 

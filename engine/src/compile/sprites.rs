@@ -76,7 +76,7 @@ pub(super) fn types(
 }
 
 /// Parameters that a class does not accept. A parent line passes its parameters on to children of several
-/// classes. A parameter is a mistake if none of these classes accepts it.
+/// classes. A parameter is a mistake if it is accepted by none of these classes.
 #[derive(Default)]
 struct Rejected<'a> {
     refused: Vec<(SpriteClass, &'a Param)>,

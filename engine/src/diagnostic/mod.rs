@@ -206,8 +206,8 @@ fn near(length: usize) -> usize {
     1.max(length / 3)
 }
 
-/// Returns `true` if each word of one name is close to the word at the same position in the other name. Names that
-/// share only their ending are therefore not alike.
+/// Returns `true` if each word in one name is close to the word at the same position in the other name. Names
+/// that share only their ending are therefore not alike.
 fn alike(one: &[String], other: &[String]) -> bool {
     let close = |(one, other): (&String, &String)| {
         let distance = strsim::damerau_levenshtein(one, other);

@@ -79,7 +79,7 @@ fn other_dialect(span: Span, message: String, dialect: Dialect) -> Diagnostic {
     Diagnostic::error("other-dialect", span, message).help(help)
 }
 
-/// Returns the dialect of a game, with the words that reveal it.
+/// Returns a game's dialect, with the words that reveal the dialect.
 fn dialect(description: &Description) -> Option<(Dialect, Vec<&str>)> {
     let lines = description.sprite_lines();
     let declared: BTreeSet<&str> = lines.iter().map(|(_, line)| line.name.text.as_str()).collect();

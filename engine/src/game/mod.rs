@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A game that is ready to be played.
+/// A compiled game, ready to be played.
 #[derive(Clone, Debug)]
 pub struct Game(pub(crate) Arc<Compiled>);
 
@@ -111,7 +111,7 @@ impl Game {
         state.avatar_type().is_some_and(|stype| self.0.types[stype.index()].keys >> action as u8 & 1 != 0)
     }
 
-    /// Returns the actions of an avatar of this type, sorted, without [`Action::Nil`].
+    /// Returns the actions for an avatar of this type, sorted, without [`Action::Nil`].
     pub fn actions_of(&self, avatar: SpriteType) -> &'static [Action] {
         self.0.types[avatar.index()].actions
     }
@@ -127,7 +127,7 @@ impl Game {
         (0..self.0.types.len() as u16).map(SpriteType)
     }
 
-    /// Returns the name of a type, or `#-1` for an undeclared type. Only games loaded in reference mode can count
+    /// Returns a type's name, or `#-1` for an undeclared type. Only games loaded in reference mode can count
     /// undeclared types.
     pub fn name(&self, stype: SpriteType) -> &str {
         self.0.types.get(stype.index()).map_or("#-1", |info| &info.name)

@@ -117,7 +117,7 @@ pub enum Category {
     Avatar,
     /// A sprite that can be held.
     Resource,
-    /// A door, a portal, or a sprite that is declared to be a portal.
+    /// A door, a portal, or a sprite declared as a portal.
     Portal,
     /// A character that decides its own moves.
     Npc,
@@ -128,7 +128,7 @@ pub enum Category {
 }
 
 impl Game {
-    /// Returns the category of a type's sprites. If that category is [`Category::Static`] or
+    /// Returns the category for a type's sprites. If that category is [`Category::Static`] or
     /// [`Category::Movable`], sprites created by an avatar have a different category.
     pub fn category(&self, stype: SpriteType) -> Category {
         let info = &self.0.types[stype.index()];
@@ -292,7 +292,7 @@ impl Game {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
     }
 
-    /// Returns the types that have at least one sprite, in registry order. Cost: O(types).
+    /// Returns the types with at least one sprite, in registry order. Cost: O(types).
     pub fn present_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         self.sprite_types().filter(|&stype| state.world.group(stype).count > 0)
     }

@@ -194,7 +194,7 @@ impl Planes {
     }
 }
 
-/// Returns the bit of a plane, or 0 for planes that are not tracked.
+/// Returns a plane's bit, or 0 for untracked planes.
 fn bit(plane: usize) -> u64 {
     1u64.checked_shl(plane as u32).unwrap_or(0)
 }

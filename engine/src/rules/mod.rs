@@ -306,14 +306,15 @@ pub(crate) struct Rules {
     /// that uses such a character.
     pub(crate) unusable: BTreeSet<u8>,
     pub(crate) effects: Vec<EffectInfo>,
-    /// The passes at the edge of the screen, with repetitions expanded: the type and the effect.
+    /// The passes at the edge of the screen, with repetitions expanded. Each pass consists of the type and
+    /// the effect.
     pub(crate) edge: Vec<(SpriteType, u16)>,
     /// `true` if one of the `edge` passes refers to an undeclared type, which makes the reference crash in
     /// the first tick.
     pub(crate) undeclared_at_edge: bool,
     pub(crate) passes: Vec<Pass>,
     pub(crate) timed: Vec<Timed>,
-    /// `true` if the game has `obs=`, and therefore path finding.
+    /// `true` if the game sets `obs=`, and therefore uses path finding.
     pub(crate) finds_paths: bool,
     /// The types that paths avoid, from `obs=`.
     pub(crate) obstacles: Vec<SpriteType>,

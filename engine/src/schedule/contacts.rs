@@ -28,7 +28,7 @@ pub(crate) struct Contacts {
     of_type: Vec<Box<[u16]>>,
     /// The number of passes.
     passes_in_all: usize,
-    /// The passes that are always possible: for some classes, testing the ground below has an effect in itself.
+    /// The always possible passes: for some classes, testing the ground below has an effect in itself.
     always: Vec<u16>,
 }
 

@@ -95,8 +95,8 @@ fn threshold(prob: f64) -> i32 {
     if scaled.is_nan() { i32::MAX } else { scaled as i32 }
 }
 
-/// Skips SpawnPoints and Bombers, starting at `slot`, that only make a draw in this tick, which is the most
-/// frequent case. Returns the first sprite that does more.
+/// Skips SpawnPoints and Bombers, starting at `slot`, that only make a draw in this tick (the most frequent
+/// case). Returns the first sprite that does more.
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = world.chance();
     while slot != NONE {

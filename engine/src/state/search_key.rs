@@ -59,9 +59,9 @@ impl Absorb for Vec<u64> {
 }
 
 impl State {
-    /// Returns a hash of the part of the state that can affect later steps. If two states of one game and
-    /// level have equal keys, they have equal keys, outcomes and score changes after the same actions. There
-    /// are three exceptions:
+    /// Returns a hash of the part of the state that can affect later steps. Two states in the same game and
+    /// level with equal keys have equal keys, outcomes and score changes after the same actions. There are
+    /// three exceptions:
     ///
     /// - states near the reference's tick limit, which planners do not reach
     /// - states near the engine's work limit, which planners do not reach

@@ -31,7 +31,7 @@ pub struct Meeting {
     pub cell: (i32, i32),
 }
 
-/// The removal of a sprite by an interaction that involves the sprite.
+/// A sprite's removal by an interaction that involves the sprite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Removal {
     /// The interaction's index in [`Description::interactions`](crate::Description).
@@ -42,7 +42,7 @@ pub struct Removal {
     pub by: Option<SpriteType>,
 }
 
-/// An observer of a step, which is notified of the executed interactions and their sprites.
+/// A step observer, which is notified of the executed interactions and their sprites.
 pub trait Watch {
     /// Called after interaction `line` (index into [`Description::interactions`](crate::Description)) has
     /// been executed. An interaction that moves the same sprite back to the same position in every tick is
@@ -167,7 +167,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Updates the sprites of a type, in order of creation.
+    /// Updates a type's sprites, in order of creation.
     fn update_type(&mut self, stype: SpriteType) {
         let info = &self.rules.types[stype.index()];
         let Some((class, order)) = info.updated() else { return };
@@ -243,7 +243,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.forget_gone();
     }
 
-    /// Removes the sprites that were killed in this tick (`spec/01` §4.10).
+    /// Removes the sprites killed in this tick (`spec/01` §4.10).
     #[inline(always)]
     fn clear(&mut self) {
         if !self.world.killed().is_empty() {

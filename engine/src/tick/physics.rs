@@ -22,8 +22,8 @@ fn is_continuous(rules: &Rules, step: &Step<'_, impl Scheduler>, slot: Slot) -> 
     rules.types[step.world.sprite(slot).stype.index()].traits.continuous
 }
 
-/// Moves a sprite along its own orientation, unless it is static. The first call only clears the sprite's first-tick
-/// flag.
+/// Moves a sprite along its own orientation, unless the sprite is static. The first call only clears the
+/// sprite's first-tick flag.
 #[inline]
 pub(crate) fn passive(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let sprite = step.world.sprite(slot);

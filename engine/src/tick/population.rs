@@ -8,7 +8,7 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
 impl<S: Scheduler> Step<'_, S> {
-    /// Returns `true` if the sprite's class is an avatar class. [`flag::AVATAR`] marks sprites that are avatars.
+    /// Returns `true` if the sprite's class is an avatar class. [`flag::AVATAR`] marks the actual avatars.
     pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
         self.rules.types[self.world.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
     }

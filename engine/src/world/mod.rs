@@ -89,19 +89,19 @@ flat! {
             can_end: bool,
             /// The sum of `contributions`, without the growth of sprites in flight.
             sum: Sum,
-            /// The number of sprites that are larger than a cell.
+            /// The number of sprites larger than a cell.
             big: u32,
-            /// The number of sprites that are not completely on the screen.
+            /// The number of sprites not completely on the screen.
             off: u32,
             /// The bits of the types with sprites that cover more than one cell.
             multi_cell_bits: u64,
-            /// The bits of the types with sprites that are larger than a cell.
+            /// The bits of the types with sprites larger than a cell.
             big_bits: u64,
             /// `true` if the counts in `groups` have changed since terminations were last checked.
             census_changed: bool,
             /// The number of times that a sprite larger than a cell has left cells since `covered` was recomputed.
             left_behind: u32,
-            /// The bits of sprites that are so large that they count as being everywhere.
+            /// The bits of sprites so large that they count as being everywhere.
             vast: u64,
             /// The hash of `memory` and `templates` when last settled.
             memory_hash: u64,

@@ -37,7 +37,7 @@ readers! {
     messages: u32,
     /// Returns `true` if counters can end the game.
     can_end: bool,
-    /// Returns the number of sprites that are not completely on the screen.
+    /// Returns the number of sprites not completely on the screen.
     off: u32,
     /// Returns `true` if the sprite counts have changed since terminations were last checked.
     census_changed: bool,

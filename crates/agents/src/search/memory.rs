@@ -27,7 +27,7 @@ static ROOM: Mutex<Option<Room>> = Mutex::new(None);
 /// Notified when a search returns its memory.
 static GIVEN_BACK: Condvar = Condvar::new();
 
-/// The error for a memory limit that is too small for one search.
+/// The error for a memory limit too small for one search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{threads} search threads need at least {} MiB", .least >> 20)]
 pub struct TooLittle {

@@ -203,7 +203,7 @@ impl TouchEverything {
         if self.choices.below(RANDOM_STEP_ODDS) == 0 { self.random_step(&view, &keys) } else { first }
     }
 
-    /// Returns a random step that is not known to be bad.
+    /// Returns a random step without a known danger or obstacle.
     fn random_step(&mut self, view: &View<'_>, keys: &[Action]) -> Action {
         let is_safe = |action: &Action| match route::way(*action) {
             Some(way) => view
@@ -242,7 +242,7 @@ impl View<'_> {
         known.is_some_and(|known| known.blocked.contains(&self.circumstances) && !known.is_good())
     }
 
-    /// Returns `true` for a cell that is known to let the avatar pass.
+    /// Returns `true` for a cell that the avatar is known to be able to cross.
     fn passes(&self, cell: usize) -> bool {
         self.others(cell).all(|kind| self.beliefs.of(kind).is_some()) && self.cost(cell).is_some()
     }
@@ -270,7 +270,7 @@ impl View<'_> {
             && !self.circumstances.1.is_empty()
     }
 
-    /// Returns the rank of a cell as a target. The best rank is 0.
+    /// Returns a cell's rank as a target. The best rank is 0.
     fn rank(&self, cell: usize) -> Option<u32> {
         let is_mover = |kind: &str| self.seen.movers.iter().any(|mover| mover.name == kind);
         let rank = |kind: &str| {

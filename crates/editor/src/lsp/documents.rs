@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 /// A document's kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// The text of a game.
+    /// A game's text.
     Game,
-    /// The text of a level.
+    /// A level's text.
     Level,
     /// A document of any other kind.
     Other,

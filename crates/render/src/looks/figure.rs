@@ -42,7 +42,7 @@ const DOORS: [&str; 6] = ["door", "gate", "grille", "fence", "house", "opendoor"
 /// The minimum length of a word for recognising it as the end of a longer word.
 const SHORTEST_END: usize = 4;
 
-/// The drawing of a tile, without its colour and details.
+/// A tile's drawing, without its colour and details.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Form {
     /// The drawing of a glyph.
@@ -63,7 +63,7 @@ pub enum Mood {
     Asleep,
 }
 
-/// The colour of a part of a figure.
+/// The colour of a figure part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Tint {
     Main,
@@ -141,7 +141,7 @@ impl Form {
         self.figure().is_some_and(|figure| PEOPLE.contains(&figure.name))
     }
 
-    /// Returns the form's name, which is one word.
+    /// Returns the form's name, a single word.
     pub fn name(self) -> &'static str {
         match self {
             Form::Glyph(glyph) => glyph.form(),

@@ -163,7 +163,7 @@ impl Looks {
         &self.game
     }
 
-    /// Returns the look of a type.
+    /// Returns a type's look.
     pub fn look(&self, stype: SpriteType) -> Look {
         self.looks[stype.index()]
     }

@@ -7,7 +7,7 @@ use engine::{Analysis, SpriteType};
 /// The maximum number of names in a note.
 const NAMED: usize = 3;
 
-/// The maximum number of ways to win in a note.
+/// The maximum number of win methods in a note.
 const WAYS: usize = 2;
 
 /// Returns the names of types in alphabetical order, or `None` for an empty list.

@@ -147,7 +147,7 @@ impl PopulationChanges {
     }
 
     /// Returns how a condition can be attained. `kinds` is the required number of living types, if the
-    /// termination requires one.
+    /// termination has such a requirement.
     fn attainability(&self, condition: &Condition, kinds: Option<i32>) -> Attainable {
         let mut weights = vec![0u32; self.exists.len()];
         for stype in condition.types().iter().filter(|stype| self.exists[stype.index()]) {
@@ -185,8 +185,8 @@ impl PopulationChanges {
 }
 
 /// Returns `true` if the effects that turn their sprite into a different type also turn a dead avatar again
-/// in every tick. All such effects do, except `transformTo`, which has no condition and turns no other
-/// sprite.
+/// in every tick. All such effects turn dead avatars again, except `transformTo`, which has no condition and
+/// turns no other sprite.
 pub(crate) fn turns_dead(effects: &[EffectSummary], precondition: Precondition) -> bool {
     precondition == Precondition::Movement
         || effects
@@ -203,15 +203,17 @@ pub(crate) fn disappears_by_itself(rules: &Rules, stype: SpriteType) -> bool {
 }
 
 impl Analysis {
-    /// Returns `false` only if winning any level by playing is provably impossible. The proof requires one of
+    /// Returns `false` only if it is proved that no level can be won by playing it. The proof requires one of
     /// the following for each winning termination:
     ///
     /// - The termination never holds.
+    /// - The termination holds only from the start of a level.
+    /// - The termination comes after a termination that ends every game in its first tick.
     pub fn can_win(&self) -> bool {
         self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Returns `false` only if losing any level by playing is provably impossible, apart from the reference
+    /// Returns `false` only if it is proved that no level can be lost by playing it, apart from the reference
     /// engine's own tick limit. See [`Analysis::can_win`].
     pub fn can_lose(&self) -> bool {
         self.can_end(false, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))

@@ -33,7 +33,8 @@ impl Condition {
         }
     }
 
-    /// Returns `true` if the condition holds at this tick with these counts. `count` returns the count of a type.
+    /// Returns `true` if the condition holds at this tick with these counts. `count` returns a type's sprite
+    /// count.
     pub fn holds(&self, count: impl Fn(SpriteType) -> i32, tick: i32) -> bool {
         let sum = || self.types().iter().map(|&stype| count(stype)).sum::<i32>();
         match self {

@@ -34,7 +34,7 @@ pub enum Removal {
     Always,
 }
 
-/// The result of an avatar of one type touching a sprite of another type.
+/// The result when an avatar of one type touches a sprite of another type.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Touch {
     /// The harm to the avatar.

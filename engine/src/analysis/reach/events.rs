@@ -90,7 +90,7 @@ impl<'a> Events<'a> {
         self.flood.model.exists[stype.index()] && !self.touch(stype).is_empty()
     }
 
-    /// Returns the cells that a sprite of the type can overlap if another sprite meets it in `cells`.
+    /// Returns the cells that a sprite of the type can overlap during a collision in `cells`.
     pub(super) fn near(&mut self, stype: SpriteType, cells: &Cells) -> Cells {
         let spread = self.flood.model.spread(stype);
         self.flood.work += if spread == 0 { self.sweep() } else { self.board().size() as u64 };

@@ -34,7 +34,7 @@ pub(super) struct Region {
     pub(super) version: u32,
 }
 
-/// A type that keeps sprites of another type out of its cells, or removes them there.
+/// A barrier: a type that keeps sprites of another type out of its cells, or removes them there.
 #[derive(Clone, Copy, Debug)]
 struct Barrier {
     /// The type that acts as the barrier, or `None` for the edge of the board.
@@ -58,9 +58,9 @@ pub(super) struct Flood<'a> {
     pub(super) ends: u64,
     /// For each type, whether its sprites can appear during an episode.
     pub(super) made: Vec<bool>,
-    /// For each type, the barriers that keep it out.
+    /// For each type, the barriers against its sprites.
     bars: Vec<Vec<Barrier>>,
-    /// For each type, the other types that it keeps out.
+    /// For each type, the other types for which its sprites are barriers.
     bars_to: Vec<Vec<SpriteType>>,
     /// For each type, whether its sprites may be removed in the middle of a tick. Other sprites still collide
     /// with removed sprites until the end of the tick.

@@ -218,8 +218,8 @@ fn is_driven(class: SpriteClass) -> bool {
     matches!(class, C::MissileAvatar | C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar)
 }
 
-/// Returns `true` if an effect, at the edge or with a partner, stops every sprite of the type, whatever
-/// resources it holds.
+/// Returns `true` if an effect, at the edge or with a partner, stops every sprite of the type, regardless of
+/// the sprite's resources.
 pub(super) fn is_stop(meeting: &Meeting<'_>, summary: &Summary) -> bool {
     let stops = |effect: &EffectSummary| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_));
     let runs = meeting.with != With::Edge || !summary.needs_partner;

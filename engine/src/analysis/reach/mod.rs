@@ -36,7 +36,7 @@
 //! 2. From the meetings, `model` derives how each type can move (`mobility` by itself, `contact` by others),
 //!    before any cell is examined.
 //! 3. `events` iterates until nothing is new. In each round, types spread over the cells (`flood`, `jump`),
-//!    create other types (`makers`), and meet (`effects`).
+//!    create other types (`makers`), and collide (`effects`).
 //! 4. `tally` determines the terminations that can no longer hold.
 //!
 //! A round costs O(types × cells + meetings × cells / 64), and there are about as many rounds as locks that

@@ -9,7 +9,7 @@ use crate::rules::traits::Traits;
 use crate::rules::{Rules, SpriteType};
 use std::collections::BTreeSet;
 
-/// The size of a cell in pixels on a board of the usual size.
+/// The cell size in pixels on a board of the usual size.
 const USUAL_BLOCK: i32 = 40;
 
 /// How sprites of a type move by themselves.

@@ -9,7 +9,7 @@ pub(crate) trait Arguments {
     fn int(&mut self, key: &'static str, default: i32) -> i32;
     fn number(&mut self, key: &'static str, default: f64) -> f64;
     fn flag(&mut self, key: &'static str, default: bool) -> bool;
-    /// Returns the player's score, which is the first entry of a list of scores.
+    /// Returns the player's score: the first entry in a list of scores.
     fn score(&mut self, key: &'static str) -> i32;
     /// Returns a required sprite type that must be declared.
     fn sprite(&mut self, key: &'static str) -> SpriteType;

@@ -114,7 +114,7 @@ impl Arguments for Recorder {
 }
 
 impl EffectFamily {
-    /// Returns the family of the effect with this keyword, or `None` if no effect has this keyword.
+    /// Returns the family of the effect with this keyword, or `None` for an unknown keyword.
     pub fn of(keyword: &str) -> Option<EffectFamily> {
         Some(build(keyword, &mut Recorder::default())?.summary().family)
     }

@@ -30,7 +30,7 @@ base::named_enum! {
         Travel = "travel",
         /// Changes sprites' speed or physics.
         Speed = "speed",
-        /// Handles continuous physics at walls and bats.
+        /// Handles continuous physics at walls and paddles.
         Bounce = "bounce",
         /// Schedules another effect.
         Timer = "timer",
@@ -66,7 +66,7 @@ pub(crate) struct Summary {
     pub(crate) needs_partner: bool,
     /// The joint execution on all partners of a sprite, if the effect has a batch form.
     pub(crate) batch: Option<Batch>,
-    /// The random draws that have an effect.
+    /// The random draws with an effect on the result.
     pub(crate) draws: Draws,
     /// `true` only if an avatar that the effect removes, without turning it into another sprite, stays on the
     /// board as a dead avatar.

@@ -62,7 +62,7 @@ pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
     }
 }
 
-/// Reports SpriteSet lines that are indented between the columns of the other lines, and so are children or
+/// Reports SpriteSet lines with an indent between the columns of the other lines, which are children or
 /// siblings by accident. Returns `true` if the lines are indented in columns. Otherwise, reports nothing.
 pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) -> bool {
     let indents = || std::iter::once(head).chain(lines.iter().map(|line| line.indent));

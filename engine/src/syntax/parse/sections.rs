@@ -13,8 +13,8 @@ pub(crate) struct Part<'a, 'b> {
     pub(crate) section: Section,
     /// The line with the section's name or, if the name is missing, the line at whose depth the name should be.
     pub(crate) head: &'b Line<'a>,
-    /// The column beyond which the section's lines should be indented. This is the column of the section's
-    /// name, if the name is in the right position.
+    /// The column beyond which the section's lines should be indented. The value is the column of the
+    /// section's name, if the name is in the right position.
     pub(crate) indent: usize,
     pub(crate) body: Vec<&'b Line<'a>>,
 }

@@ -19,8 +19,8 @@ fn resource_of(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Option<(Sprit
     Some((resource, info.traits.value, step.rules.types[resource.index()].resource_limit))
 }
 
-/// Adds the resource to the partner's holdings, up to the limit. A sprite that is not a resource changes
-/// nothing, not even the effect's memory.
+/// Adds the resource to the partner's holdings, up to the limit. For any other sprite, nothing changes, not
+/// even the effect's memory.
 pub(super) fn collect(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, two: Slot, kill: bool) {
     let Some((resource, value, limit)) = resource_of(step, one) else { return };
     let amount = step.world.amount(two, resource);

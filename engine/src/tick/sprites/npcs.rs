@@ -36,7 +36,7 @@ pub(super) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: Spr
     physics::active(step, slot, direction, speed);
 }
 
-/// Chooses a direction for a character that has to wait.
+/// Chooses a direction for a waiting character.
 #[inline(always)]
 pub(crate) fn choose(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     if wanders(class) {
@@ -70,7 +70,7 @@ fn pursue(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) -
     }
 }
 
-/// Returns a random direction, which is kept for `cons` more updates.
+/// Returns a random direction, to be used for `cons` more updates.
 fn random_move(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> Direction {
     towards(random_heading(step, slot, cons))
 }
@@ -311,8 +311,8 @@ fn alternate_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Directio
     drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.world.dice().below(4) as usize])
 }
 
-/// Chooses the direction of a RandomAltChaser or RandomPathAltChaser, which occasionally takes a random step. The first
-/// draw is always made.
+/// Chooses the direction of a RandomAltChaser or RandomPathAltChaser, which occasionally takes a random step.
+/// The first random draw is always made.
 fn or_random<S: Scheduler>(
     step: &mut Step<'_, S>,
     slot: Slot,

@@ -1,4 +1,4 @@
-//! The few cells covered by a sprite that is no larger than a cell.
+//! The few cells covered by a sprite no larger than a cell.
 
 /// Up to four cells covered by a small sprite, within a square on the board that is [`SPAN`] cells wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -157,8 +157,8 @@ impl Contribution {
         }
     }
 
-    /// Returns `true` if [`Contribution::follow`] suffices, which is the most frequent case. The sprite
-    /// neither was nor is in flight, and no values have changed except those that change with movement.
+    /// Returns `true` if [`Contribution::follow`] suffices (the most frequent case). The sprite neither was
+    /// nor is in flight, and no values have changed except those that change with movement.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
         let on_foot = self.motion == FlightMotion::NONE && !sprite.flies();

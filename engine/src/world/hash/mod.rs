@@ -14,7 +14,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::fmt;
 
-/// A short list that is sorted before it is hashed.
+/// A short list, to be sorted before hashing.
 type Few<T> = SmallVec<[T; 4]>;
 
 macro_rules! hash_type {

@@ -9,7 +9,7 @@ use crate::world::{NO_HEADING, NONE, Overrides, Sprite, flag};
 /// for these types are tested more often than needed, with the same results.
 const BITS: usize = 64;
 
-/// The part of a type that the world needs.
+/// The part of a type needed by the world.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub(crate) prototype: Sprite,

@@ -64,7 +64,7 @@ impl World {
         &self.held[start..end]
     }
 
-    /// Removes the entries of a sprite that is being released.
+    /// Removes a sprite's entries when the sprite is released.
     #[inline]
     pub(crate) fn release_side_tables(&mut self, holder: Slot) {
         if !self.held.is_empty() {

@@ -141,9 +141,9 @@ pub(crate) struct Group {
     pub(crate) disabled: u16,
     /// The number of sprites that cover, or may cover, more than one cell.
     pub(crate) multi_cell: u16,
-    /// The number of sprites that are larger than a cell.
+    /// The number of sprites larger than a cell.
     pub(crate) big: u16,
-    /// The number of sprites that are not completely on the screen.
+    /// The number of sprites not completely on the screen.
     pub(crate) off: u16,
 }
 

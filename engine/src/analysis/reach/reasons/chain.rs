@@ -54,7 +54,7 @@ pub enum Missing {
     /// Sprites of the type can enter the cell, but the rule at the given index moves them back before the
     /// required rule applies.
     Blocked(SpriteType, usize),
-    /// Sprites of the two types never meet anywhere. `None` stands for the edge of the screen.
+    /// Sprites of the two types never collide. `None` stands for the edge of the screen.
     Nowhere(SpriteType, Option<SpriteType>),
     /// The sprite never moves, and so never reaches the edge of the screen.
     Inside,
