@@ -7,8 +7,8 @@ use crate::{State, StateHash};
 use base::{Digest, Seed, SeedPath, SeedStep};
 use serde::{Deserialize, Serialize};
 
-/// The actions of an episode and their results. An episode serves as a validator's witness, as an
-/// evaluation's log, or as a golden trace. [`Episode::replay`] checks all three.
+/// An episode's actions and their results. An episode serves as a validator's witness, as an evaluation's
+/// log, or as a golden trace. [`Episode::replay`] checks all three.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Episode {
@@ -96,8 +96,8 @@ pub enum Divergence {
 }
 
 impl Episode {
-    /// Starts an episode before its first tick, and returns it with the initial state. The episode keeps the steps of a
-    /// [`SeedPath`].
+    /// Starts an episode before its first tick, and returns it with the initial state. The episode stores the
+    /// steps of a [`SeedPath`].
     pub fn begin(game: &Game, level: &Level, seed: impl Into<SeedPath>) -> (Episode, State) {
         let path = seed.into();
         let (seed, path) = (path.seed(), path.into_steps());

@@ -1,6 +1,6 @@
 //! Internal data of games and states, for readers of the engine and for this crate's tests. The tests play
-//! whole games and therefore run against the library (`tests/it`). This data follows the engine's design,
-//! without a promise of compatibility.
+//! whole games and therefore run against the library (`tests/it`). This data follows the engine's internal
+//! design, and its compatibility is not guaranteed.
 
 use crate::analysis::EffectSummary;
 use crate::numbers::geometry::Direction;
@@ -17,7 +17,7 @@ pub struct EffectRow {
     pub moves_first: bool,
     /// `true` if any sprite may move.
     pub moves_anything: bool,
-    /// `true` if the direction or the speed of the first sprite may change.
+    /// `true` if the first sprite's direction or speed may change.
     pub steers: bool,
     /// `true` if sprites that take no part in the interaction may change.
     pub affects_distant_sprites: bool,
@@ -27,7 +27,7 @@ pub struct EffectRow {
 }
 
 impl EffectRow {
-    /// Returns the row of the first effect of a game.
+    /// Returns the row for a game's first effect.
     pub fn of_first(game: &Game) -> Option<EffectRow> {
         let summary = &game.0.effects.first()?.summary;
         Some(EffectRow {
@@ -41,7 +41,7 @@ impl EffectRow {
     }
 }
 
-/// Returns `true` if the updates of the type's sprites do nothing.
+/// Returns `true` if updates of the type's sprites have no effect.
 pub fn is_idle(game: &Game, stype: SpriteType) -> bool {
     game.0.types[stype.index()].is_idle()
 }
@@ -51,12 +51,13 @@ pub fn is_scenery(game: &Game, stype: SpriteType) -> bool {
     game.0.scenery[stype.index()]
 }
 
-/// Returns `true` if the type's sprites are fixtures: other sprites meet them, but nothing changes them.
+/// Returns `true` if the type's sprites are fixtures: other sprites collide with them, but nothing changes
+/// them.
 pub fn is_fixture(game: &Game, stype: SpriteType) -> bool {
     game.0.fixtures[stype.index()]
 }
 
-/// Returns the number of sprites with a slot of their own, and the number of fixtures.
+/// Returns the number of sprites with their own slot, and the number of fixtures.
 pub fn stored_sprites(state: &State) -> (usize, usize) {
     (state.world.slot_count(), state.world.fixture_count())
 }
@@ -66,18 +67,19 @@ pub fn overrides(state: &State) -> usize {
     state.world.overrides_count()
 }
 
-/// Returns the ticks between two moves of each sprite in flight.
+/// Returns the number of ticks between two moves, for each sprite in flight.
 pub fn flight_periods(state: &State) -> impl Iterator<Item = u16> {
     state.schedule.flying().map(|slot| state.world.sprite(slot).period)
 }
 
-/// Returns the widths in pixels of the type's sprites now, and before their last update.
+/// Returns the widths in pixels of the type's sprites, both now and before their last update.
 pub fn widths(state: &State, stype: SpriteType) -> Vec<(i32, i32)> {
     let world = &state.world;
     world.slots(stype).map(|slot| (world.sprite(slot).rect.w, world.last(slot).w)).collect()
 }
 
-/// Returns the first step of the path between two pixels in a game with `obs=`, or `None` if there is no step to take.
+/// Returns the first step of the path between two pixels in a game with `obs=`, or `None` if there is no such
+/// step.
 pub fn first_step(state: &State, from: (i32, i32), to: (i32, i32)) -> Option<Direction> {
     state.world.first_step(from, to).0
 }

@@ -55,7 +55,7 @@ pub(crate) const CLASSES: &[&str] = &[
     "WizardAvatar",
 ];
 
-/// The keywords of all effects (`spec/03`), sorted.
+/// All effect keywords (`spec/03`), sorted.
 pub const EFFECTS: &[&str] = &[
     "addHealthPoints",
     "addHealthPointsToMax",

@@ -1,16 +1,16 @@
-//! The names of a game's files, which determine the levels that belong to a game. The engine itself reads no
-//! files. This module is for programs that do.
+//! The names of a game's files, which determine the levels that belong to the game. The engine itself reads
+//! no files. This module is for programs that read files.
 //!
-//! A level is `lvl3.txt` next to `game.vgdl` or `game.txt`, or next to the only game of a folder.
+//! A level is `lvl3.txt` next to `game.vgdl` or `game.txt`, or next to the only game in a folder.
 //! Alternatively, a level is `zelda_lvl3.txt` next to `zelda.vgdl` or `zelda.txt`, as in the public games.
 //! Names are case-insensitive, and numbers may have gaps.
 
-/// The file names of a game and its levels, all in one folder.
+/// The file names of a game and its levels, all in the same folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GameFiles {
     /// The file with the rules.
     pub source: String,
-    /// The levels with their numbers, in order.
+    /// The levels with their numbers, in ascending order.
     pub levels: Vec<(usize, String)>,
 }
 
@@ -22,9 +22,9 @@ pub fn level_number(name: &str) -> Option<usize> {
     level(name).map(|(_, number)| number)
 }
 
-/// Returns the games of a folder with these files, sorted by name. If `game.vgdl` or `game.txt` exists, it is
-/// the only game. Otherwise, every file with levels of its own is a game. If there is no such file either,
-/// every file that ends in `.vgdl` is a game.
+/// Returns the games in a folder with these files, sorted by name. If `game.vgdl` or `game.txt` exists, it is
+/// the only game. Otherwise, every file with levels of its own is a game. If no file has levels of its own,
+/// every `.vgdl` file is a game.
 pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
     let mut names: Vec<&str> = names.into_iter().collect();
     names.sort_unstable();
@@ -47,7 +47,7 @@ pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
         .collect()
 }
 
-/// Returns the levels that belong to the game `source` among the files of its folder, sorted by number.
+/// Returns the levels that belong to the game `source` among the files in its folder, sorted by number.
 pub fn levels<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(usize, String)> {
     let names: Vec<&str> = names.into_iter().collect();
     let takes_plain = takes_plain(source, &names);
@@ -62,8 +62,8 @@ pub fn levels<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec
     levels
 }
 
-/// Returns the files of a folder that look like levels of the game `source` but are not named correctly, such as
-/// `level0.txt`, each with the name that it must have.
+/// Returns the files in a folder that look like levels of the game `source` but are misnamed, such as
+/// `level0.txt`, each with its correct name.
 pub fn misnamed<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(String, String)> {
     let names: Vec<&str> = names.into_iter().collect();
     let taken = levels(source, names.iter().copied());
@@ -92,8 +92,8 @@ pub fn misnamed<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> V
     found
 }
 
-/// Returns the file of the game that a level belongs to, among the files of its folder. A file that is not
-/// named like a level belongs to the only game of its folder.
+/// Returns the game file to which a level belongs, among the files in its folder. A file that is not named
+/// like a level belongs to the only game in its folder.
 pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let names: Vec<&str> = names.into_iter().filter(|name| *name != file).collect();
     let owner = level(file).map(|(owner, _)| owner.unwrap_or("game"));
@@ -108,7 +108,7 @@ pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
     })
 }
 
-/// Returns the files that are games according to their names or to the names of their levels, in a folder without
+/// Returns the files that are games according to their names or to their levels' names, in a folder without
 /// `game.vgdl` and `game.txt`.
 fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     let candidates = || names.iter().copied().filter(|name| is_source(name));
@@ -124,7 +124,7 @@ fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     }
 }
 
-/// Returns `true` if levels without a game in their name belong to the game `source`.
+/// Returns `true` if levels whose names do not contain a game belong to the game `source`.
 fn takes_plain(source: &str, names: &[&str]) -> bool {
     let other = |name: &&str| has_ending(name, "vgdl") || is_game(name) || owns_levels(name, names);
     is_game(source) || !names.iter().filter(|name| stem(name) != stem(source)).any(other)
@@ -135,8 +135,8 @@ const TEXTS: [&str; 4] = ["txt", "text", "lvl", "level"];
 /// The words that stand for a level in file names.
 const WORDS: [&str; 4] = ["level", "lvl", "lev", "lv"];
 
-/// Returns the game and the number in a name that resembles the name of a level: `level_3.txt`, `lvl3`. The
-/// game is empty if the name contains no game.
+/// Returns the game and the number in a name that resembles a level name: `level_3.txt`, `lvl3`. The game is
+/// empty if the name contains no game.
 fn like_level(name: &str) -> Option<(&str, usize)> {
     let is_text = |ending: &str| TEXTS.iter().any(|text| ending.eq_ignore_ascii_case(text));
     let mut stem = name;

@@ -63,6 +63,6 @@ pub use syntax::Description;
 pub use tick::{Meeting, Removal, Watch};
 pub use world::{SearchKey, StateHash};
 
-/// The version of the semantics. The version is incremented when any golden trace changes, because witnesses
-/// replay only under the version that they were recorded with.
+/// The version of the engine's semantics. The version is incremented when any golden trace changes, because
+/// a witness replays only under the version with which it was recorded.
 pub const SEMANTICS: u32 = 3;

@@ -1,4 +1,4 @@
-//! The start of an episode, and its steps.
+//! Starting and stepping episodes.
 
 use crate::game::{Compiled, Game};
 use crate::level::Level;
@@ -16,7 +16,8 @@ impl Game {
         self.start_with(level, Chance::from_seed(seed))
     }
 
-    /// Does the same as [`Game::start`], but with a given random number generator, such as a trace's.
+    /// Starts an episode like [`Game::start`], but with a given random number generator, such as a trace's
+    /// generator.
     pub fn start_with(&self, level: &Level, chance: Chance) -> State {
         let rules = &self.0.rules;
         let mut world =
@@ -49,15 +50,15 @@ impl Game {
         state
     }
 
-    /// Plays one tick. Does nothing once the episode is over. An action that the avatar does not have counts as
-    /// [`Action::Nil`].
+    /// Plays one tick. Does nothing once the episode is over. An action that is unavailable to the avatar
+    /// counts as [`Action::Nil`].
     ///
     /// Does not allocate once the state's buffers have grown.
     pub fn step(&self, state: &mut State, action: Action) -> Outcome {
         self.step_scheduled(state, action, &mut ())
     }
 
-    /// Does the same as [`Game::step`], and reports each executed interaction to `watch`.
+    /// Plays one tick like [`Game::step`], and reports each executed interaction to `watch`.
     pub fn step_watched(&self, state: &mut State, action: Action, watch: &mut dyn Watch) -> Outcome {
         self.step_scheduled(state, action, watch)
     }
@@ -84,7 +85,7 @@ impl Game {
         Step::new(rules, models, &mut state.world, foresight)
     }
 
-    /// Does the same as [`Game::step`], but without the scheduler: the plain cycle of `spec/01` §4. Tests
+    /// Plays one tick like [`Game::step`], but without the scheduler: the plain cycle of `spec/01` §4. Tests
     /// compare the scheduled step with this unscheduled step, which counts more work towards the limit and
     /// costs O(sprites + cells) more.
     #[doc(hidden)]

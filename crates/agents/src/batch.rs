@@ -1,20 +1,20 @@
-//! Steps many states of one game together, for learners that play many episodes at once and for planners that
-//! try many futures of one state.
+//! Steps many states of one game together, for learners that play many episodes in parallel and for planners
+//! that try many futures of one state.
 //!
 //! Each state has its own random seed and keeps its index on every thread, so no result depends on the number
-//! of threads. Actions and results are slices, so that one call replaces a thousand. Nothing is reset
-//! automatically. The caller can inspect the last state of an episode before deciding how to continue.
+//! of threads. Actions and results are slices, so that one call replaces a thousand calls. Lanes are not
+//! reset automatically, so the caller can inspect an episode's last state before deciding how to continue.
 
 use base::Seed;
 use engine::{Action, Chance, Game, Level, Outcome, State};
 use rayon::prelude::*;
 
-/// The number of steps in one task. It is large enough to justify waking a thread, and small enough that no
-/// thread waits long for the last task.
+/// The number of steps in one task. The number is large enough to justify waking a thread, and small enough
+/// that no thread waits long for the last task.
 const STEPS_OF_A_TASK: usize = 64;
 
-/// States of one game, each with its current episode. A lane consists of the state and the values at one
-/// index.
+/// A batch of states of one game, each with its current episode. A lane consists of the state and the values
+/// at one index.
 ///
 /// Work is distributed over the current rayon pool. Fewer than a few hundred steps run on the calling thread.
 ///
@@ -86,38 +86,38 @@ const STEPS_OF_A_TASK: usize = 64;
 pub struct Batch {
     game: Game,
     seed: Seed,
-    /// The initial states of episodes. Lane `i` starts from the state with the index `i % roots.len()`. Never
-    /// empty.
+    /// The initial states of episodes. Lane `i` starts from the state with the index `i % roots.len()`. The
+    /// list is never empty.
     roots: Vec<State>,
     states: Vec<State>,
-    /// The number of earlier episodes of each lane, whether finished or abandoned.
+    /// The number of earlier episodes in each lane, whether finished or abandoned.
     episodes: Vec<u64>,
     outcomes: Vec<Outcome>,
     scores: Vec<f64>,
 }
 
-/// The errors of a batch.
+/// An error from a batch.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BatchError {
-    /// There are no levels to play.
+    /// The list of levels is empty.
     #[error("a batch of episodes needs at least one level")]
     NoLevels,
     /// The number of actions differs from the number of states.
     #[error("{actions} actions were given for {lanes} states; pass one action for each state")]
     Actions {
-        /// The number of actions given.
+        /// The number of given actions.
         actions: usize,
         /// The number of states.
         lanes: usize,
     },
-    /// The number of actions is not a multiple of the number of states.
+    /// The number of actions is not divisible by the number of states.
     #[error(
         "{actions} actions cannot be divided into plans for {lanes} states; pass the same number of \
          actions for each state"
     )]
     Plans {
-        /// The number of actions given.
+        /// The number of given actions.
         actions: usize,
         /// The number of states.
         lanes: usize,
@@ -125,7 +125,7 @@ pub enum BatchError {
     /// The lane does not exist.
     #[error("state {lane} does not exist; there are {lanes} states, counted from 0")]
     NoLane {
-        /// The index of the lane.
+        /// The lane's index.
         lane: usize,
         /// The number of states.
         lanes: usize,
@@ -160,7 +160,7 @@ impl Batch {
         batch
     }
 
-    /// Replaces all episodes with futures of `state`, as [`Batch::fork`] does. Allocates nothing once the
+    /// Replaces all episodes with futures of `state`, as in [`Batch::fork`]. Allocates nothing once the
     /// buffers are large enough.
     pub fn fork_from(&mut self, state: &State, seed: Seed) {
         self.roots.truncate(1);
@@ -200,8 +200,8 @@ impl Batch {
         &self.scores
     }
 
-    /// Returns the seed of a lane's current episode. In a batch that plays levels, [`Game::start`] with this seed and the same
-    /// actions gives the same states.
+    /// Returns the seed of a lane's current episode. In a batch that plays levels, [`Game::start`] with this
+    /// seed and the same actions produces the same states.
     ///
     /// # Errors
     ///
@@ -223,9 +223,9 @@ impl Batch {
         self.play(actions)
     }
 
-    /// Plays a plan in every lane. All plans have the same length. `plans` has the layout `[lane][tick]`, one
-    /// plan after the other. The results are the same as with one call of [`Batch::step`] per tick. `play` is
-    /// faster, because threads wait for each other once instead of every tick.
+    /// Plays a plan in every lane. All plans have the same length. The layout of `plans` is `[lane][tick]`,
+    /// one plan after the other. The results are the same as with one call of [`Batch::step`] per tick.
+    /// `play` is faster, because the threads synchronise once instead of in every tick.
     ///
     /// # Errors
     ///
@@ -266,7 +266,7 @@ impl Batch {
 
     /// Starts a new episode in every lane whose episode is over, and returns the number of restarted lanes.
     /// If `reset_over` is called after every step, no lane is ever idle. A level that is over before its
-    /// first tick is restarted each time.
+    /// first tick is restarted in each call.
     pub fn reset_over(&mut self) -> usize {
         let over = |outcome: &Outcome| *outcome != Outcome::Ongoing;
         let mut count = 0;

@@ -1,4 +1,4 @@
-//! Players of games: planners that look ahead with a forward model, and the baselines to which they are compared.
+//! Players of games: planners that look ahead with a forward model, and baselines for comparison.
 //!
 //! Budgets are counted in forward-model calls (one `step` of a copied state), never in time, so a planner with the same seed and
 //! budget plays the same episode on every machine. A planner's choices, its imagined outcomes and the game's own randomness are

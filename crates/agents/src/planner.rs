@@ -4,13 +4,13 @@ use base::{Sampler, Seed};
 use engine::{Action, Chance, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// The number of forward-model calls that a decision may cost.
+/// The maximum number of forward-model calls that a decision may cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Budget(pub u64);
 
 impl Budget {
-    /// The maximum budget that users can set. A decision of a billion calls takes most of an hour.
+    /// The maximum budget that users can set. A decision with a billion calls takes most of an hour.
     pub const MOST: Budget = Budget(1_000_000_000);
 }
 
@@ -22,14 +22,14 @@ pub trait Planner {
 }
 
 /// The source of the random streams for a planner's decisions. Each decision has its own streams, so a saved
-/// planner needs only its seed and the number of its decisions.
+/// planner needs only its seed and its number of decisions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Streams {
     seed: Seed,
     decisions: u64,
 }
 
-/// The random streams of one decision: the planner's choices, and the outcomes that it imagines.
+/// The random streams for one decision: the planner's choices, and the imagined outcomes.
 pub(crate) struct Decision {
     pub(crate) choices: Sampler,
     imagined: Sampler,

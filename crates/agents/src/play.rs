@@ -9,7 +9,7 @@ use engine::{Episode, Game, Level};
 pub struct Play {
     /// The episode, which replays bit for bit.
     pub episode: Episode,
-    /// The number of forward-model calls in all decisions together.
+    /// The number of forward-model calls across all decisions.
     pub calls: u64,
 }
 
@@ -19,13 +19,13 @@ base::with_defaults! {
     pub struct Limits {
         /// The maximum number of ticks in the episode.
         pub ticks: usize = usize::MAX,
-        /// The maximum number of forward-model calls in all decisions together. The limit is checked before
-        /// each decision.
+        /// The maximum number of forward-model calls across all decisions. The limit is checked before each
+        /// decision.
         pub calls: u64 = u64::MAX,
     }
 }
 
-/// Plays until the episode is over or a limit is reached. `seed` determines the game's randomness, and the
+/// Plays until the episode is over or a limit is reached. `seed` determines the game's randomness. The
 /// planner has its own random streams. If `seed` is a [`SeedPath`], the episode records its steps.
 pub fn play(
     game: &Game,
@@ -38,7 +38,7 @@ pub fn play(
     play_until(game, level, planner, budget, seed, limits, &|| false)
 }
 
-/// A function that returns `true` once the answer is no longer needed. An answer that arrives earlier does
+/// A function that returns `true` once the result is no longer needed. A result that arrives earlier does
 /// not depend on the function.
 pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 

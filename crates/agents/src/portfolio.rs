@@ -1,4 +1,4 @@
-//! A portfolio of methods for winning one level: the default way to find out whether a level can be won.
+//! A portfolio of methods for winning a level: the default method to determine whether a level can be won.
 
 use crate::planner::{Budget, Planner};
 use crate::play::{Limits, Play, Stopped, play_until};
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The division of a budget between methods.
+    /// How a budget is divided between methods.
     ///
     /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then
     /// [`best_first`]. After that, and from the start in stochastic games, planners play episodes in rounds
@@ -29,19 +29,19 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PortfolioConfig {
-        /// The number of forward-model calls in all searches and episodes together.
+        /// The number of forward-model calls across all searches and episodes.
         pub budget: u64 = 3_000_000,
-        /// The fraction of the budget for finding the shortest win.
+        /// The fraction of the budget for the search for the shortest win.
         pub shortest: f64 = 0.1,
-        /// The fraction of the budget for finding any win by systematic search.
+        /// The fraction of the budget for the systematic search for any win.
         pub systematic: f64 = 0.4,
         /// The fraction of the budget reserved for a search with foresight in a stochastic game.
         pub foresight: f64 = 0.0,
         /// The memory limit of a systematic search, in bytes.
         pub bytes: usize = 1 << 30,
-        /// The maximum number of calls per decision of the planners. The planners get fewer calls if an
-        /// episode would cost more than its part of the budget. The cost is estimated for an episode of
-        /// [`USUAL_TICKS`], or for one that lasts until the winning tick.
+        /// The planners' maximum number of calls per decision. The planners get fewer calls if an episode
+        /// would cost more than its part of the budget. The cost is estimated for an episode of
+        /// [`USUAL_TICKS`], or for an episode that lasts until the winning tick.
         pub decision: u64 = 500,
         /// The look-ahead, in ticks, of each bold Monte-Carlo tree search. Each entry adds one such player.
         pub depths: Vec<u32> = vec![20],
@@ -51,15 +51,15 @@ base::with_defaults! {
 /// The result of the portfolio.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// The answer to the question whether the level can be won.
+    /// Whether the level can be won, as far as known.
     pub solution: Solution,
-    /// The number of forward-model calls in all searches and episodes together.
+    /// The number of forward-model calls across all searches and episodes.
     pub calls: u64,
     /// The episodes that the planners played, in order.
     pub plays: Vec<Play>,
 }
 
-/// The answer to the question whether a level can be won.
+/// Whether a level can be won.
 #[derive(Clone, Debug)]
 pub enum Solution {
     /// The level was won in an episode.
@@ -69,23 +69,23 @@ pub enum Solution {
         /// `true` if it is proven that no win takes fewer ticks.
         shortest: bool,
     },
-    /// A win is proven impossible, because all reachable states were searched.
+    /// A win is provably impossible, because the search has covered all reachable states.
     Impossible {
         /// The number of distinct reachable states.
         states: u64,
-        /// The actions that lead closest to a win. See [`Searched::nearest`].
+        /// The actions that lead to the state closest to a win. See [`Searched::nearest`].
         nearest: Vec<Action>,
     },
-    /// The budget did not suffice to find an answer.
+    /// The budget was too small to find the answer.
     Unknown,
 }
 
 /// The number by which the total budget is divided to get the first round's budget. Each later round may cost
-/// twice as much as the one before.
+/// twice as much as the previous round.
 const FIRST_ROUND: u64 = 16;
 
-/// Searches for a win. The same configuration and seed give the same answer on any number of threads. Episodes record the steps
-/// from the root of a [`SeedPath`], or from the given seed.
+/// Searches for a win. The same configuration and seed produce the same result with any number of threads.
+/// Episodes record the steps from the root of a [`SeedPath`], or from the given seed.
 pub fn solve(
     analysis: &Analysis,
     level: &Level,
@@ -95,8 +95,8 @@ pub fn solve(
     solve_until(analysis, level, config, seed, &|| false)
 }
 
-/// Searches like [`solve`], but can be stopped. Soon after `stopped` returns `true`, the answer is
-/// [`Solution::Unknown`]. A search that is not stopped returns the answer of [`solve`].
+/// Searches like [`solve`], but can be stopped. Soon after `stopped` returns `true`, the result is
+/// [`Solution::Unknown`]. A search that is not stopped returns the same result as [`solve`].
 pub fn solve_until(
     analysis: &Analysis,
     level: &Level,
@@ -186,17 +186,17 @@ pub fn systematic_seed(solve: &SeedPath) -> SeedPath {
     solve.child("systematic", 0)
 }
 
-/// The maximum number of rounds. Without it, a game that ends at once could be played for many rounds,
-/// because its episodes cost almost nothing.
+/// The maximum number of rounds. Without this limit, a game that ends immediately could be played for many
+/// rounds, because its episodes cost almost nothing.
 const MAX_ROUNDS: u64 = 20;
 
-/// The number of ticks that an episode's part of the budget should cover.
+/// The number of ticks that the budget for an episode should cover.
 const USUAL_TICKS: u64 = 700;
 /// The minimum number of calls per decision.
 const LEAST_DECISION: u64 = 30;
 
-/// Plays one episode with each planner. The planners get equal parts of the budget, and an episode stops at the first decision
-/// beyond its part.
+/// Plays one episode with each planner. The budget is divided equally between the planners, and an episode
+/// stops at the first decision beyond its part.
 fn play_round(
     analysis: &Analysis,
     level: &Level,

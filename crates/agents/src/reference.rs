@@ -1,5 +1,5 @@
-//! Reference planners, which have a fixed number of forward-model calls per decision. Their win rates measure
-//! how hard a level is.
+//! Reference planners with a fixed number of forward-model calls per decision. Their win rates measure how
+//! hard a level is.
 
 use crate::planner::Budget;
 use crate::registry::{PlannerSpec, Player, UnknownPlanner};
@@ -26,7 +26,7 @@ impl ReferencePlanner {
         Ok(ReferencePlanner { name: name.to_owned(), planner, budget })
     }
 
-    /// Returns the planner's name as it was given to [`ReferencePlanner::new`].
+    /// Returns the planner's name as passed to [`ReferencePlanner::new`].
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -12,14 +12,14 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Declares all planners in one place, from weakest to strongest. Each planner has a name, a variant and a
-/// constructor from a seed.
+/// constructor that accepts a seed.
 macro_rules! planners {
     ($($name:literal $variant:ident($type:ty) $make:expr;)*) => {
         /// The names of all planners, from weakest to strongest.
         pub const PLANNERS: &[&str] = &[$($name),*];
 
-        /// A planner of the registry, with default parameters. It can be saved between two decisions, and continues after loading
-        /// as if it had never been saved.
+        /// A registered planner with default parameters. The planner can be saved between two decisions, and
+        /// continues after loading as if it had never been saved.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         #[serde(tag = "planner")]
         #[allow(missing_docs, clippy::large_enum_variant, reason = "the types say what each is; players are few")]
@@ -66,7 +66,7 @@ planners! {
 
 /// Planners that do not look ahead.
 const BASELINES: [&str; 3] = ["do-nothing", "random", "random-with-nil"];
-/// Planners that look ahead with a few calls, whatever their budget.
+/// Planners that look ahead with a few calls, regardless of their budget.
 const SHALLOW: [&str; 3] = ["one-step", "one-step-score", "nearest-goal"];
 
 /// A planner as users specify it: `mcts`, or `olets:500` with the number of forward-model calls per decision.
@@ -87,12 +87,13 @@ impl PlannerSpec {
         self.budget
     }
 
-    /// Returns `true` if the planner looks ahead. Planners that do nothing or act at random are the baselines.
+    /// Returns `true` if the planner looks ahead. The baselines, which do nothing or act at random, do not
+    /// look ahead.
     pub fn looks_ahead(&self) -> bool {
         !BASELINES.contains(&self.name())
     }
 
-    /// Returns `true` if a decision spends its whole budget, rather than few calls or none.
+    /// Returns `true` if a decision spends its whole budget, instead of few calls or no calls.
     pub fn spends_its_budget(&self) -> bool {
         self.looks_ahead() && !SHALLOW.contains(&self.name())
     }

@@ -11,13 +11,13 @@ use serde::{Deserialize, Serialize};
 const AHEAD: usize = 10;
 
 /// A player that uses [`best_first`] to search for a complete winning plan, and plays that plan without
-/// searching again. If the player finds no win within the budget, it plays towards the state from which the
-/// fewest sprites must still disappear or appear, and then presses random keys.
+/// searching again. If the player finds no win within the budget, it plays towards the state in which the
+/// minimum number of sprites must still disappear or appear, and then presses random keys.
 ///
-/// In a deterministic game, a winning plan stays correct whatever its length. After a plan that does not win,
-/// the player searches again after ten ticks, and doubles this interval with every further search. A
-/// stochastic game is searched as if one imagined future were the only one. Such a search gets a tenth of the
-/// budget and is repeated after ten ticks.
+/// In a deterministic game, a winning plan remains correct regardless of its length. After a plan that does
+/// not win, the player searches again after ten ticks, and doubles this interval with every further search.
+/// In a stochastic game, the search treats one imagined future as the only possible future. Such a search
+/// gets a tenth of the budget and is repeated after ten ticks.
 ///
 /// Cost: the budget, or a tenth of it, for each new plan, and no calls in between. A search uses up to a
 /// gibibyte of memory.
@@ -26,7 +26,7 @@ pub struct Systematic {
     streams: Streams,
     /// The rest of the plan, in reverse order.
     plan: Vec<Action>,
-    /// The minimum number of ticks between a search that finds no win and the next search.
+    /// The minimum number of ticks between an unsuccessful search and the next search.
     pause: usize,
     #[serde(skip)]
     analysis: Option<Analysis>,

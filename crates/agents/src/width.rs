@@ -1,12 +1,12 @@
-//! Iterated width with replanning, for stochastic games too.
+//! Iterated width with replanning, also for stochastic games.
 //!
-//! Each decision looks ahead breadth first from copies of the state, each with its own random seed. It
-//! continues only from novel states, which have a sprite where there has been none of its type in this
+//! Each decision looks ahead breadth first from copies of the state, each with its own random seed. The
+//! look-ahead continues only from novel states, in which a type has a sprite in a cell that is new to the
 //! look-ahead. The method is IW(1): see Lipovetzky and Geffner 2012, "Width and serialization of classical
 //! planning problems", and Lipovetzky, Ramirez and Geffner 2015, "Classical planning with simulators: results
 //! on the Atari video games". Iterated width looks far ahead with few calls, whereas random rollouts stay
 //! near. The best plans found, one per first action, are then tried again with different seeds, because a
-//! single look at a stochastic game may be luck. The plan with the best average is played.
+//! single good result in a stochastic game may be luck. The plan with the best average is played.
 
 use crate::guides::features::{Atoms, Features};
 use crate::guides::progress::Progress;
@@ -24,9 +24,9 @@ base::with_defaults! {
     pub struct WidthConfig {
         /// The factor by which each tick of delay discounts a reward.
         pub discount: f64 = 0.98,
-        /// The fraction of the budget for looking ahead. The rest is spent on trying the plans again.
+        /// The fraction of the budget for looking ahead. The rest is spent on retrying the plans.
         pub look: f64 = 0.6,
-        /// The number of a plan's ticks that are tried again. Later ticks can be planned again in time.
+        /// The number of ticks in a plan to retry. Later ticks can be replanned in time.
         pub horizon: usize = 12,
         /// The weight of a loss, in multiples of the largest gain seen.
         pub loss: f64 = 10.0,
@@ -40,14 +40,14 @@ base::with_defaults! {
 /// The weight of a win, in multiples of the largest gain seen.
 const WIN: f64 = 20.0;
 
-/// A planner with iterated width.
+/// A planner that uses iterated width.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Width {
     config: WidthConfig,
     streams: Streams,
-    /// The largest change of the score in one tick seen so far, at least 1.
+    /// The largest score change in one tick so far, at least 1.
     unit: f64,
-    /// The number of ticks of the episode in which each atom was present.
+    /// The number of ticks in the episode in which each atom was present.
     #[serde(rename = "been")]
     presence: Option<(Features, Vec<u32>)>,
     /// The rest of the last plan.
@@ -58,7 +58,7 @@ pub struct Width {
     pool: Vec<State>,
 }
 
-/// A sequence of actions, with the values found for it.
+/// An action sequence, with the values found for it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Plan {
     actions: Vec<Action>,
@@ -98,7 +98,7 @@ struct Node {
     parent: usize,
     action: Action,
     depth: u32,
-    /// The discounted rewards on the way, without curiosity.
+    /// The discounted rewards on the path, without curiosity.
     value: f64,
     /// The value of a plan that ends at this node.
     worth: f64,
@@ -223,8 +223,8 @@ impl Width {
         calls
     }
 
-    /// Tries the first ticks of a plan with a different seed. Returns the rewards, `true` if the game went on, and the number of
-    /// calls.
+    /// Retries the first ticks of a plan with a different seed. Returns the rewards, `true` if the game
+    /// continued, and the number of calls.
     fn try_plan(
         &mut self,
         analysis: &Analysis,
@@ -254,7 +254,7 @@ fn discount(discount: f64, depth: u32) -> f64 {
     (0..depth).fold(1.0, |weight, _| weight * discount)
 }
 
-/// Returns the available actions, including waiting.
+/// Returns the available actions, including [`Action::Nil`].
 fn choices(game: &Game, state: &State) -> impl Iterator<Item = Action> + use<> {
     let actions = game.actions(state);
     let waits = !actions.contains(&Action::Nil);
@@ -315,7 +315,7 @@ impl Planner for Width {
     }
 }
 
-/// The results of trying a plan, as sums over the tries.
+/// The results of retrying a plan, as sums over the tries.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tried {
     value: f64,

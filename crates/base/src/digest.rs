@@ -22,7 +22,7 @@ impl Digest {
         &self.0
     }
 
-    /// Returns the first eight hexadecimal digits, for names that people read.
+    /// Returns the first eight hexadecimal digits, for human-readable names.
     pub fn short(&self) -> String {
         self.to_string()[..8].to_owned()
     }
@@ -40,7 +40,7 @@ impl fmt::Debug for Digest {
     }
 }
 
-/// The error for a text that is not 64 hexadecimal digits.
+/// The error for a text that does not consist of 64 hexadecimal digits.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{0}` is not 64 hexadecimal digits")]
 pub struct NotHex(String);

@@ -12,16 +12,16 @@ pub fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
-/// A path as it is written in messages. File names may contain line breaks and other control characters,
-/// which could forge lines of a message. Control characters are therefore escaped. JSON documents contain the
-/// path unchanged.
+/// A path for display in messages. File names may contain line breaks and other control characters, which
+/// could forge lines in a message. Control characters are therefore escaped. JSON documents contain the path
+/// unchanged.
 ///
 /// ```
 /// use infinite_arcade_base::MessagePath;
 /// assert_eq!(std::path::Path::new("a\nb").in_message().to_string(), "a\\u{a}b");
 /// ```
 pub trait MessagePath {
-    /// Returns the text of the path for a message.
+    /// Returns the path's text for a message.
     fn in_message(&self) -> InMessage<'_>;
 }
 

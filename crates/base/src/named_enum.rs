@@ -1,7 +1,7 @@
 //! Enums whose variants have names.
 
 /// Declares an enum whose variants have names in data. Serde reads and writes these names, and `name` returns
-/// the name of a variant.
+/// a variant's name.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! named_enum {

@@ -1,8 +1,8 @@
 //! Random draws for everything that is not part of a game's rules: search, generation, imagined futures.
 //!
-//! ChaCha8 produces the bits. The few distributions are implemented here and pinned by golden vectors, because a
-//! library may change the values of its distributions in a minor release, and minted bytes depend on them
-//! (`docs/lab/decisions/0003-determinism.md`).
+//! ChaCha8 produces the bits. The few distributions are implemented here and pinned by golden vectors,
+//! because a library may change the values of its distributions in a minor release, and minted bytes depend
+//! on these values (`docs/lab/decisions/0003-determinism.md`).
 
 use crate::seed::Seed;
 use rand_chacha::ChaCha8Rng;
@@ -13,7 +13,7 @@ use std::convert::Infallible;
 /// A stream of random draws. A stream is saved as its seed and its position.
 ///
 /// `Sampler` also implements the traits of `rand`, for use with `rand` and with other crates' distributions.
-/// The results of other crates for the same bits may change between versions. The methods of `Sampler` itself
+/// Other crates' results for the same bits may change between versions. The methods of `Sampler` itself
 /// always return the same values.
 ///
 /// ```
@@ -120,7 +120,7 @@ impl Sampler {
         })
     }
 
-    /// Shuffles `items` (Fisher–Yates, from the last position down).
+    /// Shuffles `items` (Fisher–Yates, from the last position downwards).
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             items.swap(last, self.below(last + 1));
@@ -128,8 +128,8 @@ impl Sampler {
     }
 }
 
-/// Provides the bits of [`Sampler::bits`] to other crates' distributions. Every call takes whole draws of 64 bits:
-/// `next_u32` takes one draw, and `fill_bytes` one per eight bytes, lowest byte first.
+/// Provides the bits from [`Sampler::bits`] to other crates' distributions. Every call consumes whole draws
+/// of 64 bits: `next_u32` consumes one draw, and `fill_bytes` one draw per eight bytes, lowest byte first.
 impl TryRng for Sampler {
     type Error = Infallible;
 
@@ -176,7 +176,7 @@ mod tests {
         );
     }
 
-    /// Checks the bits that other crates get, and the number of bits that each call takes.
+    /// Checks the bits that other crates receive, and the number of bits that each call consumes.
     #[test]
     fn the_traits_of_rand_give_the_same_bits() {
         let seed = Seed::from_text("golden");

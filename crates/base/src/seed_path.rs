@@ -1,4 +1,4 @@
-//! The derivations of seeds: a root seed, and the steps that lead from it to a seed.
+//! Derivations of seeds: a root seed, and the steps from the root to a seed.
 
 use crate::seed::Seed;
 use std::fmt;
@@ -6,10 +6,10 @@ use std::fmt;
 /// One call of [`Seed::child`]: its purpose and its index.
 pub type SeedStep = (String, u64);
 
-/// A seed that remembers its root and the steps that lead from the root to it.
+/// A seed that stores its root and the steps from the root to the seed.
 ///
-/// `Display` writes the steps as a JSON list of pairs, the form in which witnesses of sealed releases publish them.
-/// The root is not part of that text.
+/// `Display` writes the steps as a JSON list of pairs, as published in the witnesses of sealed releases. The
+/// root is not part of that text.
 ///
 /// ```
 /// use infinite_arcade_base::{Seed, SeedPath};

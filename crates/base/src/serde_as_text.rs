@@ -1,6 +1,6 @@
-//! Values that are stored as text.
+//! Values stored as text.
 
-/// Makes serde write values of these types like `Display`, and read them like `FromStr`.
+/// Makes serde write values of these types like `Display`, and parse them like `FromStr`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! serde_as_text {

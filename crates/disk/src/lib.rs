@@ -1,10 +1,9 @@
-//! Reads files within limits, writes whole files, and locks files.
+//! Reads files within size limits, writes whole files, and locks files.
 //!
-//! A folder that a user specifies may be shared: a mailbox with players, or a cache with colleagues. Anyone
-//! who can write to the folder can replace a file that is about to be opened with a link to somebody else's
-//! file, or with a pipe. Functions whose names end in `no_follow` therefore reject links. No function opens a
-//! pipe or a device, because opening a pipe waits for its other end, possibly for ever. No function truncates
-//! a file.
+//! A user-specified folder may be shared: a mailbox with players, or a cache with colleagues. Anyone who can
+//! write to the folder can replace a file that is about to be opened with a link to someone else's file, or
+//! with a pipe. Functions whose names end in `no_follow` therefore reject links. No function opens a pipe or
+//! a device, because opening a pipe waits for its other end, possibly forever. No function truncates a file.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod lock;

@@ -1,4 +1,4 @@
-//! File locks of the operating system.
+//! Operating system file locks.
 
 use crate::open::{is_same_file, open, open_no_follow};
 use std::fs::{self, File, TryLockError};
@@ -11,11 +11,11 @@ use std::path::Path;
 pub struct Lock(File);
 
 impl Lock {
-    /// Locks a file, creating it if it does not exist. Returns `None` if the lock is already held. A file system
-    /// without locks grants every lock.
+    /// Locks a file, and creates the file if it does not exist. Returns `None` if the lock is already held. A
+    /// file system without locks grants every lock.
     ///
     /// # Errors
-    /// Returns an error if the file is a link or not a regular file, or if the file system fails.
+    /// Returns an error if the path is a link or not a regular file, or if the file system fails.
     pub fn take(path: &Path) -> io::Result<Option<Lock>> {
         // The current holder may finish in the meantime and remove the file.
         for _ in 0..16 {
@@ -35,7 +35,7 @@ impl Lock {
         Ok(None)
     }
 
-    /// Returns `true` if the lock on a file is held. Creates nothing, and does not follow links.
+    /// Returns `true` if the lock on a file is held. Does not create the file, and does not follow links.
     pub fn is_held(path: &Path) -> bool {
         let file = if path.is_symlink() { Err(ErrorKind::InvalidInput.into()) } else { open(path) };
         file.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))

@@ -113,7 +113,7 @@ fn open_or_create(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
     Err(io::Error::from(ErrorKind::AlreadyExists))
 }
 
-/// Opens an existing file, if it is a regular file and not a link.
+/// Opens an existing file, provided that it is a regular file and not a link.
 fn existing(path: &Path, options: &OpenOptions) -> io::Result<File> {
     let examined = fs::symlink_metadata(path)?;
     regular(&examined)?;
@@ -134,7 +134,7 @@ fn invalid(what: &str) -> io::Error {
     io::Error::new(ErrorKind::InvalidInput, what)
 }
 
-/// Returns `true` if `one` and `other` describe the same file, or if the identity is unknown.
+/// Returns `true` if `one` and `other` describe the same file, or if the files' identity is unknown.
 pub fn is_same_file(one: &Metadata, other: &Metadata) -> bool {
     #[cfg(unix)]
     {
@@ -154,7 +154,8 @@ mod tests {
     use std::os::unix::fs::symlink;
     use std::process::Command;
 
-    /// No way to open a file changes the target of a link, or creates the target of a dangling link.
+    /// Checks that opening a file never changes the target of a link, nor creates the target of a dangling
+    /// link.
     #[test]
     fn links_lead_nowhere() {
         let home = tempfile::tempdir().unwrap();
@@ -187,7 +188,7 @@ mod tests {
         assert_eq!(read(&path, 6).unwrap(), None);
     }
 
-    /// A pipe without a writer would block for ever.
+    /// Checks that pipes are not opened, because a pipe without a writer would block forever.
     #[test]
     fn pipes_are_not_opened() {
         let home = tempfile::tempdir().unwrap();

@@ -8,14 +8,14 @@ use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 use tempfile::{Builder, NamedTempFile, PersistError};
 
-/// The prefix and the suffix of the names of unfinished files, which are next to their targets. Six letters
-/// or digits stand between prefix and suffix.
+/// The prefix and the suffix in the names of unfinished files, which are stored next to their targets.
+/// Between prefix and suffix, the name contains six letters or digits.
 const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
 
 /// Writes a whole file, replacing any previous file, like [`Disk::write`].
 ///
 /// # Errors
-/// Returns an error if the file system fails. The previous content is unchanged then.
+/// Returns an error if the file system fails. In that case, the previous content is unchanged.
 pub fn write(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     Disk::new().write(path, bytes, access)
 }
@@ -23,8 +23,8 @@ pub fn write(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
 /// Writes a whole new file. An existing file with this name is never replaced.
 ///
 /// # Errors
-/// Returns an error if the name already exists ([`ErrorKind::AlreadyExists`]) or the file system fails.
-/// Nothing is left behind then.
+/// Returns an error if the name already exists ([`ErrorKind::AlreadyExists`]) or the file system fails. In
+/// that case, no unfinished file remains.
 pub fn create(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     let taken = || io::Error::from(ErrorKind::AlreadyExists);
     if fs::symlink_metadata(path).is_ok() {
@@ -45,7 +45,7 @@ pub fn create(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     disk.sync(parent(path))
 }
 
-/// Creates a folder with its parents, and waits until the names of new folders are on disk.
+/// Creates a folder with its parents, and waits until the new folders' names are on disk.
 ///
 /// # Errors
 ///
@@ -54,8 +54,8 @@ pub fn create_folder(folder: &Path) -> io::Result<()> {
     Disk::new().create_folder(folder)
 }
 
-/// Waits until the names in a folder are on disk. Only Unix supports such a wait. On other systems, the file
-/// system's journal must suffice.
+/// Waits until the file names in a folder are on disk. Only Unix supports such a wait. On other systems, the
+/// file system's journal must suffice.
 ///
 /// # Errors
 /// Returns an error if the file system fails.
@@ -66,7 +66,7 @@ pub fn sync_folder(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Returns `true` if a file has the name of an unfinished file.
+/// Returns `true` if a file name has the form of an unfinished file's name.
 pub fn is_unfinished(name: &OsStr) -> bool {
     let drawn = name.to_str().and_then(|name| name.strip_prefix(UNFINISHED.0)?.strip_suffix(UNFINISHED.1));
     drawn.is_some_and(|drawn| drawn.len() == 6 && drawn.chars().all(|letter| letter.is_ascii_alphanumeric()))
@@ -82,42 +82,42 @@ pub fn unfinished(path: &Path) -> Option<File> {
     file.try_lock().ok().map(|()| file)
 }
 
-/// Writes files such that a loss of power at any moment leaves each file either unchanged or complete.
+/// Writes files such that a power loss at any moment leaves each file either unchanged or complete.
 ///
-/// Tests can simulate a loss of power: a disk made by [`Disk::losing_power_after`] stops after a given number
-/// of steps, leaving everything as it is at that moment.
+/// Tests can simulate a power loss: a disk created by [`Disk::losing_power_after`] stops after a given number
+/// of steps, and leaves all files as they are at that moment.
 #[derive(Debug, Default)]
 pub struct Disk {
-    /// The number of steps left before the power is lost, or `None` if the power is never lost.
+    /// The number of remaining steps before the power loss, or `None` if the power is never lost.
     left: Option<Cell<usize>>,
 }
 
 /// The access to a new file for users other than the owner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// The access of the replaced file, or the system's default for a new file.
+    /// The same access as the replaced file, or the system's default for a new file.
     Shared,
     /// No access: only the owner can read the file.
     Private,
 }
 
 impl Disk {
-    /// Creates the disk of the machine, which never loses power.
+    /// Creates the machine's real disk, without a simulated power loss.
     pub fn new() -> Disk {
         Disk::default()
     }
 
-    /// Creates a disk that stops working after `steps` changes of the file system. A write that is cut off
+    /// Creates a disk that stops working after `steps` changes to the file system. An interrupted write
     /// writes half of its bytes.
     pub fn losing_power_after(steps: usize) -> Disk {
         Disk { left: Some(Cell::new(steps)) }
     }
 
-    /// Writes a whole file, replacing any previous file. A link or a pipe is replaced as well, and neither
-    /// followed nor opened.
+    /// Writes a whole file, replacing any previous file. A link or a pipe is replaced, too, without being
+    /// followed or opened.
     ///
     /// # Errors
-    /// Returns an error if the file system fails. The previous content is unchanged then.
+    /// Returns an error if the file system fails. In that case, the previous content is unchanged.
     pub fn write(&self, path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
         let fresh = self.fill(path, bytes, access)?;
         self.step()?;
@@ -156,7 +156,7 @@ impl Disk {
         Ok(fresh)
     }
 
-    /// Creates a folder with its parents, and waits until the names of new folders are on disk.
+    /// Creates a folder with its parents, and waits until the new folders' names are on disk.
     ///
     /// # Errors
     ///
@@ -181,7 +181,7 @@ impl Disk {
         sync_folder(folder)
     }
 
-    /// Counts a change of the file system.
+    /// Counts a change to the file system.
     fn step(&self) -> io::Result<()> {
         let Some(left) = &self.left else { return Ok(()) };
         match left.get().checked_sub(1) {
@@ -194,7 +194,7 @@ impl Disk {
     }
 }
 
-/// Returns the folder of a file, which is never the empty path.
+/// Returns a file's folder, which is never the empty path.
 fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -212,7 +212,7 @@ mod tests {
         listed.map(|entry| PathBuf::from(entry.expect("readable").file_name())).collect()
     }
 
-    /// Checks that a file has either its old or its new content, whenever the power is lost.
+    /// Checks that a file has either its old or its new content, regardless of when the power is lost.
     #[test]
     fn a_file_is_old_or_new_after_a_loss_of_power() {
         let mut ends = Vec::new();
@@ -298,7 +298,7 @@ mod tests {
         );
     }
 
-    /// The target of a link stays unchanged, and writing does not wait for a pipe.
+    /// Checks that a link's target stays unchanged, and that writing does not wait for a pipe.
     #[cfg(unix)]
     #[test]
     fn links_and_pipes_are_replaced() {
@@ -319,7 +319,7 @@ mod tests {
         assert!(!home.path().join("absent").exists());
     }
 
-    /// A loss of power can interrupt the creation of each new folder, and the wait for its name.
+    /// Checks power losses during the creation of each new folder, and during the wait for its name.
     #[test]
     fn names_of_new_folders_are_waited_for() {
         let home = tempfile::tempdir().expect("temporary folder");

@@ -21,7 +21,7 @@ pub struct Completion {
 /// A word that can be inserted at a position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// The word that is offered.
+    /// The offered word.
     pub label: String,
     /// The kind of word.
     pub kind: ItemKind,
@@ -38,17 +38,17 @@ pub struct Item {
 pub enum ItemKind {
     /// A sprite class.
     Class,
-    /// A sprite type of the game.
+    /// A sprite type in the game.
     Sprite,
     /// An effect.
     Effect,
     /// A termination.
     Termination,
-    /// The name of a parameter.
+    /// A parameter name.
     Parameter,
-    /// A value of a parameter.
+    /// A parameter value.
     Value,
-    /// A section, or the keyword with which a game begins.
+    /// A section, or the keyword at the beginning of a game.
     Keyword,
 }
 
@@ -84,17 +84,17 @@ pub fn complete(source: &str, at: usize) -> Completion {
     Completion { span: Span::new(start, at), items }
 }
 
-/// The position of a completion.
+/// The position for a completion.
 struct Context<'a, 'b> {
     words: &'b Words<'a>,
-    /// The line, if it has a word before the position.
+    /// The line, if it contains a word before the position.
     line: Option<&'b Line<'a>>,
     line_start: usize,
     word_start: usize,
 }
 
 impl<'a> Context<'a, '_> {
-    /// Returns the place of the line in the game.
+    /// Returns the line's role in the game.
     fn place(&self) -> Place {
         let above = self.words.lines.iter().take_while(|line| line.span.start < self.line_start).last();
         let above = above.map(|line| line.place);
@@ -106,7 +106,7 @@ impl<'a> Context<'a, '_> {
         }
     }
 
-    /// Returns the words of the line before the position, without the word being written.
+    /// Returns the words on the line before the position, excluding the word being written.
     fn before(&self) -> impl Iterator<Item = &crate::words::Word<'a>> {
         let words = self.line.map_or(&[][..], |line| &line.words);
         words.iter().take_while(|word| word.span.start < self.word_start)
@@ -116,7 +116,7 @@ impl<'a> Context<'a, '_> {
         self.before().any(|word| word.role == Role::Arrow)
     }
 
-    /// Returns `true` if lines of this kind have parameters after their words.
+    /// Returns `true` if lines of this kind accept parameters after their words.
     fn allows_parameters(&self) -> bool {
         self.place() != Place::Body(Section::LevelMapping)
     }
@@ -163,7 +163,7 @@ impl<'a> Context<'a, '_> {
         }
     }
 
-    /// Returns the sections that the game does not have yet.
+    /// Returns the sections that the game does not contain yet.
     fn sections(&self) -> Vec<Item> {
         let in_space = self.words.all().next().is_some_and(|word| word.text == "GameSpace");
         let has = |section: Section| {
@@ -199,7 +199,7 @@ impl<'a> Context<'a, '_> {
             .collect()
     }
 
-    /// Returns the parameters that the line does not have yet.
+    /// Returns the parameters that the line does not contain yet.
     fn parameters(&self) -> Vec<Item> {
         let owner = self.owner();
         let given: Vec<&str> = self.line.map_or(Vec::new(), |line| {
@@ -220,7 +220,7 @@ impl<'a> Context<'a, '_> {
         .collect()
     }
 
-    /// Returns the values of a parameter.
+    /// Returns a parameter's values.
     fn values(&self, key: &str) -> Vec<Item> {
         match values::kind(self.owner(), key) {
             Some(Kind::Sprites) => self.sprites(),
@@ -234,7 +234,7 @@ impl<'a> Context<'a, '_> {
     }
 }
 
-/// The classes and effects that games use most, in the order in which they are offered. All others follow.
+/// The classes and effects that games use most, in the order of the suggestions. All others follow.
 const COMMON: [&str; 24] = [
     "Immovable",
     "MovingAvatar",
@@ -295,8 +295,8 @@ mod tests {
 
     const GAME: &str = "BasicGame |\n    SpriteSet\n        fox > Missile orientation=RIGHT\n        den > SpawnPoint stype=fox\n    LevelMapping\n        f > fox\n    InteractionSet\n        fox wall > killSprite\n    TerminationSet\n        Timeout limit=9\n";
 
-    /// Checks the completions at the `|` of a text that replaces a part of the game. `offered` are the words that must
-    /// be offered, and `others` are the words that must not be offered.
+    /// Checks the completions at the `|` in a text that replaces a part of the game. `offered` are the words
+    /// that must be offered, and `others` are the words that must not be offered.
     #[track_caller]
     fn check(part: &str, instead: &str, offered: &[&str], others: &[&str]) {
         let game = GAME.replace('|', "");

@@ -1,14 +1,15 @@
-//! The canonical form of a game, as `arcade fmt` prints it.
+//! A game's canonical form, as printed by `arcade fmt`.
 
 use crate::problems::{Problem, problems};
 use engine::{Diagnostics, syntax};
 
-/// Returns the text in canonical form. Sections are in order, indents are four spaces, and comments are kept.
+/// Returns the text in canonical form. Sections are in canonical order, indents are four spaces, and comments
+/// are preserved.
 ///
 /// # Errors
 ///
-/// Returns the problems of the text if it has lines that cannot be parsed, because printing only the other lines would
-/// lose them.
+/// Returns the problems in the text if some lines cannot be parsed, because the canonical form would omit
+/// these lines.
 pub fn format(source: &str) -> Result<String, Vec<Problem>> {
     let (description, found) = syntax::parse(source);
     if Diagnostics::has_errors(&found) {

@@ -21,8 +21,8 @@ pub struct Hover {
 /// The maximum number of sentences about a sprite type.
 const SENTENCES: usize = 12;
 
-/// Returns the explanation of the word at byte `at`. Keywords of VGDL are explained from their manual pages, and sprite types and
-/// level characters from the game. Sentences about rules require a game that compiles.
+/// Returns the explanation of the word at byte `at`. VGDL keywords are explained by their manual pages, and
+/// sprite types and level characters by the game. Sentences about rules require a game that compiles.
 pub fn hover(source: &str, at: usize) -> Option<Hover> {
     let words = Words::of(source);
     let word = words.at(at)?;
@@ -41,8 +41,8 @@ pub fn hover(source: &str, at: usize) -> Option<Hover> {
     Some(Hover { span: word.span, markdown })
 }
 
-/// Returns the explanation of the character at byte `at` of a level, which describes the sprites that the character
-/// places in the game.
+/// Returns the explanation of the character at byte `at` in a level: the sprites that the character places in
+/// the game.
 pub fn level_hover(source: &str, level: &str, at: usize) -> Option<Hover> {
     let (span, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);
@@ -154,7 +154,7 @@ fn of_sprite(source: &str, words: &Words<'_>, name: &str) -> Option<String> {
     Some(markdown)
 }
 
-/// Returns the ancestors of a type, its subtypes, and its parameters with their origin.
+/// Returns a type's ancestors, its subtypes, and its parameters with their origin.
 fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     let mut markdown = String::new();
     let names: Vec<String> = words.ancestors(sprite).map(|above| format!("`{}`", above.name)).collect();
@@ -180,7 +180,7 @@ fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     markdown
 }
 
-/// A game that compiles, with its rules described in words.
+/// A game that compiles, with its rules in plain English.
 struct Told {
     game: Game,
     lines: Vec<String>,

@@ -1,9 +1,9 @@
-//! Answers to editors' requests about VGDL games and levels: problems with fixes, hover texts, completions and
-//! renaming.
+//! Responses to editors' requests about VGDL games and levels: problems with fixes, hover texts, completions
+//! and renaming.
 //!
-//! Every function takes a text as it is being written, which need not compile. Positions are byte offsets into the
-//! text, and [`positions`] converts them to the units that editors use. The same text always gives the same answer.
-//! [`lsp`] is a language server made of these functions.
+//! Every function accepts incomplete text, which need not compile. Positions are byte offsets into the text,
+//! and [`positions`] converts them to the units that editors use. The same text always yields the same
+//! result. [`lsp`] is a language server based on these functions.
 
 mod complete;
 mod format;

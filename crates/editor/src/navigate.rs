@@ -1,9 +1,9 @@
-//! The positions that refer to the same thing.
+//! Navigation between the positions that refer to the same symbol.
 
 use crate::words::{BUILT_IN, Role, Word, Words};
 use engine::Span;
 
-/// A thing in a game to which several positions can refer.
+/// A symbol in a game to which several positions can refer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Subject<'a> {
     /// A sprite type.
@@ -15,7 +15,7 @@ pub(crate) enum Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// Returns the thing to which a word refers.
+    /// Returns the symbol to which a word refers.
     pub(crate) fn of(word: &Word<'a>) -> Option<Subject<'a>> {
         match word.role {
             Role::Declaration | Role::Sprite => Some(Subject::Sprite(word.text)),
@@ -25,13 +25,14 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Returns the words that refer to the thing, in order.
+    /// Returns the words that refer to the symbol, in order.
     pub(crate) fn places<'b>(self, words: &'b Words<'a>) -> impl Iterator<Item = &'b Word<'a>> {
         words.all().filter(move |word| Subject::of(word) == Some(self))
     }
 }
 
-/// Returns the position of the declaration of the sprite type, level character or `GameSpace` parameter at byte `at`.
+/// Returns the position at which the sprite type, level character or `GameSpace` parameter at byte `at` is
+/// declared.
 pub fn definition(source: &str, at: usize) -> Option<Span> {
     let words = Words::of(source);
     let subject = Subject::of(words.at(at)?)?;
@@ -39,21 +40,22 @@ pub fn definition(source: &str, at: usize) -> Option<Span> {
     subject.places(&words).find(declares).map(|word| word.span)
 }
 
-/// Returns the position in a game where the character at byte `at` of a level is declared.
+/// Returns the position in a game at which the character at byte `at` in a level is declared.
 pub fn level_definition(source: &str, level: &str, at: usize) -> Option<Span> {
     let (_, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);
     Subject::Symbol(symbol).places(&words).next().map(|word| word.span)
 }
 
-/// Returns the character that starts at byte `at` of a level, and its span. Returns `None` for spaces and line ends.
+/// Returns the character that starts at byte `at` in a level, and its span. Returns `None` for spaces and
+/// line ends.
 pub(crate) fn symbol_at(level: &str, at: usize) -> Option<(Span, &str)> {
     let symbol = level.get(at..)?.chars().next().filter(|c| !c.is_whitespace())?;
     let span = Span::new(at, at + symbol.len_utf8());
     Some((span, &level[span.start..span.end]))
 }
 
-/// Returns the positions of all references to the thing at byte `at`, including its declaration, in order.
+/// Returns the positions of all references to the symbol at byte `at`, including its declaration, in order.
 pub fn references(source: &str, at: usize) -> Vec<Span> {
     let words = Words::of(source);
     let Some(subject) = words.at(at).and_then(Subject::of) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! The outline of a game: its sections and their declarations.
+//! A game's outline: its sections and their declarations.
 
 use crate::words::{Line, Place, Role, Words};
 use engine::Span;
@@ -24,7 +24,7 @@ pub enum EntryKind {
 /// An entry in an outline.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The name. The name of an interaction consists of its sprites and its effect.
+    /// The entry's name. An interaction's name consists of its sprites and its effect.
     pub name: String,
     /// A class, or the names that a character places. The text may be empty.
     pub detail: String,
@@ -38,7 +38,7 @@ pub struct Entry {
     pub children: Vec<Entry>,
 }
 
-/// Returns the sections of a game's text with their lines. Subtypes are below their parents.
+/// Returns the sections in a game's text with their lines. Subtypes are nested under their parents.
 pub fn outline(source: &str) -> Vec<Entry> {
     let words = Words::of(source);
     let mut sections: Vec<Entry> = Vec::new();

@@ -1,5 +1,5 @@
-//! The pages about the keywords of VGDL (`docs/reference/ontology`) and about the codes of problems (`docs/reference/diagnostics`), and excerpts from
-//! them, in Markdown.
+//! The manual pages about VGDL keywords (`docs/reference/ontology`) and problem codes
+//! (`docs/reference/diagnostics`), and excerpts from these pages, in Markdown.
 
 use crate::values;
 use crate::values::Owner;
@@ -9,7 +9,7 @@ use include_dir::{Dir, include_dir};
 static ONTOLOGY: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/ontology");
 static DIAGNOSTICS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/diagnostics");
 
-/// Returns the page about a sprite class, an effect, a termination or the code of a problem, in Markdown.
+/// Returns the page about a sprite class, an effect, a termination or a problem code, in Markdown.
 pub fn page(name: &str) -> Option<&'static str> {
     let of_code = || DIAGNOSTICS.get_file(format!("{name}.md"))?.contents_utf8();
     of_word(name).or_else(of_code)
@@ -43,15 +43,15 @@ pub(crate) fn summary(word: &str) -> Option<String> {
     Some(unlinked(&paragraph.lines().collect::<Vec<_>>().join(" ")))
 }
 
-/// The row of a parameter in a table: its default and its meaning.
+/// A parameter's row in a table: its default and its meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) default: String,
     pub(crate) meaning: String,
 }
 
-/// Returns the row of a line's parameter. It comes from the page of the line's keyword, from the pages that this
-/// keyword extends, or from the page for all keywords of its kind.
+/// Returns the table row for a parameter on a line. The row comes from the page of the line's keyword, from
+/// the pages that this keyword extends, or from the page for all keywords of its kind.
 pub(crate) fn row(owner: Owner<'_>, key: &str) -> Option<Row> {
     let found = |folder: &str, name: &str| text(folder, name).and_then(|page| row_of(page, key));
     match owner {
@@ -70,7 +70,7 @@ pub(crate) fn row(owner: Owner<'_>, key: &str) -> Option<Row> {
     }
 }
 
-/// Returns the row of a table whose first column is the parameter.
+/// Returns the table row whose first column contains the parameter.
 fn row_of(page: &str, key: &str) -> Option<Row> {
     let named = format!("`{key}`");
     page.lines().filter(|line| line.starts_with('|')).find_map(|line| {
@@ -82,7 +82,7 @@ fn row_of(page: &str, key: &str) -> Option<Row> {
     })
 }
 
-/// Returns the parameters that a line accepts, starting with its keyword's own.
+/// Returns the parameters that a line accepts, starting with the parameters of the line's own keyword.
 pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
     let mut keys: Vec<&'static str> = match owner {
         Owner::Game => values::HEADER.to_vec(),
@@ -113,7 +113,7 @@ pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
     keys
 }
 
-/// Replaces the links in Markdown by their texts, because the links lead to files that an editor does not have.
+/// Replaces the links in Markdown by their texts, because an editor does not have the linked files.
 fn unlinked(markdown: &str) -> String {
     let mut out = String::with_capacity(markdown.len());
     let mut rest = markdown;

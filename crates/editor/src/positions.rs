@@ -1,11 +1,11 @@
-//! Positions in the units of editors: UTF-16 code units instead of bytes, and lines with columns.
+//! Positions in editors' units: UTF-16 code units instead of bytes, and lines with columns.
 
 /// The unit in which columns are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// Bytes of UTF-8.
+    /// UTF-8 bytes.
     Byte,
-    /// Code units of UTF-16, as in JavaScript and the Language Server Protocol.
+    /// UTF-16 code units, as in JavaScript and the Language Server Protocol.
     Utf16,
 }
 
@@ -24,8 +24,8 @@ impl Unit {
         }
     }
 
-    /// Returns the byte offset that is `count` units from the start of `text`. The offset is at most the text's length,
-    /// and never inside a character.
+    /// Returns the byte offset at a distance of `count` units from the start of `text`. The offset is at most
+    /// the text's length, and never inside a character.
     fn byte(self, text: &str, count: usize) -> usize {
         let mut passed = 0;
         for (at, c) in text.char_indices() {
@@ -64,7 +64,7 @@ pub struct Position {
     pub column: usize,
 }
 
-/// The lines of a text, for conversions between bytes and positions. Terminators are `\n`, `\r\n` and `\r`.
+/// The lines in a text, for conversions between bytes and positions. Terminators are `\n`, `\r\n` and `\r`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lines {
     /// The offset of the first byte of each line.
@@ -72,7 +72,7 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// Finds the lines of a text. Cost: linear in the text.
+    /// Finds the lines in a text. Cost: linear in the text's length.
     pub fn of(text: &str) -> Lines {
         let bytes = text.as_bytes();
         let mut starts = vec![0];
@@ -96,8 +96,8 @@ impl Lines {
         Position { line, column: unit.length(&text[self.starts[line]..at]) }
     }
 
-    /// Returns the byte offset of a position in the text. Columns beyond the line stand for its end, and lines beyond
-    /// the text for the text's end.
+    /// Returns the byte offset of a position in the text. A column beyond the line's end stands for the end
+    /// of the line. A line beyond the text's end stands for the end of the text.
     pub fn byte(&self, text: &str, position: Position, unit: Unit) -> usize {
         let Some(&start) = self.starts.get(position.line) else { return text.len() };
         let end = self.starts.get(position.line + 1).copied().unwrap_or(text.len());

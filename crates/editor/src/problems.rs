@@ -1,4 +1,4 @@
-//! The problems of a text, each with the fixes that a program can apply.
+//! The problems in a text, each with its machine-applicable fixes.
 
 use engine::{Diagnostic, Edit, Fix, Game, LevelMapping, Severity, Span};
 
@@ -9,20 +9,20 @@ pub struct Problem {
     pub code: &'static str,
     /// The severity: error or warning.
     pub severity: Severity,
-    /// The message, which contains the faulty word. It is in lower case, without a full stop.
+    /// The message, which contains the faulty word. The message is in lower case and has no full stop.
     pub message: String,
     /// A note about the position. The note may be empty.
     pub label: String,
-    /// The suggested next step; `None` if there is no suggestion.
+    /// The suggested next step, or `None` if there is no suggestion.
     pub help: Option<String>,
-    /// The position of the problem.
+    /// The problem's position.
     pub span: Span,
     /// The possible fixes, most likely first.
     pub fixes: Vec<Fix>,
 }
 
 impl Problem {
-    /// Converts a problem that the engine found in a text.
+    /// Converts an engine diagnostic about a text.
     pub fn of(problem: Diagnostic, source: &str) -> Problem {
         let Diagnostic { code, severity, message, span, label, help, fix } = problem;
         let fixes = fix.map(|fix| tidied(*fix, source)).into_iter().collect();
@@ -40,8 +40,9 @@ pub fn problems(source: &str) -> Vec<Problem> {
     found.into_iter().map(|problem| Problem::of(problem, source)).collect()
 }
 
-/// Returns the problems of a level's text under a game. If the game has errors, returns only the problems that do not
-/// depend on these errors. For several levels of one game, [`LevelRules`] parses the game only once.
+/// Returns the problems in a level's text under a game's rules. If the game has errors, returns only the
+/// problems that do not depend on these errors. For several levels of one game, [`LevelRules`] parses the
+/// game only once.
 pub fn level_problems(source: &str, level: &str) -> Vec<Problem> {
     LevelRules::of(source).problems(level)
 }
@@ -58,7 +59,7 @@ enum Rules {
 }
 
 impl LevelRules {
-    /// Parses the rules of a game's text.
+    /// Parses the rules in a game's text.
     pub fn of(source: &str) -> LevelRules {
         LevelRules(match Game::from_source(source) {
             Ok(game) => Rules::Game(game),
@@ -66,7 +67,7 @@ impl LevelRules {
         })
     }
 
-    /// Returns the problems of a level's text, sorted by position.
+    /// Returns the problems in a level's text, sorted by position.
     pub fn problems(&self, level: &str) -> Vec<Problem> {
         let found = match &self.0 {
             Rules::Game(game) => {
@@ -79,7 +80,8 @@ impl LevelRules {
     }
 }
 
-/// Returns the text after the edits, whose ranges must be disjoint. Edits outside the text or inside a character are left out.
+/// Returns the text after the edits, whose ranges must be disjoint. Edits outside the text or inside a
+/// character are ignored.
 pub fn applied(text: &str, edits: &[Edit]) -> String {
     let mut sorted: Vec<&Edit> = edits.iter().collect();
     sorted.sort_by_key(|edit| edit.span);

@@ -9,14 +9,14 @@ use std::fmt;
 /// The characters that place `wall` and `avatar` in the levels of games that do not map these characters.
 const BUILT_IN_SYMBOLS: [&str; 2] = ["w", "A"];
 
-/// The reason why a name cannot be changed.
+/// The reason for rejecting a new name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RenameError {
-    /// There is neither a sprite type nor a level character at the position.
+    /// The position contains neither a sprite type nor a level character.
     Nothing,
-    /// The old or the new name has a meaning in the engine.
+    /// The old or new name has a built-in meaning.
     BuiltIn(String),
-    /// The new name is a keyword of VGDL.
+    /// The new name is a VGDL keyword.
     Keyword(String),
     /// A different type or character already has the new name.
     Taken(String),
@@ -67,7 +67,7 @@ pub fn renamable(source: &str, at: usize) -> Result<Span, RenameError> {
 ///
 /// # Errors
 ///
-/// Returns a [`RenameError`] if the name cannot be changed in this way.
+/// Returns a [`RenameError`] if the name cannot be changed to the new name.
 pub fn rename(source: &str, at: usize, name: &str) -> Result<Vec<Edit>, RenameError> {
     renamable(source, at)?;
     let words = Words::of(source);
@@ -117,7 +117,8 @@ fn is_keyword(name: &str) -> bool {
         || EDGES.iter().any(|edge| edge.eq_ignore_ascii_case(name))
 }
 
-/// Returns `true` if, according to the engine, a sprite type with that name can be declared, placed, met, listed and counted.
+/// Returns `true` if the engine allows a sprite type with that name to be declared, placed, used in
+/// interactions, listed and counted.
 fn is_name(name: &str) -> bool {
     if name.is_empty()
         || name.len() > MAX_NAME
@@ -131,7 +132,7 @@ fn is_name(name: &str) -> bool {
     is_sound(&source, |words| words.sprites.first().is_some_and(|sprite| sprite.name == name))
 }
 
-/// Returns `true` if, according to the engine, the level character can be declared.
+/// Returns `true` if the engine allows the level character to be declared.
 fn is_symbol(symbol: &str) -> bool {
     if !(symbol.len() == 1 && symbol.bytes().all(|byte| byte.is_ascii_graphic())) {
         return false;

@@ -1,18 +1,18 @@
-//! The kinds of values that parameters accept, and the values of the kinds that can be listed.
+//! The kinds of values that parameters accept, and the values of enumerable kinds.
 
 use engine::{ParameterKind, SpriteClass, effect_parameters};
 
-/// The owner of a parameter.
+/// A parameter's owner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Owner<'a> {
-    /// The first line of a game.
+    /// A game's first line.
     Game,
-    /// A sprite type with that class, inherited or its own.
+    /// A sprite type with that class, either inherited or its own.
     Sprite(Option<SpriteClass>),
-    /// An effect by its keyword. The keyword of the effect that it schedules follows, if it schedules an
-    /// effect.
+    /// An effect, identified by its keyword. The second keyword belongs to the effect that it schedules,
+    /// if any.
     Effect(&'a str, Option<&'a str>),
-    /// A termination, by class.
+    /// A termination, identified by its class.
     Termination(&'a str),
     /// A parameter of a `GameSpace`.
     Parameter,
@@ -20,18 +20,18 @@ pub(crate) enum Owner<'a> {
     Nobody,
 }
 
-/// The kind of value of a parameter.
+/// The kind of a parameter's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// Names of sprite types, separated by commas.
+    /// Sprite type names, separated by commas.
     Sprites,
-    /// The keyword of an effect.
+    /// An effect keyword.
     Effect,
     /// The word `True` or `False`.
     Flag,
     /// The word `UP`, `DOWN`, `LEFT`, `RIGHT` or `NONE`.
     Direction,
-    /// The name of a colour.
+    /// A colour name.
     Color,
     /// The word `GRID` or `CONT`.
     Physics,
@@ -61,7 +61,7 @@ pub(crate) const OF_CLOCKS: [&str; 3] = ["timer", "repeating", "nextExecution"];
 /// The parameters that every termination accepts.
 pub(crate) const OF_TERMINATIONS: [&str; 4] = ["limit", "win", "count_score", "canEnd"];
 
-/// The parameters of a line in the ParameterSet.
+/// The parameters on a ParameterSet line.
 pub(crate) const OF_PARAMETERS: [&str; 3] = ["values", "value", "string"];
 
 /// Returns the parameters that a termination accepts in addition to the parameters of all terminations.
@@ -75,7 +75,7 @@ pub(crate) fn of_termination(class: &str) -> &'static [&'static str] {
     }
 }
 
-/// Returns the kind of value of a parameter, or `None` if the parameter is unknown.
+/// Returns the kind of a parameter's value, or `None` if the parameter is unknown.
 pub(crate) fn kind(owner: Owner<'_>, key: &str) -> Option<Kind> {
     match owner {
         Owner::Game => HEADER.contains(&key).then_some(match key {
@@ -94,7 +94,7 @@ pub(crate) fn kind(owner: Owner<'_>, key: &str) -> Option<Kind> {
     }
 }
 
-/// Returns the kind of the parameters that refer to sprites in lines of any kind.
+/// Returns the kind of the parameters that refer to sprites on lines of any kind.
 fn of_line(key: &str) -> Option<Kind> {
     (key.starts_with("stype") || ["ammo", "spawnBehind", "resource_name"].contains(&key))
         .then_some(Kind::Sprites)
@@ -139,7 +139,7 @@ fn of_effect(keyword: &str, planned: Option<&str>, key: &str) -> Option<Kind> {
     }
 }
 
-/// Returns the values of a kind that can be listed.
+/// Returns all values of an enumerable kind.
 pub(crate) fn values(kind: Kind) -> &'static [&'static str] {
     match kind {
         Kind::Flag => &["True", "False"],
@@ -150,7 +150,7 @@ pub(crate) fn values(kind: Kind) -> &'static [&'static str] {
     }
 }
 
-/// The names of the colours.
+/// The colour names.
 const COLORS: [&str; 20] = [
     "GREEN",
     "BLUE",
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
     use engine::{Game, SPRITE_PARAMETERS};
 
-    /// Returns `true` if the engine accepts a value for a parameter of a class.
+    /// Returns `true` if the engine accepts a value for a class parameter.
     fn takes(class: SpriteClass, key: &str, value: &str) -> bool {
         let name = class.name();
         let source = format!(

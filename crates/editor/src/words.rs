@@ -1,5 +1,5 @@
-//! The words of a game's text and their roles in the game, line by line. A half-written line affects only its own words, and the
-//! words' roles are known before the game compiles.
+//! The words in a game's text and their roles in the game, line by line. A half-written line affects only its
+//! own words, and the words' roles are known before the game compiles.
 
 use crate::values;
 use crate::values::Owner;
@@ -8,11 +8,11 @@ use engine::syntax::Section;
 use engine::{EFFECTS, MAX_SOURCE, Span, SpriteClass, TERMINATIONS, nearest};
 use std::collections::BTreeSet;
 
-/// The sprite types that every game has, declared or not, with their classes.
+/// The built-in sprite types, which exist in every game, with their classes.
 pub(crate) const BUILT_IN: [(&str, SpriteClass); 2] =
     [("wall", SpriteClass::Immovable), ("avatar", SpriteClass::MovingAvatar)];
 
-/// The words that do not refer to a sprite in interactions.
+/// The words in interactions that do not refer to a sprite.
 pub(crate) const EDGES: [&str; 2] = ["EOS", "TIME"];
 
 /// All sections, in canonical order.
@@ -24,33 +24,33 @@ pub(crate) const SECTIONS: [Section; 5] = [
     Section::TerminationSet,
 ];
 
-/// The place of a line in the game.
+/// A line's location in the game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// The first line of the game.
     Header,
-    /// The name of a section.
+    /// A section name.
     Head(Section),
-    /// A line of a section.
+    /// A line in a section.
     Body(Section),
     /// A line before all sections.
     Outside,
 }
 
-/// The role of a word.
+/// A word's role.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
     /// The word `BasicGame` or `GameSpace`.
     GameClass,
-    /// The name of a section.
+    /// A section name.
     Section(Section),
-    /// The name of a sprite type in its declaration.
+    /// A sprite type's name in its declaration.
     Declaration,
     /// A reference to a sprite type.
     Sprite,
     /// A sprite class.
     Class,
-    /// The keyword of an effect.
+    /// An effect keyword.
     Effect,
     /// The word `EOS` or `TIME`.
     Edge,
@@ -58,28 +58,28 @@ pub(crate) enum Role {
     Termination,
     /// A level character in its declaration.
     Symbol,
-    /// The name of a parameter.
+    /// A parameter name.
     Key,
-    /// The value of a parameter that refers to neither a sprite nor an effect.
+    /// A parameter value that refers to neither a sprite nor an effect.
     Value,
-    /// The name of a `GameSpace` parameter in its declaration.
+    /// A `GameSpace` parameter's name in its declaration.
     Parameter,
     /// A reference to a `GameSpace` parameter as a value.
     ParameterUse,
     /// The arrow `>`.
     Arrow,
-    /// A word that is out of place.
+    /// A misplaced word.
     Stray,
 }
 
-/// A word, an entry of a list of names, or a half of a parameter.
+/// A word, an entry in a list of names, or one half of a parameter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Word<'a> {
     pub(crate) text: &'a str,
     pub(crate) span: Span,
     pub(crate) role: Role,
     pub(crate) owner: Owner<'a>,
-    /// The parameter whose value the word belongs to.
+    /// The parameter to whose value the word belongs.
     pub(crate) key: Option<&'a str>,
 }
 
@@ -87,20 +87,20 @@ pub(crate) struct Word<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct Line<'a> {
     pub(crate) place: Place,
-    /// The span of the line without indentation, comment and trailing spaces.
+    /// The span of the line, excluding indentation, comment and trailing spaces.
     pub(crate) span: Span,
     pub(crate) words: Vec<Word<'a>>,
 }
 
-/// A line of the SpriteSet.
+/// A SpriteSet line.
 #[derive(Clone, Debug)]
 pub(crate) struct Sprite<'a> {
     pub(crate) name: &'a str,
-    /// The class of the sprites. An inherited class takes precedence over a written class.
+    /// The sprites' class. An inherited class takes precedence over a written class.
     pub(crate) class: Option<SpriteClass>,
     /// The index of the parent type.
     pub(crate) parent: Option<usize>,
-    /// The parameters in the line.
+    /// The parameters on the line.
     pub(crate) params: Vec<(&'a str, &'a str)>,
 }
 
@@ -111,12 +111,13 @@ pub(crate) struct Words<'a> {
     pub(crate) sprites: Vec<Sprite<'a>>,
 }
 
-/// Returns `true` if the engine treats a character as a separator of words.
+/// Returns `true` if the engine treats a character as a word separator.
 pub(crate) fn is_blank(c: char) -> bool {
     c <= ' '
 }
 
-/// Returns the text of a line before its comment. The comment starts with `#`, or with `//` as in other languages.
+/// Returns the text on a line before its comment. The comment starts with `#`, or with `//` as in other
+/// languages.
 pub(crate) fn code(raw: &str) -> &str {
     let code = raw.split('#').next().unwrap_or_default();
     let foreign = |&(at, _): &(usize, &str)| code[..at].chars().next_back().is_none_or(is_blank);
@@ -126,7 +127,7 @@ pub(crate) fn code(raw: &str) -> &str {
     }
 }
 
-/// Returns the section whose name a line contains, even if misspelt.
+/// Returns the section whose name is on a line, even if misspelt.
 fn section(text: &str) -> Option<Section> {
     let exact = SECTIONS.into_iter().find(|section| section.name() == text);
     exact.or_else(|| {
@@ -137,7 +138,8 @@ fn section(text: &str) -> Option<Section> {
 }
 
 impl<'a> Words<'a> {
-    /// Splits a text into words. A text that is too long to be parsed has no words, and lines that are too long are left out.
+    /// Splits a text into words. A text that is too long to parse yields no words, and overlong lines are
+    /// omitted.
     pub(crate) fn of(source: &'a str) -> Words<'a> {
         if source.len() > MAX_SOURCE {
             return Words { lines: Vec::new(), sprites: Vec::new() };
@@ -198,12 +200,13 @@ impl<'a> Words<'a> {
         self.sprites.iter().find(|sprite| sprite.name == name)
     }
 
-    /// Returns the ancestors of a type, starting with its parent.
+    /// Returns a type's ancestors, starting with its parent.
     pub(crate) fn ancestors<'b>(&'b self, sprite: &'b Sprite<'a>) -> impl Iterator<Item = &'b Sprite<'a>> {
         std::iter::successors(Some(sprite), |sprite| self.sprites.get(sprite.parent?)).skip(1)
     }
 
-    /// Returns the parameters of a type, with `true` for inherited parameters. The type's own parameters come first.
+    /// Returns a type's parameters, with `true` for inherited parameters. The type's own parameters come
+    /// first.
     pub(crate) fn params(&self, sprite: &Sprite<'a>) -> Vec<(&'a str, &'a str, bool)> {
         let mut seen = BTreeSet::new();
         let own = sprite.params.iter().map(|&(key, value)| (key, value, false));
@@ -212,14 +215,14 @@ impl<'a> Words<'a> {
         all.filter(|(key, ..)| seen.insert(*key)).collect()
     }
 
-    /// Returns the names of all sprite types in order. Each name is returned once.
+    /// Returns the distinct names of all sprite types, in order.
     pub(crate) fn sprite_names(&self) -> Vec<&'a str> {
         let mut seen = BTreeSet::new();
         let declared = self.sprites.iter().map(|sprite| sprite.name);
         declared.chain(BUILT_IN.map(|(name, _)| name)).filter(|name| seen.insert(*name)).collect()
     }
 
-    /// Returns the lines of the LevelMapping: each character, and the names that it places.
+    /// Returns the LevelMapping lines: each character, and the names that it places.
     pub(crate) fn mapping(&self) -> impl Iterator<Item = (&Word<'a>, impl Iterator<Item = &'a str>)> {
         let own = self.lines.iter().filter(|line| line.place == Place::Body(Section::LevelMapping));
         own.filter_map(|line| {
@@ -230,7 +233,7 @@ impl<'a> Words<'a> {
     }
 }
 
-/// Returns the sprite types declared in the lines of a SpriteSet.
+/// Returns the sprite types declared on the lines of a SpriteSet.
 fn sprites<'a, 'b>(lines: impl Iterator<Item = &'b (Place, usize, usize, &'a str)>) -> Vec<Sprite<'a>>
 where
     'a: 'b,
@@ -264,7 +267,7 @@ where
     sprites
 }
 
-/// A parser that assigns roles to the words of a line.
+/// A parser that assigns roles to the words on a line.
 struct Reader<'b> {
     place: Place,
     /// The class of the line's sprite type.
@@ -331,7 +334,7 @@ impl Reader<'_> {
         words
     }
 
-    /// Returns the role of a word that has `count` words before it on the same side of the arrow.
+    /// Returns the role of a word that follows `count` words on the same side of the arrow.
     fn role(&self, token: &str, is_past: bool, count: usize) -> Role {
         use Section as S;
         match (self.place, is_past, count) {

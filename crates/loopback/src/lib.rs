@@ -1,4 +1,4 @@
-//! HTTP on a port of this machine, within bounds on connections, time and memory.
+//! HTTP on a port on this machine, within bounds on connections, time and memory.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod bounds;

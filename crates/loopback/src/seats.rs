@@ -1,4 +1,4 @@
-//! The connections of a server, with the time of their last activity and whether they may stay.
+//! A server's connections, with the time of their last activity and whether the server may close them.
 
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, IoSlice};
@@ -13,10 +13,10 @@ use tokio::net::TcpStream;
 use tokio::sync::Notify;
 use tokio::time::{Sleep, sleep};
 
-/// The open connections of a server.
+/// A server's open connections.
 #[derive(Debug, Default)]
 pub(super) struct Seats {
-    /// A clock that advances whenever anything happens on any connection.
+    /// A clock that advances with any activity on any connection.
     heard: AtomicU64,
     pub(super) open: Mutex<BTreeMap<u64, Asker>>,
 }
@@ -38,8 +38,8 @@ impl Seats {
         asker
     }
 
-    /// Ends the connection that has been silent for longest, among the connections that may be closed. Does
-    /// nothing if all connections may stay.
+    /// Ends the connection that has been silent longest, among the connections that may be closed. Does
+    /// nothing if no connection may be closed.
     pub(super) fn free_one(&self) {
         let open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         let leaving = open.values().filter(|asker| !asker.may_stay());
@@ -60,7 +60,7 @@ pub struct Seat {
     pub(super) leave: Notify,
 }
 
-/// The connection of a request. The server adds it to every request as an extension.
+/// A request's connection. The server attaches this value to every request as an extension.
 #[derive(Clone, Debug)]
 pub struct Asker(Arc<Seat>);
 
@@ -73,12 +73,12 @@ impl Deref for Asker {
 }
 
 impl Asker {
-    /// Lets the connection stay permanently, however many new connections arrive.
+    /// Keeps the connection open permanently, regardless of the number of new connections.
     pub fn trust(&self) {
         self.is_trusted.store(true, Ordering::Relaxed);
     }
 
-    /// Lets the connection stay until the returned value is dropped.
+    /// Keeps the connection open until the returned value is dropped.
     pub fn keep(&self) -> Kept {
         self.kept.fetch_add(1, Ordering::Relaxed);
         Kept(self.clone())
@@ -94,7 +94,7 @@ impl Asker {
     }
 }
 
-/// A guard that lets a connection stay until the guard is dropped.
+/// A guard that keeps a connection open until the guard is dropped.
 #[derive(Debug)]
 pub struct Kept(Asker);
 
@@ -104,7 +104,7 @@ impl Drop for Kept {
     }
 }
 
-/// A stream that records when something is received, and fails if the other end reads nothing for too long.
+/// A stream that records when it receives data, and fails if the other end reads nothing for too long.
 pub(super) struct Watched {
     stream: TcpStream,
     asker: Asker,
@@ -118,7 +118,7 @@ impl Watched {
         Watched { stream, asker, write_time, stalled: None }
     }
 
-    /// Ends the wait if something was written. Otherwise starts or continues the wait.
+    /// Ends the wait if data was written. Otherwise starts or continues the wait.
     fn written<T>(&mut self, context: &mut Context<'_>, polled: Poll<io::Result<T>>) -> Poll<io::Result<T>> {
         if polled.is_ready() {
             self.stalled = None;

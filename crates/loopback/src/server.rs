@@ -1,4 +1,4 @@
-//! HTTP on a port of this machine, within bounds on connections, time, and the memory for bodies.
+//! HTTP on a port on this machine, within bounds on connections, time, and the memory for bodies.
 
 use crate::bounds::Bounds;
 use crate::seats::{Seats, Watched};
@@ -13,13 +13,13 @@ use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
-/// The pause after a connection could not be accepted because the system has too many open connections.
+/// The pause after a failure to accept a connection because the system has too many open connections.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// The number of bytes of a request's body that one permit covers.
+/// The number of bytes in a request body that one permit covers.
 const UNIT: usize = 1024;
 
-/// Binds a port of 127.0.0.1, which only this machine can reach. Port 0 stands for any free port.
+/// Binds a port on 127.0.0.1, which only this machine can reach. Port 0 stands for any free port.
 ///
 /// # Errors
 /// Returns an error if the port cannot be bound.
@@ -29,8 +29,8 @@ pub fn bind(port: u16) -> io::Result<TcpListener> {
     Ok(listener)
 }
 
-/// Answers connections on one thread until `stopped` is ready. Does not wait for work that handlers have
-/// passed to blocking threads.
+/// Serves connections on one thread until `stopped` resolves. Does not wait for work that handlers have
+/// moved to blocking threads.
 ///
 /// # Errors
 /// Returns an error if the runtime cannot be started.
@@ -54,9 +54,9 @@ pub fn answer(
     answered
 }
 
-/// Answers every connection, up to the bounds. If the number of connections is at its maximum, a new
-/// connection replaces the connection that has been silent for longest. Connections that are
-/// [kept](crate::Asker::keep) are never replaced. If all connections are kept, new connections wait.
+/// Serves every connection, within the bounds. If the number of connections is at its maximum, a new
+/// connection replaces the connection that has been silent longest. [Kept](crate::Asker::keep) connections
+/// are never replaced. If all connections are kept, new connections wait.
 async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
     let places = Arc::new(Semaphore::new(bounds.connections));
     let seats = Arc::new(Seats::default());
@@ -90,7 +90,7 @@ async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bound
     }
 }
 
-/// The reasons why the body of a request could not be read.
+/// The reasons why a request body could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unread {
     /// The body is larger than this number of bytes.
@@ -99,12 +99,12 @@ pub enum Unread {
     /// The connection was interrupted.
     #[error("the request was cut off: {0}")]
     CutOff(String),
-    /// The client was too slow, or the memory for bodies was occupied for too long.
+    /// The client was too slow, or no memory for bodies became available in time.
     #[error("the request was not received in time, or too many others are in progress; try again")]
     Late,
 }
 
-/// The memory for bodies that are being read or answered.
+/// The memory for bodies of requests in progress.
 #[derive(Clone, Debug)]
 pub struct Bodies {
     bounds: Bounds,
@@ -112,16 +112,16 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Creates the memory for bodies within these bounds.
+    /// Creates the memory pool for bodies within these bounds.
     pub fn new(bounds: Bounds) -> Bodies {
         Bodies { bounds, memory: Arc::new(Semaphore::new(bounds.bodies / UNIT)) }
     }
 
     /// Reads a body within the bounds. First reserves memory for the body's stated size, or for the maximum
-    /// size if none is stated. The memory stays reserved until the permit is dropped.
+    /// size if the size is unknown. The memory stays reserved until the permit is dropped.
     ///
     /// # Errors
-    /// Returns an error if the body is too large, too slow or cut off.
+    /// Returns an error if the body is too large, arrives too slowly or is cut off.
     pub async fn read(&self, body: Body) -> Result<(Bytes, OwnedSemaphorePermit), Unread> {
         let Bounds { body: most, bodies, body_time, .. } = self.bounds;
         let most = most.min(bodies);

@@ -1,4 +1,4 @@
-//! A picture of a game's state: the board, with an optional caption and legend.
+//! An image of a game's state: the board, with an optional caption and legend.
 
 use crate::caption;
 use crate::error::RenderError;
@@ -14,16 +14,16 @@ use crate::style::{MAX_CELL, MAX_PIXELS, MIN_CELL, Style};
 use engine::{SpriteRecord, SpriteType, State};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The minimum width of a picture with a caption or a legend, in pixels.
+/// The minimum width, in pixels, of an image with a caption or a legend.
 const MIN_WIDTH: u32 = 260;
 
-/// The scale of a sprite that is drawn over a different sprite in the same rectangle. It leaves both sprites
-/// visible.
+/// The scale for a sprite drawn over a different sprite in the same rectangle. At this scale, both sprites
+/// are visible.
 const OVER: f32 = 0.78;
-/// The scale of a sprite in the same rectangle as an avatar.
+/// The scale for a sprite in the same rectangle as an avatar.
 const BESIDE: f32 = 0.46;
 
-/// The letter height of a count, as a fraction of the sprite's height.
+/// The text height of a count, as a fraction of the sprite's height.
 const COUNT: f32 = 0.3;
 
 /// The minimum ratio of length to width at which a sprite is drawn as a plate.
@@ -33,7 +33,7 @@ const LONG: f32 = 1.3;
 ///
 /// # Errors
 ///
-/// Returns an error if the cell size is out of range, or the picture would be too large.
+/// Returns an error if the cell size is out of range, or the image would be too large.
 pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, RenderError> {
     let (columns, rows) = state.size();
     let size = (columns.cast_unsigned(), rows.cast_unsigned());
@@ -46,9 +46,9 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
     Ok(picture)
 }
 
-/// Creates a picture with a board, to which `draw` adds the sprites. `draw` gets the left edge of the board.
-/// The legend, and the room for a caption above the legend, are added as the style requires. Also returns the
-/// height of the board, below which the caption goes.
+/// Creates an image of a board, to which `draw` adds the sprites. `draw` receives the left edge of the board.
+/// The legend, and the space for a caption above the legend, are added as the style requires. Also returns
+/// the height of the board, below which the caption is placed.
 pub(crate) fn framed(
     looks: &Looks,
     (columns, rows): (u32, u32),
@@ -158,8 +158,8 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
     heaps.into_values().filter(|(_, many)| *many > 1).for_each(|(place, many)| count(picture, place, many));
 }
 
-/// Writes the number of sprites of one type in one rectangle into the rectangle's top left corner, because
-/// these sprites look like a single sprite.
+/// Writes the number of sprites of one type in a rectangle into its top left corner, because these sprites
+/// look like a single sprite.
 fn count(picture: &mut Picture, place: Place, many: usize) {
     let (text, size) = (many.to_string(), place.h * COUNT);
     let plate = Place { w: text_width(&text, size) + size * 0.2, h: size * 1.2, ..place };
@@ -171,7 +171,7 @@ fn is_avatar(looks: &Looks, record: &SpriteRecord) -> bool {
     matches!(looks.look(SpriteType(record.stype)).glyph, Glyph::Avatar | Glyph::Craft)
 }
 
-/// Returns the rectangle of the nth sprite that shares an avatar's rectangle. The avatar keeps its size.
+/// Returns the rectangle for the nth sprite that shares an avatar's rectangle. The avatar keeps its size.
 fn corner(place: Place, nth: usize) -> Place {
     let (w, h) = (place.w * BESIDE, place.h * BESIDE);
     let (right, top) = (matches!(nth % 4, 1 | 2), nth % 4 > 1);
@@ -179,14 +179,14 @@ fn corner(place: Place, nth: usize) -> Place {
     Place { x: place.x + x, y: place.y + y, w, h }
 }
 
-/// Returns the rectangle of a sprite that is over a different sprite.
+/// Returns the rectangle for a sprite drawn over a different sprite.
 pub(crate) fn over(place: Place) -> Place {
     let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
     Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER }
 }
 
-/// Draws a plate with the glyph in the middle for a sprite that is much wider than high, or much higher than wide. If it were
-/// stretched, the glyph would be unrecognisable. Returns the rectangle of the glyph.
+/// Draws a plate with the glyph in the middle, for a sprite that is much wider than high, or much higher than
+/// wide. A stretched glyph would be unrecognisable. Returns the glyph's rectangle.
 fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
     let Place { x, y, w, h } = place;
     let side = w.min(h);
@@ -199,10 +199,11 @@ fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
     Place { x: x + (w - side) / 2.0, y: y + (h - side) / 2.0, w: side, h: side }
 }
 
-/// The flag of a killed avatar in [`SpriteRecord::flags`].
+/// The flag for a killed avatar in [`SpriteRecord::flags`].
 const DISABLED: u16 = 1;
 
-/// Returns the direction of a sprite's front: its orientation, or the rotation of crafts without an orientation.
+/// Returns the direction of a sprite's front: its orientation or, for crafts without an orientation, its
+/// rotation.
 fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
     if !glyph.turns() && glyph != Glyph::Avatar {
         return None;

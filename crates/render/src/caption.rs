@@ -6,11 +6,12 @@ use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
 use crate::style::Style;
 use engine::{Outcome, State};
 
-/// The number of letters of the outcome, including the gap before it.
+/// The number of characters for the outcome, including the gap before it.
 const ENDING: usize = 9;
 
-/// Returns the height of the strip, which is the same for all states. The strip has one row, plus a row each
-/// if avatars can have resources or health, if numbers of sprites win, and if something counts down.
+/// Returns the height of the strip, which is the same for all states. The strip has one row. It has one
+/// additional row if avatars can have resources or health, one if sprite counts decide a win, and one if
+/// there are countdowns.
 pub(crate) fn height(looks: &Looks, style: &Style) -> u32 {
     let prospects = looks.prospects();
     let more = [looks.has_holdings(), prospects.has_goals(), prospects.counts_down()];
@@ -60,7 +61,7 @@ pub(crate) fn draw(picture: &mut Picture, looks: &Looks, state: &State, style: &
     }
 }
 
-/// The words for outcomes, each with its background colour.
+/// The texts for outcomes, each with its background colour.
 pub(crate) const ENDINGS: [(&str, Colour); 2] =
     [("WON", Colour([0x08, 0x80, 0x62])), ("LOST", Colour([0xa8, 0x50, 0x0c]))];
 

@@ -1,8 +1,8 @@
-//! The errors that can occur when pictures are drawn or written.
+//! The errors that can occur while drawing or writing images.
 
 use crate::style::{MAX_CELL, MAX_PIXELS, MIN_CELL};
 
-/// An error while drawing or writing a picture.
+/// An error while drawing or writing an image.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
@@ -12,16 +12,16 @@ pub enum RenderError {
         /// The requested size in pixels.
         cell: u32,
     },
-    /// The picture has too many pixels.
+    /// The image has too many pixels.
     #[error("the image would have {pixels} pixels, more than {MAX_PIXELS}; use smaller cells")]
     TooLarge {
-        /// The number of pixels that the picture would have.
+        /// The number of pixels in the image.
         pixels: u64,
     },
-    /// The picture has no pixels.
+    /// The image has no pixels.
     #[error("an image without pixels cannot be written")]
     Empty,
-    /// The size of an animation's frame differs from the size of the first frame.
+    /// The size of an animation frame differs from the size of the first frame.
     #[error("a frame of {width} × {height} pixels does not fit an animation of a different size")]
     Frame {
         /// The width of the frame in pixels.
@@ -29,12 +29,12 @@ pub enum RenderError {
         /// The height of the frame in pixels.
         height: u32,
     },
-    /// The picture exceeds a GIF's limit of 65,535 pixels per side.
+    /// The image exceeds the GIF limit of 65,535 pixels per side.
     #[error("a GIF cannot be {width} × {height} pixels; use smaller cells")]
     TooLargeForGif {
-        /// The width of the picture in pixels.
+        /// The width of the image in pixels.
         width: u32,
-        /// The height of the picture in pixels.
+        /// The height of the image in pixels.
         height: u32,
     },
     /// The PNG data could not be written.

@@ -1,4 +1,4 @@
-//! The legend of a board: each sprite type that players can see, with its tile.
+//! The legend for a board: each sprite type visible to players, with its tile.
 
 use crate::looks::colour::{GROUND, INK};
 use crate::looks::look::{Look, Looks};
@@ -8,7 +8,7 @@ use engine::SpriteType;
 
 /// The number of pixels between the edge, the entries and their parts.
 const GAP: u32 = 8;
-/// The letter heights of a name and of the meaning below it, in pixels.
+/// The text heights of a name and of the meaning below it, in pixels.
 const NAME: f32 = 15.0;
 const MEANING: f32 = 11.0;
 

@@ -1,8 +1,9 @@
 //! Boards and episodes as text, PNG, SVG and GIF.
 //!
-//! A [`Picture`] is made of tiles. A tile is drawn from the role of a sprite type in the rules ([`Glyph`]), and then from the
-//! colour that the game gives it ([`docs/reference/rendering.md`](../../../docs/reference/rendering.md) shows all tiles). Both back-ends, [`svg`] and
-//! [`png`], draw the same shapes. The same state gives the same bytes on every machine.
+//! A [`Picture`] consists of tiles. A tile's drawing depends on the sprite type's role in the rules
+//! ([`Glyph`]) and on its colour in the game
+//! ([`docs/reference/rendering.md`](../../../docs/reference/rendering.md) shows all tiles). Both back-ends,
+//! [`svg`] and [`png`], draw the same shapes. The same state yields the same bytes on every machine.
 //!
 //! ```
 //! # use base as infinite_arcade_base;

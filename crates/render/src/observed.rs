@@ -1,4 +1,4 @@
-//! Pictures of a player's observations.
+//! Images of a player's observations.
 
 use crate::board::{framed, over};
 use crate::error::RenderError;
@@ -9,13 +9,13 @@ use crate::picture::{Picture, Place};
 use crate::style::Style;
 use engine::{MoverView, Observation};
 
-/// Draws an observation with no more information than it contains. Sprites fill the cells that they overlap,
-/// and only the avatar and signs show a front. The avatar is drawn once, in the cell that contains its
-/// middle. There is no caption, even if the style has one. Cost: O(cells).
+/// Draws an observation without adding any information. Sprites fill the cells that they overlap, and only
+/// the avatar and signs show a front. The avatar is drawn once, in the cell that contains its centre. The
+/// image has no caption, even if the style requests a caption. Cost: O(cells).
 ///
 /// # Errors
 ///
-/// Returns an error if the cell size is out of range, or the picture would be too large.
+/// Returns an error if the cell size is out of range, or the image would be too large.
 pub fn observed(looks: &Looks, observation: &Observation, style: &Style) -> Result<Picture, RenderError> {
     let style = Style { caption: false, ..*style };
     let (columns, size) = (observation.columns, (observation.columns as u32, observation.rows as u32));

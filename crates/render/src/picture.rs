@@ -1,4 +1,5 @@
-//! A picture: tiles, and the rectangles where they are stamped. Both back-ends draw the stamps in the same order.
+//! Images made of tiles, and the rectangles where the tiles are stamped. Both back-ends draw the stamps in
+//! the same order.
 
 use crate::looks::art;
 use crate::looks::colour::Colour;
@@ -8,10 +9,10 @@ use crate::looks::shape::{Outline, Paint, Point, Shape};
 use engine::SpriteType;
 use std::collections::BTreeMap;
 
-/// The width of a letter with its gap, as a fraction of the letter height.
+/// The width of a character with its gap, as a fraction of the text height.
 pub(crate) const ADVANCE: f32 = 0.56;
 
-/// A rectangle in the picture. Its coordinates are in pixels, not necessarily whole.
+/// A rectangle in an image. Its coordinates are in pixels, not necessarily whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// The left edge.
@@ -24,7 +25,7 @@ pub struct Place {
     pub h: f32,
 }
 
-/// The inputs of a tile. Equal keys mean the same tile.
+/// The inputs of a tile. Equal keys identify the same tile.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Key {
     Plain(Colour),
@@ -74,7 +75,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Creates an empty picture of this size in pixels.
+    /// Creates an empty image of this size in pixels.
     pub(crate) fn new(width: u32, height: u32) -> Picture {
         Picture { width, height, ..Picture::default() }
     }
@@ -89,12 +90,12 @@ impl Picture {
         self.height
     }
 
-    /// Returns the tiles, each once, in the order of their first use.
+    /// Returns the distinct tiles, in the order of their first use.
     pub fn tiles(&self) -> &[Tile] {
         &self.tiles
     }
 
-    /// Returns the key of each tile. Equal keys mean equal tiles, in different pictures too.
+    /// Returns the key of each tile. Equal keys identify equal tiles, even across images.
     pub(crate) fn keys(&self) -> Vec<&Key> {
         let mut keys: Vec<(usize, &Key)> = self.keys.iter().map(|(key, &at)| (at, key)).collect();
         keys.sort_unstable_by_key(|&(at, _)| at);
@@ -125,7 +126,8 @@ impl Picture {
         self.stamps.push(Stamp { tile, place });
     }
 
-    /// Adds a line of text with its top left corner at `(x, y)` and letters `size` pixels high. [`text_width`] returns its width.
+    /// Adds a line of text with its top left corner at `(x, y)` and a text height of `size` pixels.
+    /// [`text_width`] returns the width of the line.
     pub(crate) fn text(&mut self, (x, y): (f32, f32), size: f32, colour: Colour, text: &str) {
         let mut x = x;
         for letter in text.chars() {
@@ -138,8 +140,8 @@ impl Picture {
         }
     }
 
-    /// Adds a scaled copy of another picture, with its top left corner at `(x, y)`. Stamps that lie completely outside are left
-    /// out.
+    /// Adds a scaled copy of another image, with its top left corner at `(x, y)`. Stamps that lie completely
+    /// outside are omitted.
     pub(crate) fn inset(&mut self, other: &Picture, (x, y): (f32, f32), scale: f32) {
         let mut here = vec![0; other.tiles.len()];
         for (key, &at) in &other.keys {
@@ -163,7 +165,7 @@ impl Picture {
     }
 }
 
-/// Returns the tile of a sprite type for legends and palettes. Only signs have a direction.
+/// Returns a sprite type's tile for legends and palettes. Only signs have a direction.
 pub fn sprite_tile(looks: &Looks, stype: SpriteType) -> Tile {
     Tile {
         shapes: art::tile(looks.look(stype), looks.front(stype)),
@@ -171,12 +173,12 @@ pub fn sprite_tile(looks: &Looks, stype: SpriteType) -> Tile {
     }
 }
 
-/// Returns the width of a line of text in pixels.
+/// Returns the width of a text line in pixels.
 pub(crate) fn text_width(text: &str, size: f32) -> f32 {
     text.chars().count() as f32 * size * ADVANCE
 }
 
-/// Cuts a text to at most `letters` letters. If it is cut, the last two letters are dots.
+/// Shortens a text to at most `letters` characters. In a shortened text, the last two characters are dots.
 pub(crate) fn shortened(text: &str, letters: usize) -> String {
     if text.chars().count() <= letters {
         return text.to_owned();

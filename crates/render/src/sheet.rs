@@ -1,4 +1,4 @@
-//! A contact sheet: several pictures in one, each with a caption.
+//! A contact sheet: several images in one, each with a caption.
 
 use crate::error::RenderError;
 use crate::looks::colour::{Colour, GREEN, GROUND, INK, ORANGE, PAPER, PURPLE, SKY, VERMILION, YELLOW};
@@ -8,19 +8,19 @@ use crate::looks::look::Look;
 use crate::picture::{ADVANCE, Picture, Place, shortened};
 use crate::style::MAX_PIXELS;
 
-/// The number of pixels between the pictures, and around them.
+/// The number of pixels between the images, and around them.
 const GAP: u32 = 16;
-/// The letter height of a caption, in pixels.
+/// The text height of a caption, in pixels.
 const LETTER: u32 = 15;
 /// The line height of a caption, in pixels.
 const LEADING: u32 = 19;
 
 const LINES: usize = 4;
 
-/// Arranges pictures in rows of `columns`. Each picture is shrunk, but never enlarged, to fit a square of
-/// `side` pixels, and its caption is below. The first line of a caption is shortened to fit. The text after a
-/// line feed is broken into up to three more lines. The height of a row is the height of its highest picture
-/// plus the height of its longest caption.
+/// Arranges images in rows of `columns`. Each image is shrunk, but never enlarged, to fit a square of `side`
+/// pixels, with its caption below. The first line of a caption is shortened to fit. The text after a line
+/// feed is broken into up to three more lines. The height of a row is the height of its highest image plus
+/// the height of its longest caption.
 ///
 /// # Errors
 ///
@@ -64,8 +64,8 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
     Ok(sheet)
 }
 
-/// Returns the lines of a caption, at least one. Words that are too long for a line are shortened. If there
-/// are too many lines, the last line is shortened, too.
+/// Returns the lines of a caption, at least one. Overlong words are shortened to the length of a line. If
+/// there are too many lines, the last line is shortened, too.
 fn broken(caption: &str, letters: usize) -> Vec<String> {
     let (first, rest) = caption.split_once('\n').unwrap_or((caption, ""));
     let mut lines = vec![first.to_owned()];
@@ -102,7 +102,7 @@ pub fn figures(columns: usize) -> Picture {
     shelves(&entries, columns, 150)
 }
 
-/// Returns tiles with their words, `step` pixels apart.
+/// Returns tiles with their captions, `step` pixels apart.
 fn shelves(entries: &[(Look, &str)], columns: usize, step: u32) -> Picture {
     const SIDE: u32 = 44;
     let columns = columns.max(1) as u32;

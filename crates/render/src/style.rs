@@ -1,20 +1,20 @@
-//! The style of a picture, and its limits.
+//! The style of an image, and its limits.
 
 /// The minimum cell size in pixels. In smaller cells, tiles would be mere dots.
 pub const MIN_CELL: u32 = 4;
 /// The maximum cell size in pixels.
 pub const MAX_CELL: u32 = 256;
-/// The maximum number of pixels in a picture.
+/// The maximum number of pixels in an image.
 pub const MAX_PIXELS: u64 = 1 << 26;
 
-/// The style of a picture.
+/// The style of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
     /// The cell size in pixels, from [`MIN_CELL`] to [`MAX_CELL`].
     pub cell: u32,
     /// `true` to draw the tick, the score, the avatar's resources and the outcome under the board.
     pub caption: bool,
-    /// `true` to draw the sprite types of the game with their tiles under the board.
+    /// `true` to draw the game's sprite types with their tiles under the board.
     pub legend: bool,
 }
 

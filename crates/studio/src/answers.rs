@@ -17,7 +17,7 @@ use tokio::sync::Semaphore;
 
 /// The number of threads for short responses.
 const SHORT: usize = 6;
-/// The number of threads for responses that arrive line by line.
+/// The number of threads for responses sent line by line.
 const LONG: usize = 6;
 /// The number of threads that work on responses.
 pub(crate) const THREADS: usize = SHORT + LONG;
@@ -50,7 +50,7 @@ impl Serving {
         self.answer_in(short, work).await
     }
 
-    /// Runs the work on one of `threads`, once a thread is free.
+    /// Runs the work on one of `threads`, as soon as a thread is free.
     async fn answer_in<O: Serialize>(
         self,
         threads: Arc<Semaphore>,
@@ -86,17 +86,17 @@ impl Serving {
     }
 }
 
-/// Returns the response for work that panicked, which is a fault of this program.
+/// Returns the response for work that panicked because of a bug in this program.
 fn broken() -> Response {
     Refusal::failed("the studio could not do this").help("please report it, with the game").into_response()
 }
 
-/// Returns the route of a request without a body.
+/// Returns the route for a request without a body.
 pub(crate) fn told<O: Serialize + 'static>(work: fn(&Studio) -> Result<O, Refusal>) -> MethodRouter<Serving> {
     get(move |State(serving): State<Serving>| serving.answer(work))
 }
 
-/// Returns the route of a request about a game.
+/// Returns the route for a request about a game.
 pub(crate) fn of_game<O: Serialize + 'static>(
     work: fn(&Studio, &str) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
@@ -105,7 +105,7 @@ pub(crate) fn of_game<O: Serialize + 'static>(
     })
 }
 
-/// Returns the route of a request about a part of a game.
+/// Returns the route for a request about a part of a game.
 pub(crate) fn of_part<O: Serialize + 'static>(
     work: fn(&Studio, &str, &str) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
@@ -114,7 +114,7 @@ pub(crate) fn of_part<O: Serialize + 'static>(
     })
 }
 
-/// Returns the route of a request that changes a part of a game with this method.
+/// Returns the route for a request with this method that changes a part of a game.
 pub(crate) fn change_part<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
     method: MethodFilter,
     work: fn(&Studio, &str, &str, I) -> Result<O, Refusal>,
@@ -130,7 +130,7 @@ pub(crate) fn change_part<I: DeserializeOwned + Send + 'static, O: Serialize + '
     on(method, answer)
 }
 
-/// Returns the route of a request with a body.
+/// Returns the route for a request with a body.
 pub(crate) fn asked<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
     work: fn(&Studio, I) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
@@ -153,7 +153,7 @@ impl Asker {
     }
 }
 
-/// A waiting client. The server drops this value when the connection closes, which sets the flag.
+/// A waiting client. The server drops this value when the connection closes, and the drop sets the flag.
 struct Waiting(Arc<AtomicBool>);
 
 impl Drop for Waiting {
@@ -162,7 +162,7 @@ impl Drop for Waiting {
     }
 }
 
-/// Returns the route of a request with a body whose response takes long. The work ends early if the client leaves.
+/// Returns the route for a request with a body and a slow response. The work ends early if the client leaves.
 pub(crate) fn awaited<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
     work: fn(&Studio, I, &Asker) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
@@ -179,14 +179,14 @@ pub(crate) fn awaited<I: DeserializeOwned + Send + 'static, O: Serialize + 'stat
     post(answer)
 }
 
-/// A request whose response arrives line by line. `page` identifies the page that sent the request, if the page
-/// identifies itself.
+/// A request whose response is sent line by line. `page` identifies the page that sent the request, if the
+/// page identifies itself.
 pub(crate) struct Asked<I> {
     pub(crate) body: I,
     pub(crate) page: Option<String>,
 }
 
-/// Returns the route of a request with a body whose response arrives line by line.
+/// Returns the route for a request with a body whose response is sent line by line.
 pub(crate) fn streamed<I: DeserializeOwned + Send + 'static>(
     work: fn(&Studio, Asked<I>, &Lines) -> Result<(), Ended>,
 ) -> MethodRouter<Serving> {

@@ -1,4 +1,4 @@
-//! A cache of compiled games by their text, because a page sends the same text many times.
+//! A cache of compiled games, keyed by their text, because a page sends the same text many times.
 
 use engine::{Analysis, Diagnostics, Game, Level};
 use render::Looks;
@@ -12,7 +12,7 @@ use axum::http::StatusCode;
 /// The maximum number of games in the cache.
 const KEPT: usize = 16;
 
-/// A game that compiles, with everything derived from its rules.
+/// A game that compiles, with all data derived from its rules.
 pub(crate) struct Compiled {
     pub(crate) source: String,
     pub(crate) game: Game,
@@ -39,7 +39,7 @@ impl Compiled {
 pub(crate) struct Cache(Mutex<VecDeque<Arc<Compiled>>>);
 
 impl Cache {
-    /// Returns the compiled game of a text, or its problems.
+    /// Returns the compiled game for a text, or the problems in the text.
     pub(crate) fn find(&self, source: &str) -> Result<Arc<Compiled>, Diagnostics> {
         let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let found = lock().iter().find(|known| known.source == source).cloned();
@@ -55,8 +55,8 @@ impl Cache {
         Ok(fresh)
     }
 
-    /// Returns the compiled game like [`Cache::find`], but with a refusal instead of problems. This suits requests that
-    /// need a game without problems.
+    /// Returns the compiled game like [`Cache::find`], but returns a refusal instead of problems. For
+    /// requests that need a game without problems.
     pub(crate) fn need(&self, source: &str) -> Result<Arc<Compiled>, Refusal> {
         self.find(source).map_err(|problems| refused("the game", source, &problems))
     }

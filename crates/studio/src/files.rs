@@ -1,4 +1,4 @@
-//! The files of a game, which are read within limits and written whole.
+//! A game's files, which are read within limits and written whole.
 
 use crate::refusal::Refusal;
 use disk::Access;
@@ -7,29 +7,29 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// A file of a game: its name and its content.
+/// A game file: its name and its content.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedText {
     /// The name, without a folder.
     pub name: String,
-    /// The content of the file.
+    /// The file's content.
     pub text: String,
 }
 
-/// The maximum number of levels that are read per game.
+/// The maximum number of levels to read per game.
 const MAX_LEVELS: usize = 1000;
 /// The maximum total size of a game's levels, in bytes.
 const MAX_ALL_LEVELS: usize = 4 << 20;
 
-/// Returns the number of the level for which pages use this name. For example, `lvl3.txt` is level 3. Each number has
-/// one name, regardless of the name of the level's file.
+/// Returns the number of the level with this name on pages. For example, `lvl3.txt` is level 3. Each number
+/// has exactly one such name, regardless of the level's file name.
 pub(crate) fn level_number(name: &str) -> Option<usize> {
     let digits = name.strip_prefix("lvl")?.strip_suffix(".txt")?;
     let number: usize = digits.parse().ok()?;
     (number < MAX_LEVELS && number.to_string() == digits).then_some(number)
 }
 
-/// Returns the levels of a game in a folder, each with its number and file name, in order.
+/// Returns a game's levels in a folder, each with its number and file name, in order.
 pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, String)>, Refusal> {
     let listed = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
     // As in all commands, a link stands for its target, and a folder is not a level.
@@ -41,7 +41,7 @@ pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, Str
     Ok(levels)
 }
 
-/// Returns the levels of a game in a folder, in order, with the names that pages use for them.
+/// Returns a game's levels in a folder, in order, with their names on pages.
 pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refusal> {
     let mut left = MAX_ALL_LEVELS;
     let read = |(number, file): (usize, String)| {
@@ -57,8 +57,8 @@ pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refu
     level_files(folder, source)?.into_iter().map(read).collect()
 }
 
-/// Returns the path of the game's level with this number. If the file does not exist, returns the path of a new file
-/// that is named like the other levels.
+/// Returns the path of the game's level with this number. If the file does not exist, returns a path for a
+/// new file, named like the existing levels.
 pub(crate) fn level_path(folder: &Path, source: &str, number: usize) -> Result<PathBuf, Refusal> {
     let levels = level_files(folder, source)?;
     if let Some((_, file)) = levels.iter().find(|(own, _)| *own == number) {
@@ -71,7 +71,7 @@ pub(crate) fn level_path(folder: &Path, source: &str, number: usize) -> Result<P
     Ok(folder.join(format!("{prefix}lvl{number}.txt")))
 }
 
-/// Reads the text of a game.
+/// Reads a game's text.
 pub(crate) fn read_source(file: &Path) -> Result<String, Refusal> {
     read_text(file, MAX_SOURCE)
 }
@@ -84,7 +84,7 @@ fn read_text(file: &Path, limit: usize) -> Result<String, Refusal> {
         .map_err(|_| Refusal::bad(format_args!("{name} is not a text file")).help("save it as UTF-8"))
 }
 
-/// Returns the content of a file, or `None` if the file does not exist.
+/// Returns a file's content, or `None` if the file does not exist.
 pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
     match fs::symlink_metadata(file) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
@@ -98,7 +98,7 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
     }
 }
 
-/// Rejects a folder that is a link, because writing to it would change a different folder.
+/// Rejects a folder that is a link, because writing to the link would change a different folder.
 pub(crate) fn check_folder(folder: &Path) -> Result<(), Refusal> {
     match fs::symlink_metadata(folder) {
         Ok(found) if found.is_symlink() => {
@@ -117,7 +117,7 @@ pub(crate) fn write(file: &Path, text: &str) -> Result<(), Refusal> {
     })
 }
 
-/// Writes a file. The file is either complete or unchanged.
+/// Writes a file completely, or leaves it unchanged on failure.
 pub(crate) fn put(file: &Path, text: &str) -> io::Result<()> {
     disk::write(file, text.as_bytes(), Access::Shared)
 }
@@ -140,7 +140,7 @@ fn unreadable(path: &Path, error: &io::Error) -> Refusal {
     }
 }
 
-/// Returns the last component of a path, because pages must not see the folders of the machine.
+/// Returns the last component of a path, because pages must not reveal local folders.
 fn shown(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
@@ -171,7 +171,7 @@ mod tests {
         }
     }
 
-    /// As on the command line, a link is read, and a folder is not a level.
+    /// Checks that, as on the command line, a link is read, and a folder is not a level.
     #[cfg(unix)]
     #[test]
     fn links_are_read_and_folders_are_no_levels() {

@@ -8,10 +8,10 @@ use serde::Serialize;
 use serde::ser::{SerializeTuple, Serializer};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
-/// The cell size in pixels with which frames are drawn. It determines only how thin lines are.
+/// The cell size in pixels for drawing frames. The size affects only how thin lines are.
 const CELL: u32 = 32;
 
-/// A tile in the form that the page receives.
+/// A tile in the page's format.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct TileSvg {
     id: String,
@@ -75,7 +75,7 @@ impl Serialize for Mark {
 /// A change to a list of marks: the index of the change, the number of marks to remove there, and the marks to insert.
 type Splice = (usize, usize, Vec<Mark>);
 
-/// The board of a state, and the texts beside it.
+/// A state's board, and the texts beside the board.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Frame {
     width: i32,
@@ -128,12 +128,12 @@ impl Frame {
     }
 }
 
-/// The number of marks up to which a list of frames is sent without differences.
+/// The maximum number of marks in a list of frames sent without differences.
 const PLAIN: usize = 200_000;
 /// The maximum number of marks in a list of frames.
 const MOST: usize = 1_000_000;
-/// The maximum length of two lists of marks for which a minimal difference is computed. The cost grows with the product of the
-/// lengths.
+/// The maximum length of two lists of marks for computing a minimal difference. The cost grows with the
+/// product of the lengths.
 const COMPARED: usize = 4_000;
 
 /// The frames of an episode. A few frames are stored unchanged, and many frames as differences between successive
@@ -178,13 +178,14 @@ impl Frames {
         true
     }
 
-    /// Returns the frames of the list.
+    /// Returns the frames in the list.
     pub(crate) fn finish(self) -> Vec<Frame> {
         self.all
     }
 }
 
-/// Returns the splices that turn the marks of one frame into those of the next, from the end to the beginning.
+/// Returns the splices that turn one frame's marks into the next frame's marks, from the end to the
+/// beginning.
 fn change(from: &[Mark], to: &[Mark]) -> Vec<Splice> {
     let same = |(a, b): &(&Mark, &Mark)| a == b;
     let start = from.iter().zip(to).take_while(same).count();
@@ -219,8 +220,8 @@ fn marks(drawn: &Picture, cell: u32, tiles: &mut Tiles) -> Vec<Mark> {
     drawn.stamps().iter().map(mark).collect()
 }
 
-/// Returns the lines with the avatar's resources. If the game was stopped, also returns a line with the limit that
-/// stopped it.
+/// Returns the lines with the avatar's resources. If the game was stopped, also returns a line with the
+/// exceeded limit.
 fn caption(looks: &Looks, state: &State) -> Vec<String> {
     let mut lines = Vec::new();
     if looks.has_holdings() {
@@ -233,7 +234,7 @@ fn caption(looks: &Looks, state: &State) -> Vec<String> {
     lines
 }
 
-/// Returns the word for an outcome.
+/// Returns the page's word for an outcome.
 pub(crate) fn outcome(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Ongoing => "playing",
@@ -257,7 +258,7 @@ pub(crate) fn action_name(action: Action) -> String {
     format!("ACTION_{}", action.name().to_ascii_uppercase())
 }
 
-/// Parses an action from the reference's name or from this suite's name.
+/// Parses an action from either the reference's name or this suite's name.
 pub(crate) fn action(name: &str) -> Result<Action, Refusal> {
     let ours = || Action::ALL.into_iter().find(|action| action.name() == name);
     Action::from_reference(name).or_else(ours).ok_or_else(|| {

@@ -1,7 +1,8 @@
-//! A release as a folder of static files. It shows the same page without a server, from a disk or any web server.
+//! A release as a folder of static files. The files show the same page without the studio's server, from a
+//! disk or any web server.
 //!
-//! The data are scripts, because a page opened from `file://` can load only scripts. The content of a release remains
-//! data in these scripts, as [`script`] explains.
+//! The data files are scripts, because a page opened from `file://` can load only scripts. The release's
+//! content cannot become code in these scripts, as [`script`] explains.
 
 use crate::api::{CUT, game_of, release_of};
 use crate::compiled::Compiled;
@@ -14,10 +15,10 @@ use base::Seed;
 use engine::Level;
 use serde_json::{Value, json};
 
-/// The tag after which the data of the release are loaded.
+/// The tag after which the release data is loaded.
 const APP: &str = "<script src=\"app.js\" defer></script>";
 
-/// The reason why a gallery cannot be made.
+/// The reason why a gallery cannot be created.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct GalleryError(String);
@@ -28,22 +29,22 @@ impl From<Refusal> for GalleryError {
     }
 }
 
-/// The gallery of the release that a studio shows.
+/// The gallery for the release that is open in a studio.
 #[derive(Clone, Copy, Debug)]
 pub struct Gallery<'a>(&'a Studio);
 
 impl<'a> Gallery<'a> {
-    /// Creates the gallery of the release that is open in `studio`.
+    /// Creates the gallery for the release that is open in `studio`.
     pub fn of(studio: &'a Studio) -> Gallery<'a> {
         Gallery(studio)
     }
 
-    /// Returns the IDs of the games, in order.
+    /// Returns the games' IDs, in order.
     pub fn games(&self) -> Vec<String> {
         self.0.workspace.games().iter().map(|game| game.id.clone()).collect()
     }
 
-    /// Returns the files of the page and the data of the release as a whole, with their paths.
+    /// Returns the page's files and the release-wide data, with their paths.
     ///
     /// # Errors
     ///
@@ -67,8 +68,8 @@ impl<'a> Gallery<'a> {
         Ok(files)
     }
 
-    /// Returns the file of a game, with its path. The file contains the game's text, its levels, their boards, and every recorded
-    /// win frame by frame. Cost: a replay of each win, with each tick drawn.
+    /// Returns a game's file, with its path. The file contains the game's text, its levels, their boards, and
+    /// every recorded win frame by frame. Cost: a replay of each win, with each tick drawn.
     ///
     /// # Errors
     ///
@@ -129,8 +130,8 @@ fn witnesses(
     Ok(shown)
 }
 
-/// Returns a script that passes data to the page. Characters that could end the script, or a string in it, are escaped,
-/// so that no data can become code.
+/// Returns a script that passes data to the page. Escapes characters that could end the script, or a string
+/// in the script, so that data cannot become code.
 fn script(name: &str, data: &Value) -> String {
     let plain = |value: &Value| {
         let mut text = String::new();

@@ -1,9 +1,9 @@
 //! Checks before every response. Only the page that this server served, opened with its token, may send requests.
 //!
-//! A page from anywhere can make a browser send requests to 127.0.0.1, and so can every program on this machine.
-//! Requests from foreign pages are recognised by the requested host name (which DNS rebinding cannot hide), by the
-//! origin, and by the site that the browser reports. Foreign pages and other programs both lack the token, which is
-//! only in the address printed by `arcade studio`.
+//! A page from any website can make a browser send requests to 127.0.0.1, and so can every program on this
+//! machine. Requests from foreign pages are recognised by the requested host name (which DNS rebinding cannot
+//! hide), by the origin, and by the site that the browser reports. Foreign pages and other programs do not
+//! know the token, which is only in the address printed by `arcade studio`.
 
 use crate::refusal::Refusal;
 use axum::extract::{Request, State};
@@ -18,11 +18,12 @@ use std::sync::Arc;
 const TOKEN: HeaderName = HeaderName::from_static("x-arcade-token");
 const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 
-/// The page's content security policy, which allows the page to load only its own files and images made from data.
+/// The page's content security policy, which allows the page to load only its own files and images created
+/// from data.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
                       connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// The host names and the token that requests must have.
+/// The host names and the token required in requests.
 #[derive(Clone, Debug)]
 pub(crate) struct Guard {
     /// The accepted hosts: `127.0.0.1:PORT` and `localhost:PORT`.
@@ -47,7 +48,7 @@ impl Guard {
         &self.token
     }
 
-    /// Returns the reason for rejecting a request with these headers; `None` if the request is accepted.
+    /// Returns the reason for rejecting a request with these headers, or `None` if the request is accepted.
     fn problem(&self, path: &str, headers: &HeaderMap) -> Option<Refusal> {
         let all = |name: &HeaderName| -> Vec<&str> {
             headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default()).collect()
@@ -76,13 +77,13 @@ impl Guard {
     }
 }
 
-/// Compares two texts in a time that does not depend on the position of the first difference.
+/// Compares two texts in a time independent of the position of the first difference.
 fn equal(one: &str, other: &str) -> bool {
     let differences = one.bytes().zip(other.bytes()).fold(0, |seen, (a, b)| seen | (a ^ b));
     one.len() == other.len() && differences == 0
 }
 
-/// Rejects the requests that the guard rejects, and adds the security headers to every response.
+/// Rejects requests that fail the guard's checks, and adds the security headers to every response.
 pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Next) -> Response {
     let mut response = match guard.problem(request.uri().path(), request.headers()) {
         None => {

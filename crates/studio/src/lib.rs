@@ -1,9 +1,10 @@
-//! The server of `arcade studio`, which is a web page on this machine for writing, checking, playing, browsing and
-//! judging games.
+//! The server behind `arcade studio`: a local web page for writing, checking, playing, browsing and judging
+//! games.
 //!
-//! A [`Workspace`] contains the opened games. A [`Studio`] answers requests about a workspace. A [`Server`] lets only a
-//! page on this machine send these requests ([who can ask](../../../docs/reference/studio-server.md#security)). Long
-//! work arrives line by line and ends when the page leaves.
+//! A [`Workspace`] contains the opened games. A [`Studio`] handles requests about a workspace. A [`Server`]
+//! accepts these requests only from a page on this machine
+//! ([details](../../../docs/reference/studio-server.md#security)). Results of long work are sent line by
+//! line, and the work ends when the page is closed.
 
 mod answers;
 mod api;

@@ -1,4 +1,4 @@
-//! Responses that arrive line by line.
+//! Responses sent line by line.
 
 use crate::refusal::Refusal;
 use axum::body::{Body, Bytes, HttpBody};
@@ -14,10 +14,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::task::{Context, Poll};
 use tokio::sync::mpsc::{Receiver, Sender, channel};
 
-/// The maximum number of lines that wait for a client to read them.
+/// The maximum number of lines waiting for a client to read them.
 const WAITING: usize = 256;
 
-/// The error that the client no longer waits, so that the work can end.
+/// The error for a client that no longer waits, so that the work can end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gone;
 
@@ -38,8 +38,8 @@ impl Lines {
         (Lines { sender, superseded: Arc::default() }, response)
     }
 
-    /// Sends one line, and waits while the client reads slowly. The call blocks, so it must not run on the runtime's
-    /// thread.
+    /// Sends one line, and waits while the client reads slowly. The call blocks, so it must not run on the
+    /// runtime's thread.
     pub(crate) fn send(&self, line: &impl Serialize) -> Result<(), Gone> {
         self.check()?;
         self.put(line)
@@ -56,7 +56,7 @@ impl Lines {
         if self.sender.is_closed() || self.superseded.load(Ordering::Relaxed) { Err(Gone) } else { Ok(()) }
     }
 
-    /// Returns the switch that ends this response in favour of a newer one.
+    /// Returns the switch that ends this response in favour of a newer response.
     pub(crate) fn switch(&self) -> Arc<AtomicBool> {
         self.superseded.clone()
     }

@@ -1,22 +1,22 @@
-//! Positions in texts in the units of a page: UTF-16 code units from 0, and lines and columns from 1.
+//! Text positions in a page's units: UTF-16 code units from 0, and lines and columns from 1.
 
 use editor::Problem;
 use editor::positions::utf16_of_byte;
 use engine::{Diagnostic, Edit, Span, line_and_column};
 use serde_json::{Value, json};
 
-/// Returns the range of a span in UTF-16 code units.
+/// Returns a span's range in UTF-16 code units.
 pub(crate) fn range(text: &str, span: Span) -> (usize, usize) {
     (utf16_of_byte(text, span.start), utf16_of_byte(text, span.end))
 }
 
-/// Returns an edit in the form that the page applies.
+/// Returns an edit in the page's format.
 pub(crate) fn edit(text: &str, edit: &Edit) -> Value {
     let (start, end) = range(text, edit.span);
     json!({ "start": start, "end": end, "text": edit.text })
 }
 
-/// Returns a problem with its fixes, in the form that the page shows.
+/// Returns a problem with its fixes, in the page's format.
 pub(crate) fn problem(text: &str, diagnostic: &Diagnostic) -> Value {
     let Problem { code, severity, message, label, help, span, fixes } = Problem::of(diagnostic.clone(), text);
     let (start, end) = range(text, span);

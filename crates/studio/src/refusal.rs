@@ -1,17 +1,17 @@
-//! The response to a request that cannot be fulfilled: a status, a message, and advice.
+//! The response to an unsuccessful request: a status, a message, and advice.
 
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Json, Response};
 use serde_json::{Map, Value, json};
 use std::fmt;
 
-/// The reason why a request cannot be fulfilled.
+/// The reason why a request fails.
 #[derive(Debug)]
 pub(crate) struct Refusal {
     status: StatusCode,
     error: String,
     help: Option<String>,
-    /// Further fields of the response.
+    /// Additional fields in the response.
     more: Map<String, Value>,
 }
 
@@ -20,22 +20,22 @@ impl Refusal {
         Refusal { status, error: error.to_string(), help: None, more: Map::new() }
     }
 
-    /// Creates a refusal because the request itself is wrong.
+    /// Creates a refusal for an invalid request.
     pub(crate) fn bad(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::BAD_REQUEST, error)
     }
 
-    /// Creates a refusal because the requested item does not exist.
+    /// Creates a refusal for a request whose item does not exist.
     pub(crate) fn missing(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::NOT_FOUND, error)
     }
 
-    /// Creates a refusal because the request is valid but not allowed.
+    /// Creates a refusal for a valid request that is not allowed.
     pub(crate) fn forbidden(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::FORBIDDEN, error)
     }
 
-    /// Creates a refusal because the machine failed, for example because of I/O or memory.
+    /// Creates a refusal for a failure of the machine, such as an I/O or memory failure.
     pub(crate) fn failed(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, error)
     }

@@ -1,4 +1,4 @@
-//! The verdicts in progress. A few verdicts run at a time, and the newest come first.
+//! The verdicts in progress. Only a few verdicts run at a time, and newer verdicts take precedence.
 
 use crate::lines::Lines;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,9 +10,9 @@ const MOST: usize = 2;
 /// The subject of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Work {
-    /// A level that somebody is editing and looking at.
+    /// A level that is being edited.
     Level,
-    /// A game with all its levels, which can wait.
+    /// A game with all its levels, which has lower priority.
     Game,
 }
 
@@ -43,9 +43,9 @@ pub(crate) struct Place<'a> {
 }
 
 impl Running {
-    /// Begins a verdict. The verdict supersedes the verdict of the same page and kind, and the oldest verdicts of the
-    /// kind if there are too many. A verdict on a level also supersedes the same page's verdict on the whole game,
-    /// which has changed or can wait.
+    /// Begins a verdict. The verdict supersedes the previous verdict of the same page and kind, and the
+    /// oldest verdicts of the kind if there are too many. A verdict on a level also supersedes the same
+    /// page's verdict on the whole game, which has changed or can wait.
     pub(crate) fn begin(&self, work: Work, page: Option<String>, lines: &Lines) -> Place<'_> {
         let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let switch = lines.switch();

@@ -15,10 +15,10 @@ use std::net::TcpListener;
 use std::time::Duration;
 use tokio::sync::oneshot;
 
-/// The files of the page: `index.html`, its script and its style.
+/// The page's files: `index.html`, its script and its style.
 pub(crate) static PAGE: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/bundle");
 
-/// The limits of the server. A request's body contains a game and its levels.
+/// The server's limits. A request body contains a game and its levels.
 const BOUNDS: Bounds = Bounds {
     connections: 64,
     body: 4 << 20,
@@ -29,7 +29,7 @@ const BOUNDS: Bounds = Bounds {
     threads: answers::THREADS,
 };
 
-/// A server that is bound to its port but does not yet answer requests.
+/// A server that is bound to its port but does not serve requests yet.
 #[derive(Debug)]
 pub struct Server {
     studio: Studio,
@@ -54,17 +54,17 @@ impl Server {
         Ok(Server { studio, listener, port, guard: Guard::of(port)? })
     }
 
-    /// Returns the port of the server.
+    /// Returns the server's port.
     pub fn port(&self) -> u16 {
         self.port
     }
 
-    /// Returns the token that every request must carry.
+    /// Returns the token required in every request.
     pub fn token(&self) -> &str {
         self.guard.token()
     }
 
-    /// Returns the address of the page, including the token.
+    /// Returns the page's address, including the token.
     pub fn url(&self) -> String {
         format!("http://127.0.0.1:{}/?token={}", self.port, self.token())
     }
@@ -100,7 +100,7 @@ impl Server {
     }
 }
 
-/// Returns a file of the page.
+/// Returns a page file.
 async fn page(uri: Uri) -> Response {
     let path = uri.path();
     if path == "/api" || path.starts_with("/api/") {

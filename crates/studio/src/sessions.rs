@@ -1,4 +1,4 @@
-//! Games in progress. Each game can be undone tick by tick, and its memory is limited.
+//! Games in progress, with undo for single ticks and a limit on each game's memory.
 
 use crate::compiled::Compiled;
 use crate::frames::{Frame, TileSvg, Tiles, action_name};
@@ -9,15 +9,15 @@ use engine::{Action, Episode, Level, State};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The maximum number of sessions. If there are more, the oldest session is dropped.
+/// The maximum number of sessions. Beyond this limit, the oldest session is dropped.
 const MOST: usize = 32;
-/// The maximum number of states that a session keeps.
+/// The maximum number of states stored in a session.
 const KEPT: usize = 64;
-/// The maximum total size of the states that a session keeps, in bytes.
+/// The maximum total size in bytes of the states stored in a session.
 const KEPT_BYTES: usize = 8 << 20;
-/// The maximum number of forward-model calls per decision of a planner.
+/// The maximum number of forward-model calls per planner decision.
 const MOST_CALLS: u64 = 10_000;
-/// The number of forward-model calls per decision of a planner whose name contains no number.
+/// The number of forward-model calls per decision for a planner whose name contains no number.
 const USUAL_CALLS: u64 = 400;
 
 /// A game in progress.
@@ -29,7 +29,7 @@ pub(crate) struct Session {
     /// The state after the first `at` actions.
     state: State,
     at: usize,
-    /// The number of ticks between two kept states. The number is doubled when there are too many states.
+    /// The number of ticks between two stored states. The number is doubled when there are too many states.
     stride: usize,
     /// The states after 0, `stride`, 2 × `stride`, … ticks.
     kept: Vec<State>,
@@ -37,7 +37,7 @@ pub(crate) struct Session {
     planner: Option<(String, Player)>,
 }
 
-/// The response to a request about a session: the new tiles, the board, and the action that led to the board.
+/// The response to a session request: the new tiles, the board, and the action that led to the board.
 pub(crate) struct Shown {
     pub(crate) tiles: Vec<TileSvg>,
     pub(crate) frame: Frame,
@@ -45,7 +45,7 @@ pub(crate) struct Shown {
 }
 
 impl Session {
-    /// Begins a game. The text of the seed has the same meaning as in `arcade play`.
+    /// Begins a game. The seed text has the same meaning as in `arcade play`.
     pub(crate) fn begin(compiled: Arc<Compiled>, level: Level, seed: &str) -> Session {
         let seed = Seed::from_text(seed).child(&level.digest().to_string(), 0);
         let (episode, state) = Episode::begin(&compiled.game, &level, seed.child("chance", 0));
@@ -59,7 +59,7 @@ impl Session {
         Ok(Shown { tiles: self.tiles.fresh(), frame, action: action.map(action_name) })
     }
 
-    /// Plays a tick, and drops the ticks that were previously played after this point. The call has no effect if the
+    /// Plays a tick, and drops the ticks previously played after this point. The call has no effect if the
     /// game is over.
     pub(crate) fn act(&mut self, action: Action) {
         if self.state.is_over() {
@@ -76,7 +76,7 @@ impl Session {
         }
     }
 
-    /// Doubles the stride while the kept states are too many or too large.
+    /// Doubles the stride while the stored states are too many or too large.
     fn thin(&mut self) {
         let bytes = |kept: &[State]| kept.iter().map(State::size_in_bytes).sum::<usize>();
         while self.kept.len() > 2 && (self.kept.len() > KEPT || bytes(&self.kept) > KEPT_BYTES) {
@@ -89,7 +89,7 @@ impl Session {
         }
     }
 
-    /// Returns the action that a planner chooses.
+    /// Returns a planner's choice of action.
     pub(crate) fn choose(&mut self, name: &str) -> Result<Action, Refusal> {
         let spec: PlannerSpec = name.parse().map_err(Refusal::bad)?;
         let Budget(calls) = spec.budget().unwrap_or(Budget(USUAL_CALLS));
@@ -104,7 +104,7 @@ impl Session {
         Ok(player.plan(&self.compiled.game, &self.state, Budget(calls)).0)
     }
 
-    /// Goes to a tick that has been played. Cost: up to `stride` ticks of play.
+    /// Jumps to a tick that has been played. Cost: up to `stride` ticks of play.
     pub(crate) fn seek(&mut self, tick: usize) {
         self.at = tick.min(self.episode.actions.len());
         let from = (self.at / self.stride).min(self.kept.len() - 1);

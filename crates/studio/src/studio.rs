@@ -1,4 +1,4 @@
-//! The state of the server: the opened games, and the work in progress.
+//! The server's state: the opened games, and the work in progress.
 
 use crate::compiled::Cache;
 use crate::judging::Judging;
@@ -9,23 +9,23 @@ use snapshots::Verification;
 use std::fmt;
 use std::sync::{Arc, Mutex};
 
-/// The state with which a server responds to requests about a workspace.
+/// A server's state for handling requests about a workspace.
 pub struct Studio {
     pub(crate) workspace: Workspace,
     pub(crate) version: String,
-    /// A function that returns a page of the manual in Markdown, by name.
+    /// A function that returns a manual page in Markdown, by name.
     pub(crate) manual: fn(&str) -> Option<String>,
     pub(crate) compiled: Cache,
     pub(crate) sessions: Sessions,
     pub(crate) verdicts: Running,
     pub(crate) judging: Option<Arc<Judging>>,
     pub(crate) vouch: Option<Vouch>,
-    /// A lock that is held while a file is compared and written, so that no two requests do this at once.
+    /// A lock held while a file is compared and written, so that no two requests do so at the same time.
     pub(crate) saving: Mutex<()>,
 }
 
 impl Studio {
-    /// Creates a studio for a workspace, with the version to show and the pages of the manual.
+    /// Creates a studio for a workspace, with the version to show and the manual pages.
     pub fn new(
         workspace: Workspace,
         version: impl Into<String>,
@@ -46,7 +46,7 @@ impl Studio {
 }
 
 impl Studio {
-    /// Adds a judging session, and begins to measure its games.
+    /// Adds a judging session, and starts to measure its games.
     pub fn judging(self, judging: Judging) -> Studio {
         let judging = Arc::new(judging);
         Judging::measure_ahead(&judging);
@@ -54,8 +54,8 @@ impl Studio {
     }
 }
 
-/// A check of the root of a verified release, for example by its signatures. Returns a sentence about the evidence, or the
-/// problems.
+/// A check of a verified release's root, for example by its signatures. Returns a sentence about the
+/// evidence, or the problems.
 type Vouch = Box<dyn Fn(&Verification) -> Result<String, Vec<String>> + Send + Sync>;
 
 impl Studio {

@@ -1,4 +1,5 @@
-//! Templates for new games. Each of a few genres has a commented game and two levels.
+//! Templates for new games. There is one template for each of a few genres, with a commented game and two
+//! levels.
 
 use crate::files;
 use std::fs;
@@ -8,15 +9,16 @@ use std::path::Path;
 /// A template for a new game.
 #[derive(Clone, Copy, Debug)]
 pub struct Template {
-    /// The genre, which is also the name of the template.
+    /// The genre, which is also the template's name.
     pub genre: &'static str,
     /// The player's task, as a sentence without a full stop.
     pub about: &'static str,
-    /// The files with their names. The game comes last, so that a folder that lacks some of its levels is not a game.
+    /// The files with their names. The game comes last, so that a folder that lacks some of its levels is not
+    /// a game.
     pub files: [(&'static str, &'static str); 3],
 }
 
-/// The name of a game's file in its folder.
+/// The name of the game file in a game's folder.
 pub(crate) const GAME_FILE: &str = "game.vgdl";
 
 macro_rules! template {

@@ -1,5 +1,5 @@
-//! The verdict on a level while the level is being edited. The cheapest answers come first, and each answer is sent as
-//! soon as it is known.
+//! The verdict on a level while the level is being edited. The cheapest results come first, and each result
+//! is sent as soon as it is known.
 
 use crate::compiled::Compiled;
 use crate::lines::{Ended, Lines};
@@ -15,16 +15,17 @@ use validators::{
     PlayerResult, Verdict,
 };
 
-/// The numbers of forward-model calls of the successive searches for a win. The first search decides most levels at once.
+/// The numbers of forward-model calls for the successive searches for a win. The first search immediately
+/// decides most levels.
 const SEARCHES: [u64; 4] = [20_000, 100_000, 400_000, 2_000_000];
-/// The maximum number of calls that a request can specify.
+/// The maximum number of calls specified by a request.
 const MOST_CALLS: u64 = 50_000_000;
 /// The memory limit of a search, in bytes.
 pub(crate) const BYTES: usize = 256 << 20;
-/// The fraction of the calls for a search that foresees the randomness of one episode. Without foresight, some games would never
-/// be won.
+/// The fraction of the calls for a search that foresees the randomness of one episode. Without foresight,
+/// some games would never be won.
 pub(crate) const FORESIGHT: f64 = 0.4;
-/// The number of forward-model calls that are divided among the criteria.
+/// The number of forward-model calls divided among the criteria.
 const CRITERIA: u64 = 300_000;
 
 /// A level to judge.
@@ -90,7 +91,7 @@ impl Subject<'_> {
         Ok(heard.and_then(|()| lines.check())?)
     }
 
-    /// Searches for a win, and sends the answer.
+    /// Searches for a win, and sends the result.
     fn search(&self, lines: &Lines) -> Result<Solution, Ended> {
         let Subject { compiled, level, seed, budget } = *self;
         let most = budget.unwrap_or(SEARCHES[SEARCHES.len() - 1]);
@@ -117,7 +118,7 @@ impl Subject<'_> {
         Ok(solution)
     }
 
-    /// Returns the judgement of a level that cannot be won, with the chain of causes.
+    /// Returns the judgement on a level that cannot be won, with the chain of causes.
     fn why_not(&self, budget: u64) -> Result<Judgement, Refusal> {
         let ask = CriterionSet::of(&[Criterion::Winnable]);
         let criteria = Criteria { ask, budget, ..Criteria::full() }.check().map_err(Refusal::failed)?;
@@ -127,9 +128,9 @@ impl Subject<'_> {
     }
 }
 
-/// Searches for a win with an increasing number of calls, up to `most` per search, until `gone` returns `true`. After
-/// each search without an answer, `tell` gets the number of calls spent, and stops the work by returning `false`.
-/// Returns the answer and the number of calls spent.
+/// Searches for a win with an increasing number of calls, up to `most` per search, until `gone` returns
+/// `true`. After each search without an answer, `tell` receives the number of calls spent, and can stop the
+/// work by returning `false`. Returns the answer and the number of calls spent.
 pub(crate) fn look_for_win(
     analysis: &Analysis,
     level: &Level,
@@ -162,7 +163,8 @@ pub(crate) fn look_for_win(
 const WANTED: [Role; 6] =
     [Role::Exit, Role::Key, Role::Collectable, Role::Pushable, Role::Portal, Role::Breakable];
 
-/// Returns the types that the avatar can reach, the types that it cannot reach, and the cells where the avatar can be.
+/// Returns the types that the avatar can reach, the types that it cannot reach, and the cells where the
+/// avatar can be.
 fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> Value {
     let game = analysis.game();
     let cell = |at: usize| json!([at % level.columns(), at / level.columns()]);
@@ -191,8 +193,8 @@ fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> 
     })
 }
 
-/// Returns evidence in the form that the page shows. Cells are counted from 0, and rules are given by their positions
-/// in the text.
+/// Returns evidence in the page's format. Cells are counted from 0, and rules are given by their positions in
+/// the text.
 fn evidence(seen: &[Evidence], source: &str) -> Vec<Value> {
     seen.iter()
         .map(|seen| {

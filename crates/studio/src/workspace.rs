@@ -1,4 +1,4 @@
-//! The opened games: the corpus, games in folders, a release, or the games of results.
+//! The opened games: the corpus, games in folders, a release, or the games in evaluation results.
 
 use crate::files::{self, NamedText};
 use crate::refusal::Refusal;
@@ -17,18 +17,18 @@ pub enum Kind {
     Corpus,
     /// The games in folders.
     Games,
-    /// The games of a release.
+    /// The games in a release.
     Snapshot,
-    /// The games of an evaluation's results.
+    /// The games in the results of an evaluation.
     Results,
 }
 
 /// The location of a game's files.
 #[derive(Clone, Debug)]
 pub enum Place {
-    /// The files are in memory, where nobody can change them.
+    /// The files are in memory and cannot be changed.
     Texts {
-        /// The file of the game.
+        /// The game file.
         source: NamedText,
         /// The levels, in order.
         levels: Vec<NamedText>,
@@ -38,14 +38,14 @@ pub enum Place {
     Folder {
         /// The folder with the files.
         folder: PathBuf,
-        /// The name of the game's file in the folder.
+        /// The name of the game file in the folder.
         source: String,
         /// `true` if the game may be edited.
         writable: bool,
     },
     /// The game is a single file without levels.
     File {
-        /// The file of the game.
+        /// The game file.
         file: PathBuf,
         /// `true` if the file may be edited.
         writable: bool,
@@ -57,7 +57,7 @@ pub enum Place {
 pub struct WitnessEntry {
     /// The name of the recording, such as `lvl0`.
     pub name: String,
-    /// The index of the level.
+    /// The level's index.
     pub level: usize,
     /// The winning episode.
     pub episode: Episode,
@@ -72,7 +72,8 @@ pub struct GameEntry {
     pub title: String,
     /// The location of the files.
     pub place: Place,
-    /// The card, which is a description of the game. In a release, the card also has the results of the game's judges.
+    /// The card, which describes the game. In a release, the card also contains the results from the game's
+    /// judges.
     pub card: Option<Value>,
     /// A sentence about the game.
     pub summary: String,
@@ -80,7 +81,7 @@ pub struct GameEntry {
     pub witnesses: Vec<WitnessEntry>,
 }
 
-/// The opened games, and the data that belong to them.
+/// The opened games, and their data.
 #[derive(Debug)]
 pub struct Workspace {
     /// The kind of the workspace.
@@ -89,21 +90,22 @@ pub struct Workspace {
     pub name: String,
     /// The folder for copies of games.
     pub copies: PathBuf,
-    /// The path of the release.
+    /// The release's path.
     pub root: Option<PathBuf>,
-    /// The folders of results, one per player.
+    /// The folders with results, one per player.
     pub results: Vec<PathBuf>,
-    /// The release, if one is open and it verifies.
+    /// The release, if a release is open and its verification succeeds.
     pub released: Option<Arc<Released>>,
     /// The release to compare with the opened release, and its path.
     pub against: Option<(PathBuf, Arc<Released>)>,
-    /// Further places to search for the releases before the opened release: releases, and folders of releases.
+    /// Additional paths to search for the releases before the opened release: releases, and folders of
+    /// releases.
     pub chain: Vec<PathBuf>,
     games: RwLock<Vec<Arc<GameEntry>>>,
 }
 
 impl Workspace {
-    /// Creates a workspace with these games. If several games have the same ID, a number is added.
+    /// Creates a workspace with these games. If several games have the same ID, a number is appended.
     pub fn new(kind: Kind, name: impl Into<String>, copies: PathBuf, games: Vec<GameEntry>) -> Workspace {
         let workspace = Workspace {
             kind,
@@ -174,7 +176,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns the number of the game's levels, without reading them.
+    /// Returns the number of the game's levels, without reading the level files.
     pub(crate) fn count(&self) -> usize {
         match &self.place {
             Place::Texts { levels, .. } => levels.len(),
@@ -185,7 +187,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns the path of a file by name. The file is the game itself or a level.
+    /// Returns a file's path by name. The file is the game itself or a level.
     pub(crate) fn path_of(&self, name: &str) -> Result<PathBuf, Refusal> {
         let unknown = |help: &str| Refusal::missing("the game has no file with this name").help(help);
         match &self.place {

@@ -1,4 +1,4 @@
-//! A state as cells of a terminal. Each cell has two columns and shows the uppermost sprite.
+//! A state as terminal cells. Each board cell has two columns and shows the uppermost sprite.
 
 use engine::{SpriteType, State};
 use ratatui::style::{Color, Modifier, Style};
@@ -14,7 +14,7 @@ pub(crate) struct Cell<'a> {
     pub(crate) style: Style,
 }
 
-/// The two columns that show each sprite type.
+/// The two columns that represent each sprite type.
 pub(crate) struct Signs {
     texts: Vec<String>,
     fallen: &'static str,
@@ -22,9 +22,9 @@ pub(crate) struct Signs {
 }
 
 impl Signs {
-    /// Chooses the symbol of each type by its glyph. If several types have the same symbol, the second column
-    /// of the symbol is replaced by the type's own character, so that the types differ in more than colour.
-    /// Unicode symbols that fill both columns are left unchanged.
+    /// Chooses each type's symbol by its glyph. If several types have the same symbol, the symbol's second
+    /// column is replaced by the type's own character, so that the types differ in more than colour. Unicode
+    /// symbols that fill both columns are left unchanged.
     pub(crate) fn of(looks: &Looks, symbols: &Symbols, ascii: bool) -> Signs {
         let sign = |glyph: Glyph| if ascii { glyph.ascii() } else { glyph.unicode() };
         let text = |stype: SpriteType| {
@@ -44,15 +44,15 @@ impl Signs {
         Signs { texts, fallen: sign(Glyph::Fallen), ascii }
     }
 
-    /// Returns the cell of a sprite type over the background below it.
+    /// Returns the cell for a sprite type over the background below it.
     pub(crate) fn drawn(&self, looks: &Looks, stype: SpriteType, below: Color) -> Cell<'_> {
         let look = looks.look(stype);
         Cell { text: &self.texts[stype.index()], style: style(look, below, self.ascii) }
     }
 }
 
-/// Returns the cells, row by row. A sprite is in the cell that contains its middle. A large sprite is in all
-/// cells whose middle it covers. The avatar is never covered.
+/// Returns the cells, row by row. A sprite is drawn in the cell that contains its centre. A large sprite is
+/// drawn in all cells whose centre it covers. The avatar is never covered.
 pub(crate) fn cells<'a>(looks: &Looks, signs: &'a Signs, state: &State) -> Vec<Cell<'a>> {
     let game = looks.game();
     let (columns, rows) = (state.size().0.max(1), state.size().1.max(1));
@@ -103,9 +103,9 @@ fn style(look: Look, below: Color, ascii: bool) -> Style {
     }
 }
 
-/// Returns the range of columns or rows, of `limit` in total, that a sprite covers. A sprite covers the
-/// column or row that contains its middle. A sprite larger than a cell covers all columns or rows whose
-/// middle it covers.
+/// Returns the range of columns or rows, out of `limit`, that a sprite covers. A sprite covers the column or
+/// row that contains its centre. A sprite larger than a cell covers all columns or rows whose centre it
+/// covers.
 fn covered(from: i32, size: i32, block: i32, limit: i32) -> Range<i32> {
     let middle = from.saturating_add(size / 2).div_euclid(block);
     let first = from.saturating_add(block / 2).div_euclid(block).min(middle);
@@ -122,7 +122,7 @@ fn light(Colour(parts): Colour) -> Color {
     indexed(Colour(parts.map(|part| part.saturating_add(lift))))
 }
 
-/// Returns the nearest colour in the 6 × 6 × 6 cube of terminals with 256 colours.
+/// Returns the nearest colour in the 6 × 6 × 6 colour cube of 256-colour terminals.
 fn indexed(Colour(parts): Colour) -> Color {
     // The levels of the cube are 0, 95, 135, 175, 215 and 255.
     let step = |part: u8| match part {

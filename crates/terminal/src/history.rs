@@ -1,4 +1,4 @@
-//! An episode in progress that can be undone tick by tick.
+//! An episode in progress, with undo for single ticks.
 
 use base::Seed;
 use engine::{Action, Episode, Game, Level, State};
@@ -7,7 +7,7 @@ use engine::{Action, Episode, Game, Level, State};
 /// undo.
 const STRIDE: usize = 32;
 
-/// The actions played so far, and the state that they led to.
+/// The actions played so far, and the resulting state.
 pub(crate) struct History {
     pub(super) episode: Episode,
     pub(super) state: State,
@@ -32,8 +32,8 @@ impl History {
         }
     }
 
-    /// Undoes the last tick, or does nothing at the start. The random state is undone too, so the same action leads to the same
-    /// state again.
+    /// Undoes the last tick, or does nothing at the start. The random state is undone, too, so the same
+    /// action leads to the same state again.
     pub(crate) fn take_back(&mut self, game: &Game) {
         let Some(ticks) = self.ticks().checked_sub(1) else { return };
         self.kept.truncate(ticks / STRIDE + 1);

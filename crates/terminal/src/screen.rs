@@ -1,4 +1,4 @@
-//! The terminal, which is the source of keys and the target of frames, and is restored afterwards.
+//! The terminal, which provides keys, displays frames, and is restored afterwards.
 
 use super::session::{Command, Session};
 use super::view::{MIN_SIZE, View};
@@ -10,7 +10,7 @@ use ratatui::crossterm::{cursor, execute, terminal};
 use std::io::{IsTerminal, Stderr};
 use std::time::{Duration, Instant};
 
-/// The time to wait for a key if no clock runs.
+/// The time to wait for a key if the clock is not running.
 const IDLE: Duration = Duration::from_millis(500);
 
 /// The reason why play is impossible.
@@ -25,21 +25,21 @@ pub enum PlayError {
     /// The terminal has fewer columns or rows than a board needs.
     #[error("the terminal has {columns} columns and {rows} rows; make it at least {} by {}", MIN_SIZE.0, MIN_SIZE.1)]
     TooSmall {
-        /// The number of columns of the terminal.
+        /// The terminal's number of columns.
         columns: u16,
-        /// The number of rows of the terminal.
+        /// The terminal's number of rows.
         rows: u16,
     },
-    /// An I/O error of the terminal.
+    /// A terminal I/O error.
     #[error("the terminal cannot be used")]
     Io(#[from] std::io::Error),
 }
 
-/// Plays until the user quits. Draws on standard error, so that standard output contains only the answer.
+/// Plays until the user quits. Draws on standard error, so that standard output contains only the result.
 ///
 /// # Errors
 ///
-/// Returns an error if there is no usable terminal.
+/// Returns an error if no usable terminal is available.
 pub fn play(session: &mut Session, view: &View) -> Result<(), PlayError> {
     if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
         return Err(PlayError::NoTerminal);
@@ -52,7 +52,8 @@ pub fn play(session: &mut Session, view: &View) -> Result<(), PlayError> {
     Ok(screen.run(session, view)?)
 }
 
-/// The time since the last tick. No episode depends on it, because episodes record ticks and not their times.
+/// The time since the last tick. Episodes do not depend on this time, because they record ticks and not the
+/// times of ticks.
 struct Since(Instant);
 
 impl Since {
@@ -110,7 +111,7 @@ impl Drop for Screen {
     }
 }
 
-/// Restores the terminal. Ignores errors, because there is no way to report them.
+/// Restores the terminal. Ignores errors, because they cannot be reported.
 fn restore() {
     let _ = terminal::disable_raw_mode();
     let _ = execute!(std::io::stderr(), terminal::LeaveAlternateScreen, cursor::Show);

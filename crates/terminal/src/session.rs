@@ -1,4 +1,4 @@
-//! A session of play: the player, the episode, and the effects of commands, without a terminal or a clock.
+//! A play session: the player, the episode, and the effects of commands, without a terminal or a clock.
 
 use super::history::History;
 use agents::{Budget, Planner};
@@ -18,9 +18,9 @@ pub enum Player {
     Planner {
         /// The planner's name on the screen.
         name: String,
-        /// The planner, which keeps its plans from tick to tick.
+        /// The planner, which retains its plans from tick to tick.
         planner: Box<dyn Planner + Send>,
-        /// The budget of each decision.
+        /// The budget for each decision.
         budget: Budget,
     },
     /// A recording, whose actions are already known.
@@ -30,27 +30,27 @@ pub enum Player {
 /// A command from the person who plays or watches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command {
-    /// Choose the action of the next tick.
+    /// Chooses the action for the next tick.
     Act(Action),
-    /// Pause the clock, or resume it.
+    /// Pauses or resumes the clock.
     Pause,
-    /// Play one tick, then pause the clock.
+    /// Plays one tick, then pauses the clock.
     Step,
-    /// Start the level again.
+    /// Restarts the level.
     Restart,
-    /// Take back one tick.
+    /// Undoes one tick.
     Undo,
-    /// Play more ticks per second.
+    /// Increases the number of ticks per second.
     Faster,
-    /// Play fewer ticks per second.
+    /// Decreases the number of ticks per second.
     Slower,
-    /// Switch between waiting for keys and letting the clock run.
+    /// Switches between waiting for keys and running the clock.
     TurnBased,
-    /// Scroll the rules down.
+    /// Scrolls the rules down.
     Down,
-    /// Scroll the rules up.
+    /// Scrolls the rules up.
     Up,
-    /// End the session.
+    /// Ends the session.
     Quit,
 }
 
@@ -64,7 +64,7 @@ pub struct Session {
     /// `true` if a tick is played only when a key chooses an action.
     pub(crate) turn_based: bool,
     pub(crate) paused: bool,
-    /// The number of ticks per second, if the clock runs.
+    /// The number of ticks per second while the clock is running.
     pub(crate) pace: u16,
     /// The action for the next tick, chosen by the last key since the previous tick.
     chosen: Option<Action>,
@@ -103,7 +103,7 @@ impl Session {
         &self.history.episode
     }
 
-    /// Returns `true` if the clock, and not a key, triggers the next tick.
+    /// Returns `true` if the clock triggers the next tick, instead of a key.
     #[must_use]
     pub fn runs(&self) -> bool {
         !self.paused && !self.turn_based && !self.is_at_end()
@@ -119,7 +119,7 @@ impl Session {
         recorded || self.state().is_over()
     }
 
-    /// Carries out a command.
+    /// Executes a command.
     pub fn handle(&mut self, command: Command) {
         match command {
             Command::Act(action) if matches!(self.player, Player::Person) => {
@@ -156,8 +156,8 @@ impl Session {
         }
     }
 
-    /// Plays a tick, if a tick is possible. If a person has chosen no action, the action of the tick is to do
-    /// nothing.
+    /// Plays a tick, if a tick is possible. If the player is a person who has not chosen an action, the
+    /// action is [`Action::Nil`].
     pub fn tick(&mut self) {
         if self.is_at_end() {
             return;

@@ -1,4 +1,5 @@
-//! The screen of a session: the board, with the resources, the legend and the rules beside it and the keys below it.
+//! A session's screen: the board, with the resources, the legend and the rules beside it and the keys below
+//! it.
 
 use super::board::{self, Cell, GROUND, Signs};
 use super::session::{Player, Session};
@@ -11,9 +12,9 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph, Wrap};
 use render::{Glyph, Looks, Symbols};
 
-/// The smallest terminal in which a game can be played, in columns and rows.
+/// The minimum terminal size for playing a game, in columns and rows.
 pub(crate) const MIN_SIZE: (u16, u16) = (36, 10);
-/// The minimum and maximum number of columns of the panel beside the board.
+/// The minimum and maximum number of columns in the panel beside the board.
 const PANEL: (u16, u16) = (32, 64);
 
 /// The parts of the screen that do not change during a session.
@@ -26,7 +27,7 @@ pub struct View {
 }
 
 impl View {
-    /// Creates the view of a game with a title, using only ASCII symbols if `ascii` is `true`.
+    /// Creates the view for a game with a title. Uses only ASCII symbols if `ascii` is `true`.
     #[must_use]
     pub fn new(analysis: &Analysis, title: String, ascii: bool) -> View {
         let looks = Looks::of(analysis);
@@ -70,7 +71,7 @@ impl View {
         frame.render_widget(Paragraph::new(keys_of(session)).style(help).wrap(Wrap { trim: true }), keys);
     }
 
-    /// Draws as much of the board around the player as fits.
+    /// Draws the part of the board around the player that fits the area.
     fn board(&self, session: &Session, frame: &mut Frame<'_>, area: Rect) {
         let block = Block::bordered().title(format!(" {} ", self.title));
         let inner = block.inner(area);
@@ -158,21 +159,21 @@ impl View {
     }
 }
 
-/// Returns the number of columns and rows of the board.
+/// Returns the board's number of columns and rows.
 fn size(session: &Session) -> (u16, u16) {
     let side = |length: i32| u16::try_from(length).unwrap_or(0);
     let (columns, rows) = session.state().size();
     (side(columns), side(rows))
 }
 
-/// Styles a line of the rules. Headings are bold.
+/// Styles a line in the rules. Headings are bold.
 fn rule(line: &str) -> Line<'_> {
     let heading = !line.starts_with(' ') && line.ends_with(':');
     let style = if heading { Style::new().add_modifier(Modifier::BOLD) } else { Style::new() };
     Line::styled(line, style)
 }
 
-/// Returns a text that states the player and the timing of the next tick.
+/// Returns a text about the player and the timing of the next tick.
 fn manner(session: &Session) -> String {
     let ticks = session.episode().actions.len();
     let who = match &session.player {

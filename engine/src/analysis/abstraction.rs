@@ -1,4 +1,5 @@
-//! State abstractions: parts of the state that a search need not distinguish among the successors of one state.
+//! State abstractions: parts of the state that a search can ignore when it compares the successors of a
+//! state.
 
 use super::Analysis;
 use super::futures::PossibleFutures;
@@ -11,13 +12,13 @@ use crate::rules::{SpriteType, TypeInfo};
 use crate::state::State;
 use crate::world::SearchKey;
 
-/// The state abstraction for a search among the successors of one state, the root state.
+/// The state abstraction for a search that starts from one state, the root state.
 ///
-/// In addition to the parts that [`State::search_key`] leaves out, the key leaves out
-/// - sprites of types that nothing changes, makes or removes, because they are the same in all successors;
+/// In addition to the parts that [`State::search_key`] omits, the key omits
+/// - sprites of types that nothing changes, creates or removes, because they are the same in all successors;
 /// - the order of sprites of one type, and their orientation, if the rules cannot distinguish them;
-/// - the random state, if it decides nothing from the root state on;
-/// - the phases of spawners that can no longer be made;
+/// - the random state, if it has no effect after the root state;
+/// - the phases of spawners that can no longer appear;
 /// - the tick, if only a losing Timeout reads it: see [`StateAbstraction::earlier_is_better`].
 #[derive(Clone, Debug)]
 pub struct StateAbstraction {
@@ -33,46 +34,48 @@ pub struct StateAbstraction {
 }
 
 impl StateAbstraction {
-    /// Returns `true` if keys leave out the tick although the game can be lost by reaching some tick. In that
+    /// Returns `true` if keys omit the tick even though the game can be lost by reaching some tick. In that
     /// case, if two states have the same key and the later state can win, the earlier state can win, too. A
-    /// search that visits states in the order of their ticks, such as breadth-first search, loses nothing by
-    /// dropping the later state.
+    /// search that visits states in tick order, such as breadth-first search, loses nothing by dropping the
+    /// later state.
     pub fn earlier_is_better(&self) -> bool {
         self.earlier_is_better
     }
 
-    /// Returns the same abstraction, but with keys that leave out the random state, for searches that assume one random
-    /// future for all states. States with equal keys may then have different futures.
+    /// Returns the same abstraction, but with keys that omit the random state, for searches that assume a
+    /// single random future for all states. States with equal keys may then have different futures.
     #[must_use]
     pub fn without_chance(self) -> StateAbstraction {
         StateAbstraction { chance: false, ..self }
     }
 
-    /// Returns `true` if sprites of the type are the same in all successors: nothing changes, makes or removes them.
+    /// Returns `true` if sprites of the type are the same in all successors: nothing changes, creates or
+    /// removes them.
     pub fn is_constant(&self, stype: SpriteType) -> bool {
         self.constant[stype.index()]
     }
 
-    /// Returns `true` if randomness decides anything from the root state on, so that keys include the random state.
+    /// Returns `true` if randomness can have an effect after the root state, so that keys include the random
+    /// state.
     pub fn reads_chance(&self) -> bool {
         self.chance
     }
 
-    /// Returns the key of a successor of the root state. If two successors have equal keys, they have equal keys and
-    /// outcomes after the same actions (except for losses by Timeout, if [`StateAbstraction::earlier_is_better`]).
-    /// Cost: O(sprites of types that can change).
+    /// Returns the key for a successor of the root state. If two successors have equal keys, they have equal
+    /// keys and outcomes after the same actions (except for losses by Timeout, if
+    /// [`StateAbstraction::earlier_is_better`]). Cost: O(sprites of types that can change).
     pub fn key(&self, analysis: &Analysis, state: &State) -> SearchKey {
         state.key_left_out(&analysis.game.0, self)
     }
 
-    /// Returns the words that [`StateAbstraction::key`] hashes, to detect hash collisions.
+    /// Returns the 64-bit words that [`StateAbstraction::key`] hashes, for the detection of hash collisions.
     pub fn words(&self, analysis: &Analysis, state: &State) -> Vec<u64> {
         state.words_left_out(&analysis.game.0, self)
     }
 }
 
 impl Analysis {
-    /// Returns the state abstraction for a search from this state. Cost: O(types × interactions).
+    /// Returns the state abstraction for a search that starts from this state. Cost: O(types × interactions).
     pub fn abstraction(&self, state: &State) -> StateAbstraction {
         let rules = &*self.game.0;
         let futures = self.futures(state);
@@ -105,7 +108,7 @@ impl Analysis {
     }
 
     /// Returns, for each type, whether its sprites stay the same in all possible futures: nothing changes,
-    /// makes or removes them.
+    /// creates or removes them.
     fn constant(&self, futures: &PossibleFutures<'_>) -> Vec<bool> {
         let rules = &*self.game.0;
         let mut constant: Vec<bool> =
@@ -133,7 +136,7 @@ impl Analysis {
         constant
     }
 
-    /// Returns `true` if sprites of the type do nothing by themselves.
+    /// Returns `true` if sprites of the type never act by themselves.
     fn is_inert(&self, stype: SpriteType, futures: &PossibleFutures<'_>) -> bool {
         use SpriteClass as C;
         let (facts, info) = (self.facts(stype), &self.game.0.types[stype.index()]);
@@ -167,7 +170,7 @@ fn changes_second(encounter: &Encounter) -> bool {
     encounter.does(|effect| effect.changes(Side::Second))
 }
 
-/// Returns `true` if the effect concerns all sprites of the type, not only the sprites that met.
+/// Returns `true` if the effect applies to all sprites of the type, not only to the sprites that collided.
 pub(super) fn changes_afar(effect: &EffectSummary, info: &TypeInfo, stype: SpriteType) -> bool {
     effect.at_large().is_some_and(|of| info.in_tree(of)) || effect.makes().contains(&stype)
 }

@@ -1,8 +1,8 @@
-//! Proofs that randomness decides nothing: no random number with an open outcome can ever be drawn.
+//! Proofs that randomness has no effect: no draw with an uncertain outcome can ever occur.
 //!
 //! A draw with a certain outcome only advances the generator. Examples are the draws of a SpawnPoint with
 //! `prob=1` and of a Spreader with `spreadprob=1`. A PathChaser and a PathAltChaser draw only while they have
-//! no target (`spec/02` §7), so their draws decide nothing if a target always exists.
+//! no target (`spec/02` §7), so their draws have no effect if a target always exists.
 
 use super::Analysis;
 use super::futures::PossibleFutures;
@@ -18,36 +18,36 @@ use base::Seed;
 use std::collections::BTreeSet;
 
 impl Analysis {
-    /// Returns `true` if randomness can decide anything in some level. If the result is `false`, the same
-    /// actions always give the same sprites, scores and outcomes. Draws with a certain outcome do not count,
-    /// so the result can be `false` although [`Game::is_deterministic`](crate::Game::is_deterministic) is
-    /// `false`, too.
+    /// Returns `true` if randomness can have an effect in some level. If the result is `false`, the same
+    /// actions always produce the same sprites, scores and outcomes. Draws with a certain outcome do not
+    /// count, so the result can be `false` even if [`Game::is_deterministic`](crate::Game::is_deterministic)
+    /// is `false`, too.
     pub fn is_stochastic(&self) -> bool {
         self.is_stochastic
     }
 
-    /// Returns `true` only if randomness is proved to decide nothing in any level: the opposite of
+    /// Returns `true` only if randomness provably has no effect in any level: the opposite of
     /// [`Analysis::is_stochastic`]. Many levels of stochastic games are deterministic, too: see
     /// [`Analysis::is_deterministic_in`].
     pub fn is_deterministic(&self) -> bool {
         !self.is_stochastic
     }
 
-    /// Returns `true` only if randomness is proved to decide nothing in a level. Cost: starting the level, and one call
-    /// of [`Analysis::is_deterministic_from`].
+    /// Returns `true` only if randomness provably has no effect in a level. Cost: starting the level, and one
+    /// call of [`Analysis::is_deterministic_from`].
     pub fn is_deterministic_in(&self, level: &Level) -> bool {
         // The start draws no random numbers.
         self.is_deterministic() || self.is_deterministic_from(&self.game.start(level, Seed::from_text("any")))
     }
 
-    /// Returns `true` only if randomness is proved to decide nothing from this state on: the same actions give the same
-    /// sprites, scores and outcomes for every seed. Cost: O(sprites + rounds × interactions).
+    /// Returns `true` only if randomness provably has no effect from this state on: the same actions produce
+    /// the same sprites, scores and outcomes for every seed. Cost: O(sprites + rounds × interactions).
     pub fn is_deterministic_from(&self, state: &State) -> bool {
         state.is_over() || !draws(&self.game.0, &self.futures(state), Some(state))
     }
 }
 
-/// Returns `true` if any possible future can draw a random number with an open outcome. If `state` is `None`,
+/// Returns `true` if any possible future can contain a draw with an uncertain outcome. If `state` is `None`,
 /// considers the futures of any level.
 pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<&State>) -> bool {
     let outlook = Outlook { rules, futures, state };
@@ -60,12 +60,12 @@ pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<
         || targets.into_iter().any(|target| !outlook.is_always_there(target))
 }
 
-/// The maximum number of target types that are examined, and the maximum number of rounds per examination. Beyond these
-/// limits, no proof is found.
+/// The maximum number of target types to examine, and the maximum number of rounds per examination. Beyond
+/// these limits, no proof is found.
 const MAX_TARGETS: usize = 16;
 const MAX_ROUNDS: usize = 16;
 
-/// Returns `true` if a probability leaves the outcome open.
+/// Returns `true` if a draw with this probability has an uncertain outcome.
 fn is_open(prob: f64) -> bool {
     prob > 0.0 && prob < 1.0
 }
@@ -83,12 +83,12 @@ impl<'a> Outlook<'a> {
         &self.rules.types[stype.index()]
     }
 
-    /// Returns the types to which rules on a type apply. Empty for an undeclared type.
+    /// Returns the types to which rules on a type apply. The result is empty for an undeclared type.
     fn tree(&self, stype: SpriteType) -> &'a [SpriteType] {
         self.rules.types.get(stype.index()).map_or(&[], |info| &info.tree)
     }
 
-    /// Returns the effects that can be executed, with the types of their two sides as written.
+    /// Returns the executable effects, with the types of their two sides as written.
     fn effects(self) -> impl Iterator<Item = (Option<SpriteType>, Option<SpriteType>, &'a Summary)> {
         let summary = move |effect: u16| &*self.rules.effects[usize::from(effect)].summary;
         let met = self.futures.encounters().iter().zip(&self.futures.live).filter(|(_, live)| **live);
@@ -97,8 +97,8 @@ impl<'a> Outlook<'a> {
         met.chain(timed.map(move |(timed, _)| (timed.target, None, summary(timed.effect))))
     }
 
-    /// Returns `true` if sprites of the type make draws with an open outcome in their own updates, even while each of
-    /// `targets` has a sprite. Adds the type's own target to `targets`.
+    /// Returns `true` if the type's sprites make draws with an uncertain outcome in their own updates, even
+    /// while a sprite of each of the `targets` exists. Adds the type's own target to `targets`.
     fn update_draws(&self, stype: SpriteType, targets: &mut BTreeSet<SpriteType>) -> bool {
         use ClassFamily as Family;
         use SpriteClass as C;
@@ -134,8 +134,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` if a sprite can have the orientation that makes a RandomMissile draw a new orientation.
-    /// Sprites may pass this orientation on to other sprites.
+    /// Returns `true` if a sprite can have the orientation with which a RandomMissile draws a new
+    /// orientation. Sprites may pass this orientation on to other sprites.
     fn can_be_unoriented(&self) -> bool {
         let types = self.rules.types.iter().enumerate();
         let mut unset = types.filter(|(_, info)| info.traits.orientation == Direction::NIL);
@@ -150,7 +150,7 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` if an effect makes draws with an open outcome.
+    /// Returns `true` if an effect makes draws with an uncertain outcome.
     fn effect_draws(&self, draws: Draws, second: Option<SpriteType>) -> bool {
         match draws {
             Draws::Nothing => false,
@@ -165,8 +165,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns the types to which sprites of a type can lead. A spawner leads to the types that it makes.
-    /// Rules may change which types a spawner makes.
+    /// Returns the exit types for sprites of a type. A spawner leads to the types that it creates. Rules may
+    /// change the types that a spawner creates.
     fn exits(&self, portal: SpriteType) -> Vec<SpriteType> {
         let info = self.info(portal);
         let mut exits: Vec<SpriteType> = info.leads_to().into_iter().collect();
@@ -184,16 +184,17 @@ impl<'a> Outlook<'a> {
         exits
     }
 
-    /// Returns `true` if at most one sprite of the type exists at any time from now on, so that the choice among them
-    /// is certain.
+    /// Returns `true` if, from now on, at most one sprite of the type exists at any time, so that a choice
+    /// among its sprites has a certain outcome.
     fn is_single(&self, stype: SpriteType) -> bool {
         let few = self.state.is_some_and(|state| state.world.group(stype).count <= 1);
         few && !self.futures.made[stype.index()]
     }
 
     /// Returns `true` only if a sprite of the type or of its relatives exists whenever sprites are updated.
-    /// Such a sprite must exist now, and must either stay or end the game when the last one is removed.
-    /// Sprites are removed only after the updates of a tick, just before terminations are checked.
+    /// Such a sprite must exist now. Sprites of the type must either stay, or end the game when the last of
+    /// them is removed. Sprites are removed only after the updates of a tick, just before terminations are
+    /// checked.
     fn is_always_there(&self, stype: SpriteType) -> bool {
         let family = self.tree(stype);
         let lasting = self.lasting(family);
@@ -201,7 +202,8 @@ impl<'a> Outlook<'a> {
             || self.ends_without(family) && self.is_there_now(&|one| family.contains(&one))
     }
 
-    /// Returns `true` only if a sprite of a type that `fits` exists now or, without a state, at the start of any level.
+    /// Returns `true` only if a sprite of a type accepted by `fits` exists now or, without a state, at the
+    /// start of any level.
     fn is_there_now(&self, fits: &dyn Fn(SpriteType) -> bool) -> bool {
         let mut types = (0u16..).map(SpriteType).take(self.rules.types.len());
         match self.state {
@@ -219,7 +221,7 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` if a level may lack an avatar that its text places, because a singleton related to it already
+    /// Returns `true` if a level may lack an avatar that its text places, because a related singleton already
     /// exists.
     fn may_be_left_out(&self, avatar: SpriteType) -> bool {
         let placed = || self.rules.mapping.iter().flatten();
@@ -228,8 +230,9 @@ impl<'a> Outlook<'a> {
             .any(|&one| placed().any(|&other| self.info(one).in_tree(other) && !is_avatar(self.info(other))))
     }
 
-    /// Returns, for each type, whether it is in `family` and permanent. The sprites of a permanent type never leave the
-    /// board, except by turning into sprites of another permanent type of `family`. Dead avatars count as staying.
+    /// Returns, for each type, whether the type is in `family` and permanent. A permanent type's sprites
+    /// never leave the board, except by turning into sprites of another permanent type in `family`. Dead
+    /// avatars count as staying.
     fn lasting(&self, family: &[SpriteType]) -> Vec<bool> {
         let mut lasting = vec![false; self.rules.types.len()];
         for stype in family {
@@ -248,7 +251,7 @@ impl<'a> Outlook<'a> {
         vec![false; lasting.len()]
     }
 
-    /// Removes from `lasting` the types whose sprites the effect removes.
+    /// Removes the types whose sprites the effect removes from `lasting`.
     fn end(
         &self,
         first: Option<SpriteType>,
@@ -277,7 +280,7 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` only if some termination ends the game as soon as there is no sprite of these types.
+    /// Returns `true` only if some termination ends the game as soon as no sprite of these types exists.
     fn ends_without(&self, family: &[SpriteType]) -> bool {
         let within = |stype: &SpriteType| {
             let tree = self.tree(*stype);

@@ -1,5 +1,5 @@
-//! Possible futures: a fixed point over the existing sprites, the sprites that they make, and the effects of their
-//! collisions.
+//! Possible futures: a fixed point over the existing sprites, the sprites that they create, and the effects
+//! of their collisions.
 
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, Side, timed_effects};
 use crate::analysis::types::facts::Facts;
@@ -7,8 +7,8 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};
 
-/// An over-approximation of the sprites, resources and interactions that are possible from some start. It assumes that
-/// any two types that can exist can meet.
+/// An over-approximation of the possible sprites, resources and interactions from some start. The
+/// over-approximation assumes that any two possible types can collide.
 #[derive(Clone, Debug)]
 pub(super) struct PossibleFutures<'a> {
     rules: &'a Rules,
@@ -18,31 +18,31 @@ pub(super) struct PossibleFutures<'a> {
     pub(super) exists: Vec<bool>,
     /// For each type, whether its sprites can appear from now on.
     pub(super) made: Vec<bool>,
-    /// For each type, whether some sprite can hold it as a resource. `None` if any amount of anything can be
-    /// held.
+    /// For each type, whether some sprite can hold the type as a resource. `None` if every amount of every
+    /// resource can be held.
     held: Option<Vec<bool>>,
     /// For each interaction, whether it can happen.
     pub(super) live: Vec<bool>,
-    /// For each timed effect, whether it is or can be scheduled.
+    /// For each timed effect, whether the effect is or can be scheduled.
     pub(super) timed: Vec<bool>,
-    /// For each type, whether it or a relative can exist, so that rules on it apply.
+    /// For each type, whether sprites of the type or a relative can exist, so that rules on the type apply.
     applicable: Vec<bool>,
-    /// For each type, whether more of it than its limit can be held as a resource.
+    /// For each type, whether the amount held as a resource can exceed its limit.
     unlimited: Vec<bool>,
 }
 
 /// The starting point of the possible futures.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Start {
-    /// The types that have sprites.
+    /// The types with existing sprites.
     pub(super) existing: Vec<SpriteType>,
-    /// The types that existing sprites make, in addition to the types that follow from the sprites' own
+    /// The types that existing sprites create, in addition to the types that follow from the sprites' own
     /// types.
     pub(super) making: Vec<SpriteType>,
-    /// The timed effects that are scheduled.
+    /// The scheduled timed effects.
     pub(super) scheduled: Vec<u16>,
-    /// For each type, whether some sprite holds it as a resource. `None` if any amount of anything can be
-    /// held.
+    /// For each type, whether some sprite holds the type as a resource. `None` if every amount of every
+    /// resource can be held.
     pub(super) held: Option<Vec<bool>>,
 }
 
@@ -54,7 +54,7 @@ impl Start {
         Start { existing, making: Vec::new(), scheduled: Start::scheduled(rules), held }
     }
 
-    /// Returns the timed effects that are scheduled when an episode starts.
+    /// Returns the timed effects scheduled at the start of an episode.
     pub(super) fn scheduled(rules: &Rules) -> Vec<u16> {
         let timed = (0u16..).zip(&rules.timed);
         timed.filter(|(_, timed)| timed.first_due.is_some()).map(|(number, _)| number).collect()
@@ -113,7 +113,8 @@ impl<'a> PossibleFutures<'a> {
         new
     }
 
-    /// Makes one pass over all types and interactions. Returns `true` if the pass added anything.
+    /// Makes one pass over all types and interactions. Returns `true` if the pass added a type, interaction
+    /// or resource.
     fn round(
         &mut self,
         timed_effects: &[(Option<SpriteType>, smallvec::SmallVec<[EffectSummary; 2]>)],
@@ -180,14 +181,14 @@ impl<'a> PossibleFutures<'a> {
     }
 
     /// Records that a sprite can hold this amount of a resource, if the resource's limit allows it. Returns
-    /// `true` if the fact is new.
+    /// `true` if the record is new.
     fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
         let fits = resource != SpriteType::NONE && self.is_within(resource, amount);
         let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };
         !std::mem::replace(&mut held[resource.index()], true)
     }
 
-    /// Returns `true` if the limit of a resource allows holding this amount.
+    /// Returns `true` if a resource's limit allows this amount.
     pub(super) fn is_within(&self, resource: SpriteType, amount: i32) -> bool {
         self.is_unlimited(resource) || amount <= self.rules.types[resource.index()].resource_limit
     }
@@ -208,7 +209,8 @@ impl<'a> PossibleFutures<'a> {
         }
     }
 
-    /// Returns `true` if a maker can make sprites of its `kind`-th type. Avatars need ammunition for their shots.
+    /// Returns `true` if a maker can create sprites of its `kind`-th type. Avatars need ammunition for their
+    /// shots.
     pub(super) fn can_make(&self, maker: usize, kind: usize) -> bool {
         let info = &self.rules.types[maker];
         let Some(held) = &self.held else { return true };
@@ -218,13 +220,13 @@ impl<'a> PossibleFutures<'a> {
         info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
     }
 
-    /// Returns `true` if sprites of a type leave behind sprites of type 0, whatever their parameters say. All
-    /// sprites of such a type do so, except the first.
+    /// Returns `true` if sprites of a type leave behind sprites of type 0, regardless of their parameters.
+    /// All sprites of such a type do so, except the first.
     fn leaves_walls(&self, stype: usize) -> bool {
         self.rules.types[stype].class == Some(SpriteClass::OngoingTurningAvatar) && self.made[stype]
     }
 
-    /// Returns the resource that an avatar needs to make sprites of its `kind`-th type.
+    /// Returns the resource that an avatar needs to create sprites of its `kind`-th type.
     fn ammo(&self, maker: usize, kind: usize) -> Option<SpriteType> {
         let traits = &self.rules.types[maker].traits;
         // Facts leave out undeclared types, so the lists of made types and of ammunition do not match if there is one.
@@ -232,7 +234,7 @@ impl<'a> PossibleFutures<'a> {
         traits.ammo.get(kind).copied().filter(|&ammo| matched && ammo != SpriteType::NONE)
     }
 
-    /// Returns the types that a type can make by itself, each with the ammunition that it costs.
+    /// Returns the types that a type can create by itself, each with the required ammunition.
     pub(super) fn makes(&self, maker: usize) -> Vec<(SpriteType, Option<SpriteType>)> {
         let avatar = self.rules.types[maker].class.is_some_and(|class| class.is_avatar());
         let made = self.facts[maker].makes.iter().enumerate();
@@ -252,8 +254,8 @@ impl<'a> PossibleFutures<'a> {
     }
 }
 
-/// Returns, for each type, whether it can be given as a resource regardless of its limit, by a rule or
-/// because it is used as ammunition.
+/// Returns, for each type, whether some rule or the use as ammunition can give the type as a resource
+/// regardless of its limit.
 pub(super) fn unlimited(rules: &Rules) -> Vec<bool> {
     let mut unlimited = vec![false; rules.types.len()];
     let mut mark =

@@ -1,14 +1,15 @@
-//! Static analysis of a game's rules, derived once from the compiled rules for every generator, validator and
-//! text.
+//! Static analysis of a game's rules, derived once from the compiled rules and shared by all generators,
+//! validators and texts.
 //!
-//! The analysis never runs the game. It answers questions about the following:
+//! The analysis never runs the game. The analysis covers:
 //!
 //! - the winning and losing terminations
-//! - the types that block, harm, open, transform, make or push other types, or can be collected
+//! - the types that block, harm, open, transform, create or push other types, or can be collected
 //! - the resources, and the amounts needed
 //! - the [`Role`] of every type
 //!
-//! A rule that names a parent holds for all its subtypes, which every answer takes into account.
+//! A rule on a parent type also applies to all its subtypes. Every result of the analysis takes this into
+//! account.
 
 mod abstraction;
 mod chance;
@@ -72,7 +73,7 @@ pub struct Analysis {
 
 impl Analysis {
     /// Analyses a game. Cost: O(types × types + interactions × relatives) with a factor of
-    /// [`MAX_RULES_PER_PAIR`]. The analysis takes well below a millisecond for usual games, and some tenths
+    /// [`MAX_RULES_PER_PAIR`]. The analysis takes well below a millisecond for typical games, and some tenths
     /// of a second for the largest games that compile.
     pub fn of(game: &Game) -> Analysis {
         let rules = &*game.0;
@@ -141,8 +142,8 @@ impl Analysis {
         &self.encounters
     }
 
-    /// Returns `true` if a rule on `written` holds for sprites of `stype`, because the two are related in the
-    /// SpriteSet.
+    /// Returns `true` if a rule on `written` applies to sprites of `stype`, because the two types are related
+    /// in the SpriteSet.
     pub fn applies(&self, written: SpriteType, stype: SpriteType) -> bool {
         self.game.0.types[written.index()].in_tree(stype)
     }
@@ -156,9 +157,9 @@ impl Analysis {
         })
     }
 
-    /// Returns the direction of a sign, as a unit vector. A sign is a still type with an orientation that turns the
-    /// sprites that touch it, for example into its own direction. Rules may also turn the sign itself. Cost:
-    /// O(encounters).
+    /// Returns a sign's direction as a unit vector. A sign is a motionless type with an orientation that
+    /// turns the sprites that touch it, for example into its own direction. Rules may also turn the sign
+    /// itself. Cost: O(encounters).
     pub fn sign(&self, stype: SpriteType) -> Option<Direction> {
         let traits = &self.game.0.types[stype.index()].traits;
         let faces = traits.is_oriented && traits.orientation != Direction::NONE;
@@ -174,7 +175,7 @@ impl Analysis {
         is_sign.then_some(traits.orientation)
     }
 
-    /// Returns `true` if sprites of the type stand still until a rule gives them speed. Cost: O(1).
+    /// Returns `true` if sprites of the type stand still until a rule sets their speed. Cost: O(1).
     pub(crate) fn is_set_off(&self, stype: SpriteType) -> bool {
         let info = &self.game.0.types[stype.index()];
         let traits = &info.traits;
@@ -190,41 +191,41 @@ impl Analysis {
             .filter(move |encounter| encounter.second.is_none() && self.applies(encounter.first, stype))
     }
 
-    /// Returns the properties of a type that do not depend on other types.
+    /// Returns a type's properties that do not depend on other types.
     pub fn facts(&self, stype: SpriteType) -> &Facts {
         &self.facts[stype.index()]
     }
 
-    /// Returns the role of a type in a level.
+    /// Returns a type's role in a level.
     pub fn role(&self, stype: SpriteType) -> Role {
         self.roles[stype.index()]
     }
 
-    /// Returns the types with a role that can occur, in registry order.
+    /// Returns the possible types with a role, in registry order.
     pub fn of_role(&self, role: Role) -> impl Iterator<Item = SpriteType> + '_ {
         self.game.sprite_types().filter(move |&stype| self.role(stype) == role && self.facts(stype).possible)
     }
 
-    /// Returns `false` only if it is proved that no level has a sprite of the type at any time. Unlike
-    /// [`Facts::possible`], the result also covers levels that use `w` or `A` although the game has no use
-    /// for that character.
+    /// Returns `false` only if no level can ever contain a sprite of the type, as proved from the rules.
+    /// Unlike [`Facts::possible`], the result also covers levels that use `w` or `A` although the game does
+    /// not use that character.
     pub fn can_exist(&self, stype: SpriteType) -> bool {
         self.exists[stype.index()]
     }
 
-    /// Returns the types that the player's avatar can have, starting with the types that levels can place. If
-    /// the list is empty, the engine finds no avatar when a level starts, and no key does anything.
+    /// Returns the possible types of the player's avatar, starting with the types that levels can place. If
+    /// the list is empty, the engine finds no avatar when a level starts, and no key has an effect.
     pub fn avatars(&self) -> &[Avatar] {
         &self.avatars
     }
 
-    /// Returns the avatar that episodes start with, or `None` if no level has an avatar. If levels can place
-    /// several avatars, returns the first.
+    /// Returns the avatar at the start of episodes, or `None` if no level contains an avatar. If levels can
+    /// place several avatars, returns the first avatar.
     pub fn start_avatar(&self) -> Option<&Avatar> {
         self.avatars.first().filter(|avatar| avatar.starts)
     }
 
-    /// Returns the result of an avatar of type `avatar` touching a sprite of type `other`.
+    /// Returns the result when an avatar of type `avatar` touches a sprite of type `other`.
     ///
     /// # Panics
     /// Panics if `avatar` is not among [`Analysis::avatars`].
@@ -233,7 +234,7 @@ impl Analysis {
         &self.touches[at.expect("the type is an avatar type")][other.index()]
     }
 
-    /// Returns the worst harm that contact with a type does to the avatar, over all avatar types.
+    /// Returns the worst harm that contact with a type does to an avatar of any type.
     pub fn harm(&self, stype: SpriteType) -> Harm {
         self.harm[stype.index()]
     }
@@ -253,8 +254,8 @@ impl Analysis {
         self.between(mover, obstacle).any(Encounter::blocks) || self.between(obstacle, mover).any(undone)
     }
 
-    /// Returns the types that a type turns into, each with the partner that causes it. Edges are left out.
-    /// Cost: O(encounters).
+    /// Returns the types that a type turns into, each with the partner that causes the change. Changes at the
+    /// edge are omitted. Cost: O(encounters).
     pub fn turns(&self, stype: SpriteType) -> Vec<(SpriteType, SpriteType)> {
         let mut list = Vec::new();
         for encounter in self.encounters.iter().filter(|encounter| self.applies(encounter.first, stype)) {
@@ -267,12 +268,12 @@ impl Analysis {
         list
     }
 
-    /// Returns the type that a portal of this type leads to.
+    /// Returns the type to which a portal of this type leads.
     pub fn leads_to(&self, stype: SpriteType) -> Option<SpriteType> {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }
 
-    /// Returns the type that a maker launches and its direction, if the launched sprites move straight ahead.
+    /// Returns the type and direction of the sprites that a maker launches, if they move in a straight line.
     pub fn launches(&self, maker: SpriteType) -> Option<(SpriteType, Direction)> {
         let made = *self.facts(maker).makes.first()?;
         let Motion::Straight(own) = self.facts(made).motion else { return None };
@@ -298,7 +299,8 @@ impl Analysis {
         &self.resources
     }
 
-    /// Returns `true` if `wanted` accepts an effect of an interaction or a timed effect. Cost: O(interactions).
+    /// Returns `true` if `wanted` accepts an effect from an interaction or a timed effect. Cost:
+    /// O(interactions).
     pub(crate) fn any_effect(&self, wanted: impl Fn(&EffectSummary) -> bool) -> bool {
         let timed = interactions::encounter::timed_effects(&self.game.0);
         self.encounters.iter().any(|encounter| encounter.does(&wanted))
@@ -316,12 +318,12 @@ impl Analysis {
         &self.locks
     }
 
-    /// Returns the requirements on the numbers of sprites that a level should place.
+    /// Returns the requirements on the numbers of sprites in a level.
     pub fn requirements(&self) -> &[Requirement] {
         &self.requirements
     }
 
-    /// Returns `true` if any effect is timed, from the start or after some interaction.
+    /// Returns `true` if any effect is timed, either from the start or after some interaction.
     pub fn has_timed_effects(&self) -> bool {
         !self.game.0.timed.is_empty()
     }
@@ -335,7 +337,8 @@ impl Analysis {
         steps && !traits.continuous && (traits.speed <= 0.0 || traits.speed == 1.0)
     }
 
-    /// Returns `true` if nothing moves unless the player acts, apart from the effects of the player's own shots.
+    /// Returns `true` if nothing moves unless the player acts, apart from the effects of the player's own
+    /// shots.
     pub fn is_turn_based(&self) -> bool {
         let idle = |stype: SpriteType| {
             let facts = self.facts(stype);
@@ -359,7 +362,7 @@ impl Analysis {
         !clock && self.game.sprite_types().all(idle)
     }
 
-    /// Returns `true` if sprites that overlap when a level starts, or reach into the next cell, may change
+    /// Returns `true` if sprites that overlap when a level starts, or extend into the next cell, may change
     /// after the first tick although no sprite moves.
     fn changes_at_rest(&self) -> bool {
         let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
@@ -410,8 +413,8 @@ impl Analysis {
     }
 }
 
-/// Returns, for each type, whether it makes harmful sprites, directly or in several steps. The result is a
-/// fixed point over the types that each type makes, starting from the types in `bad`.
+/// Returns, for each type, whether it creates harmful sprites, directly or in several steps. The result is a
+/// fixed point over the types that each type creates, starting from the types in `bad`.
 fn sources(game: &Game, encounters: &[Encounter], facts: &[Facts], bad: &[bool]) -> Vec<bool> {
     let types = &game.0.types;
     let mut makes: Vec<BTreeSet<SpriteType>> = vec![BTreeSet::new(); facts.len()];

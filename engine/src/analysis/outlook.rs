@@ -1,5 +1,5 @@
-//! Forward-looking questions about a game or a state: the possible futures, and whether the player sees every relevant
-//! sprite.
+//! Forward-looking analysis of a game or a state: the possible futures, and whether the player sees every
+//! relevant sprite.
 
 use super::Analysis;
 use super::futures::{PossibleFutures, Start};
@@ -10,9 +10,9 @@ use crate::rules::{Rules, SpriteType};
 use crate::state::State;
 
 impl Analysis {
-    /// Returns the relevant types that the player does not see. A type is relevant if, in some level, it takes part in
-    /// interactions, is counted by terminations or interactions, makes other sprites, is an exit of a portal, or is
-    /// followed by other sprites.
+    /// Returns the relevant types that are invisible to the player. A type is relevant if, in some level, it
+    /// takes part in interactions, is counted by terminations or interactions, creates other sprites, is a
+    /// portal's exit, or is followed by other sprites.
     pub fn unseen(&self) -> &[SpriteType] {
         &self.unseen
     }
@@ -50,7 +50,7 @@ impl Analysis {
     }
 }
 
-/// Returns the relevant types that can exist and that the player does not see.
+/// Returns the relevant types that can exist and are invisible to the player.
 pub(super) fn unseen(
     rules: &Rules,
     facts: &[Facts],

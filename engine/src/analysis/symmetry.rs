@@ -1,4 +1,4 @@
-//! Sprites of one type that the rules cannot distinguish, by identity or by orientation.
+//! Sprites of one type that the rules cannot distinguish, either by identity or by orientation.
 
 use super::Analysis;
 use super::abstraction::changes_afar;
@@ -11,9 +11,9 @@ use crate::rules::{EffectInfo, Rules, SpriteType, TypeInfo};
 impl Analysis {
     /// Returns, for each type, whether exchanging two of its sprites changes nothing but their identity.
     ///
-    /// Sprites of a type are interchangeable under three conditions. Each sprite's update concerns only that
-    /// sprite, nothing looks for the nearest sprite of the type, and every rule that involves the type gives
-    /// the same result whichever sprite it processes first.
+    /// Sprites of a type are interchangeable under three conditions. Each sprite's update affects only that
+    /// sprite. Nothing searches for the nearest sprite of the type. Every rule that involves the type gives
+    /// the same result regardless of the order in which it processes the sprites.
     pub(super) fn interchangeable(&self) -> Vec<bool> {
         let rules = &*self.game.0;
         let types = rules.types.len();
@@ -75,7 +75,8 @@ impl Analysis {
         }
     }
 
-    /// Returns, for each type, whether nothing reads the orientation of its sprites, as long as they are not oriented.
+    /// Returns, for each type, whether the rules ignore the orientation of its sprites, as long as the
+    /// sprites are not oriented.
     pub(super) fn orientation_irrelevant(&self) -> Vec<bool> {
         use SpriteClass as C;
         let rules = &*self.game.0;
@@ -104,7 +105,7 @@ impl Analysis {
     }
 }
 
-/// Returns `true` if the update of a sprite of the type concerns only that sprite.
+/// Returns `true` if the update of each of the type's sprites affects only that sprite.
 fn is_by_itself(info: &TypeInfo) -> bool {
     use SpriteClass as C;
     let plain = matches!(
@@ -129,8 +130,8 @@ fn is_by_itself(info: &TypeInfo) -> bool {
         && !info.repeats()
 }
 
-/// Returns `true` if a rule between other types processes sprites of this type one after the other, so that their order
-/// can matter.
+/// Returns `true` if a rule between other types processes sprites of this type one after the other, so that
+/// their order can matter.
 fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
     let info = &rules.types[stype.index()];
     let treats_all_alike = |effect: &EffectSummary| {
@@ -150,8 +151,8 @@ fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
     encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
 }
 
-/// Returns `true` if an effect has a certain property in an interaction. `property` is the condition under
-/// which the effect has it.
+/// Returns `true` if an effect has a certain property in an interaction. `property` is the condition for
+/// having it.
 fn holds(property: Provided, rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     let provided = match property {
         Provided::Never => false,
@@ -161,7 +162,7 @@ fn holds(property: Provided, rules: &Rules, encounter: &Encounter, info: &Effect
     provided && !info.in_batch && !rules.remembering.contains(&encounter.effect)
 }
 
-/// Returns `true` if the effect moves everything back, whichever sprites met.
+/// Returns `true` if the effect moves everything back, regardless of the colliding sprites.
 fn is_undo(info: &EffectInfo) -> bool {
     info.summary.undoes().is_some() && info.score_change == 0 && info.counting.is_none()
 }

@@ -1,6 +1,6 @@
 //! The taxonomy of games: time, space and genre, derived from the rules alone.
 //!
-//! Every term has exactly one definition, given below. Names do not matter: a game with renamed sprites has the same
+//! Every term has exactly one definition. Names do not matter: a game with renamed sprites has the same
 //! taxonomy.
 
 use super::Analysis;
@@ -16,85 +16,85 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{SpeedChange, SpeedEffect};
 use serde::{Deserialize, Serialize};
 
-/// The minimum amount of a resource required by an exit that makes a game a collecting game. Smaller amounts count as
-/// keys.
+/// The minimum amount of a resource that an exit must require for the game to count as a collecting game.
+/// Smaller amounts count as keys.
 const MANY: i32 = 3;
 
-/// The classification of a game.
+/// A game's classification.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Taxonomy {
-    /// The passing of time: turn-based or real-time.
+    /// Whether the game is turn-based or real-time.
     pub time: Time,
-    /// The greatest spatial freedom of the player over all avatar types that can occur, in the order of the
-    /// variants.
+    /// The player's greatest spatial freedom across all avatar types that can occur, compared in variant
+    /// order.
     pub spatiality: Spatiality,
     /// The genres, starting with the main genre. Empty if no genre fits.
     pub genres: Vec<Genre>,
-    /// `true` if randomness can decide anything: see [`Analysis::is_stochastic`].
+    /// `true` if randomness can have an effect: see [`Analysis::is_stochastic`].
     pub chance: bool,
-    /// `true` if sprites that the player does not see can make a difference: see [`Analysis::unseen`].
+    /// `true` if sprites invisible to the player can have an effect: see [`Analysis::unseen`].
     pub hidden: bool,
 }
 
 base::named_enum! {
-    /// The passing of time: turn-based or real-time.
+    /// Whether the game is turn-based or real-time.
     pub enum Time {
-        /// Nothing moves, appears or disappears unless the player acts. Exceptions are short effects of an action (a
-        /// shot, a puff of smoke), sprites that take part in no rule, and a limit on the number of ticks.
+        /// Nothing moves, appears or disappears unless the player acts. Exceptions are short effects of an
+        /// action (a shot, a puff of smoke), sprites without rules, and a limit on the number of ticks.
         TurnBased = "turn-based",
-        /// Something changes without an action of the player.
+        /// Something changes without an action by the player.
         RealTime = "real-time",
     }
 }
 
 base::named_enum! {
-    /// The spatial freedom of the player.
+    /// The player's spatial freedom.
     pub enum Spatiality {
-        /// The avatar stays where it is.
+        /// The avatar stays in its cell.
         Fixed = "fixed",
-        /// The avatar moves along one axis only, in steps or drifting.
+        /// The avatar moves along one axis only, in steps or by drifting.
         Line = "line",
         /// The avatar moves along both axes, up, left, down and right, in steps of whole cells or parts of cells.
         Grid = "grid",
-        /// The avatar has a velocity, which the keys may change, and it does not fall.
+        /// The avatar has a velocity that the keys may change, and does not fall.
         Continuous = "continuous",
-        /// The avatar has a velocity that the keys change, and it falls.
+        /// The avatar has a velocity that the keys change, and falls.
         Gravity = "gravity",
     }
 }
 
 base::named_enum! {
-    /// The genre of a game. If several genres fit, they are listed in this order, but shooting that does not win comes
-    /// last if something other than waiting wins.
+    /// A game's genre. If several genres fit, they are listed in this order, but shooting that does not win
+    /// comes last if something other than waiting wins.
     pub enum Genre {
         /// The avatar falls, walks and jumps.
         Platformer = "platformer",
         /// The player and other sprites compete for the same goal: reaching it wins or loses, depending on who comes
         /// first.
         Race = "race",
-        /// Pushing sprites to certain places wins or opens the way. Alternatively, the game is on a grid with
-        /// an avatar that can stop, winning takes more than waiting, and there are neither randomness nor
-        /// moving hostile sprites.
+        /// Pushing sprites to certain cells wins or opens a path. Alternatively, the game is on a grid with
+        /// an avatar that can stop, winning requires more than waiting, and there are neither random effects
+        /// nor moving hostile sprites.
         Puzzle = "puzzle",
-        /// The avatar, on a grid, must avoid traffic that it cannot shoot: harmful sprites that keep moving straight
-        /// ahead and reappear at the opposite edge.
+        /// The avatar, on a grid, must avoid traffic that it cannot shoot: harmful sprites that keep moving
+        /// straight ahead and reappear at the opposite edge.
         Crossing = "crossing",
         /// The avatar's shots remove moving sprites that must be removed for a win. Alternatively, the shots
         /// move and remove hostile sprites.
         Shooter = "shooter",
-        /// Sprites that move by themselves must be caught by touch.
+        /// The avatar must catch sprites that move by themselves.
         Hunt = "hunt",
-        /// Sprites that lie around must be taken: all sprites of a type, or many of a resource that an exit
-        /// requires.
+        /// The avatar must collect motionless sprites: all sprites of a type, or many of a resource that an
+        /// exit requires.
         Collect = "collect",
-        /// Something is locked, and its key must be found.
+        /// A lock must be opened, and its key must be found.
         Adventure = "adventure",
-        /// Touching an exit wins: a door, something that is dangerous to touch, or the only type that must be touched
-        /// while other types merely give points.
+        /// Touching an exit wins: a door, something that is dangerous to touch, or the only type that must be
+        /// touched while other types merely give points.
         Escape = "escape",
-        /// Other sprites must be brought together with something: the win comes from their actions, not from the
-        /// player's touch, shots or pushes.
+        /// The player must bring other sprites together with something: their actions achieve the win, not
+        /// the player's touch, shots or pushes.
         Guide = "guide",
         /// Something other than the avatar must be protected.
         Defence = "defence",
@@ -210,7 +210,7 @@ impl Analysis {
         self.avatars.iter().filter_map(of).any(|own| own.is_a(class))
     }
 
-    /// Returns `true` if a pushed sprite can open a way by filling a type that blocks or harms the avatar.
+    /// Returns `true` if a pushed sprite can open a path by filling a type that blocks or harms the avatar.
     fn bridges(&self) -> bool {
         let bars = |stype: SpriteType| {
             let blocks = self.touches.iter().any(|row| row[stype.index()].blocks);
@@ -223,8 +223,8 @@ impl Analysis {
         self.pushables.iter().any(|pushable| pushable.sinks.iter().any(fills))
     }
 
-    /// Returns `true` if some harmful type that is not shot down moves straight ahead and reappears at the opposite
-    /// edge.
+    /// Returns `true` if some harmful type that cannot be shot moves straight ahead and reappears at the
+    /// opposite edge.
     fn has_traffic(&self, methods: &WinMethods<'_>) -> bool {
         self.of_role(Role::Enemy).any(|stype| {
             let wraps =
@@ -234,9 +234,9 @@ impl Analysis {
         })
     }
 
-    /// Returns `true` if whoever reaches something first decides the game. Either a type that moves by itself loses the
-    /// game by touching the same type that the avatar wins by touching, or a touch by the first type can cause either
-    /// result.
+    /// Returns `true` if the game depends on who reaches something first. In such a game, a type that moves
+    /// by itself loses the game by touching the type that the avatar must touch to win. Alternatively, a
+    /// touch by the moving type can cause either result.
     fn is_race(&self) -> bool {
         let (wins, losses) = (&self.aims.create, &self.aims.prevent);
         let runs = |stype: &SpriteType| {

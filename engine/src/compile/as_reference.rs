@@ -1,6 +1,5 @@
-//! Compiles a faulty file in reference mode. Like the reference engine, the compiler goes through the
-//! sections in file order, and stops at the first fault that the reference does not overlook (`spec/01`
-//! §1.4).
+//! Compiles a faulty file in reference mode. Like the reference engine, the compiler reads the sections in
+//! file order, and stops at the first fault that the reference does not ignore (`spec/01` §1.4).
 
 use super::header::Header;
 use super::interactions::{Partner, Reader, partner};
@@ -83,13 +82,14 @@ pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, D
 
 /// The result of reading a line in reference mode.
 struct Usable {
-    /// The line with the partners before the first rejected partner, or `None` if nothing is left.
+    /// The line with the partners before the first rejected partner, or `None` if no partner is left.
     line: Option<InteractionLine>,
     /// The number of messages that the reference logs about parameters.
     messages: u32,
     /// `true` if the reference stops reading at this line.
     aborts: bool,
-    /// `true` if an undeclared sprite meets the edge, on which the reference crashes in the first tick (`spec/03` §2).
+    /// `true` if the line is about an undeclared sprite at the edge, on which the reference crashes in the
+    /// first tick (`spec/03` §2).
     dies_at_edge: bool,
 }
 

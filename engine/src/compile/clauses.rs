@@ -1,5 +1,5 @@
-//! The rules of a game as plain clauses, for comparing games: names are resolved, inherited values are included, and
-//! default values are left out.
+//! A game's rules as plain clauses, for comparing games: names are resolved, inherited values are included,
+//! and default values are omitted.
 
 use super::Names;
 use super::interactions::{NO_KEYWORD, Partner, number_of, partner};
@@ -13,20 +13,20 @@ use crate::rules::traits::Traits;
 use crate::rules::{Rules, SpriteType, TypeInfo};
 use crate::syntax::{InteractionLine, Param, Word};
 
-/// The value of a parameter.
+/// A parameter's value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Term {
     /// `True` or `False`.
     Flag(bool),
-    /// A number, whole or not.
+    /// A number, either an integer or not.
     Number(f64),
-    /// A list with one number per counter of the game.
+    /// A list with one number per counter in the game.
     Numbers(Vec<f64>),
     /// A direction.
     Direction(Direction),
-    /// The keyword of an effect.
+    /// An effect keyword.
     Effect(&'static str),
-    /// Sprite types, in the order of the file.
+    /// Sprite types, in file order.
     Types(Vec<SpriteType>),
 }
 
@@ -38,41 +38,41 @@ pub type Terms = Vec<(&'static str, Term)>;
 pub struct TypeClause {
     /// The type.
     pub stype: SpriteType,
-    /// The class, inherited or not, or `None` for grouping nodes without a class.
+    /// The class, whether inherited or not, or `None` for grouping nodes without a class.
     pub class: Option<SpriteClass>,
     /// The parent type in the SpriteSet.
     pub parent: Option<SpriteType>,
-    /// `true` if no type is declared below this type.
+    /// `true` if the type has no subtypes.
     pub leaf: bool,
     /// `true` if the file declares the type. `wall` and `avatar` exist even if the file does not declare
     /// them.
     pub declared: bool,
-    /// The parameters, inherited or not, that differ from the class's defaults, except parameters that only affect
-    /// drawing.
+    /// The parameters, whether inherited or not, that differ from the class's defaults. Parameters that only
+    /// affect drawing are omitted.
     pub terms: Terms,
 }
 
 /// One side of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Party {
-    /// The sprites of a type and of its relatives.
+    /// The sprites of a type and its relatives.
     Type(SpriteType),
     /// The edge of the screen.
     Edge,
     /// The clock: the interaction is a timed effect.
     Clock,
-    /// No sprite: the partner of the clock on a line without a target.
+    /// No sprite: the clock's partner on a line without a target.
     Nobody,
 }
 
 /// An interaction between two parties. A line with several partners becomes several clauses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InteractionClause {
-    /// The party that the effect acts on, which is never the edge.
+    /// The party affected by the effect, which is never the edge.
     pub first: Party,
     /// The partner of the first party.
     pub second: Party,
-    /// The keyword of the effect.
+    /// The effect keyword.
     pub effect: &'static str,
     /// The parameters that differ from their defaults.
     pub terms: Terms,
@@ -83,7 +83,7 @@ pub struct InteractionClause {
 /// A termination as a clause.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TerminationClause {
-    /// The class of the termination.
+    /// The termination's class.
     pub class: &'static str,
     /// `true` if the termination wins the game, or may win it.
     pub win: bool,
@@ -91,19 +91,19 @@ pub struct TerminationClause {
     pub terms: Terms,
 }
 
-/// All rules of a game.
+/// All rules in a game.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clauses {
-    /// The parameters of the game as a whole. The cell size in pixels is included only if the game has
-    /// continuous physics, which counts in pixels.
+    /// The parameters of the whole game. The cell size in pixels is included only for games with continuous
+    /// physics, which measures distances in pixels.
     pub header: Terms,
-    /// The clauses of the sprite types, by type.
+    /// The sprite types' clauses, by type.
     pub types: Vec<TypeClause>,
     /// The sprites that each mapped level character places, without built-in mappings that the game does not declare.
     pub mapping: Vec<(char, Vec<SpriteType>)>,
-    /// The enabled interactions, in the order of the file.
+    /// The enabled interactions, in file order.
     pub interactions: Vec<InteractionClause>,
-    /// The terminations, in the order of the file.
+    /// The terminations, in file order.
     pub terminations: Vec<TerminationClause>,
 }
 
@@ -304,7 +304,7 @@ fn terminations(rules: &Rules) -> Vec<TerminationClause> {
     rules.terminations.iter().map(clause).collect()
 }
 
-/// Reads a compiled line again, and records the parameters that differ from their defaults.
+/// Rereads a compiled line, and records the parameters that differ from their defaults.
 struct Written<'a> {
     line: &'a InteractionLine,
     names: Names<'a>,
@@ -313,7 +313,7 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// Returns the parameter with this name. If several parameters have this name, returns the last of them.
+    /// Returns the parameter with this name. If several parameters have this name, returns the last one.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }

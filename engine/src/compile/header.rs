@@ -1,4 +1,4 @@
-//! The first line of a game: settings of the whole game (`spec/01` §1.5).
+//! The first line of a game: settings for the whole game (`spec/01` §1.5).
 
 use super::params::{Expected, Value, convert, wrong_type};
 use crate::diagnostic::Diagnostic;
@@ -11,10 +11,10 @@ const KEYS: [&str; 5] = ["square_size", "key_handler", "no_players", "no_counter
 /// The settings in the first line.
 #[derive(Debug, Default)]
 pub(super) struct Header {
-    /// The size of a cell in pixels.
+    /// The cell size in pixels.
     pub(super) square_size: Option<i32>,
     pub(super) counters: usize,
-    /// The sprite types that paths avoid, or `None` if the game has no path finding.
+    /// The sprite types that paths avoid, or `None` if the game does not use path finding.
     pub(super) obstacles: Option<Vec<Word>>,
 }
 
@@ -76,7 +76,7 @@ impl Header {
     }
 }
 
-/// Returns the problem about a feature that neither policy supports.
+/// Returns the problem with a feature that neither policy supports.
 fn unsupported(param: &Param, message: String) -> Diagnostic {
     let problem = Diagnostic::error("unsupported", param.span(), message);
     problem.help(format!("remove `{}`", param.key.text)).remove(param.span(), &param.key.text)

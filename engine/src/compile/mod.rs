@@ -35,16 +35,16 @@ use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-/// The treatment of faults.
+/// How faults are handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Policy {
     /// Strict mode: faults are errors.
     Strict,
-    /// Reference mode: faults are dropped, ignored or overlooked, as in the reference engine.
+    /// Reference mode: faults are dropped or ignored, as in the reference engine.
     Reference,
 }
 
-/// The context in which all lines after the first line are read.
+/// The context for reading all lines after the first line.
 #[derive(Clone, Copy, Debug)]
 struct Setting {
     policy: Policy,
@@ -52,7 +52,7 @@ struct Setting {
     counters: usize,
 }
 
-/// The reference's behaviour while it reads a file.
+/// The reference's behaviour while reading a file.
 #[derive(Clone, Copy, Debug, Default)]
 struct Fate {
     /// The number of messages that the reference logs.
@@ -173,7 +173,7 @@ fn compile_with(
     })
 }
 
-/// Returns the number of parameters of a line that its class does not have. Repeated names count once.
+/// Returns the number of parameters on a line that its class does not support. Repeated names count once.
 fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     let mut unknown: Vec<&str> = problems
         .iter()
@@ -185,7 +185,7 @@ fn unknown_parameters(problems: &[Diagnostic]) -> u32 {
     unknown.len() as u32
 }
 
-/// Reports parameters that occur twice on a line.
+/// Reports parameters that occur twice on the same line.
 fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = description.sprite_lines().into_iter().map(|(_, line)| &line.params);
     let lines = lines.chain(description.interactions.iter().map(|line| &line.params));
@@ -213,7 +213,7 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
     }
 }
 
-/// Rejects games that would take long to process, before any name is resolved.
+/// Rejects games that would be slow to process, before any name is resolved.
 fn refuse_large(description: &Description) -> Result<(), Diagnostics> {
     let counts = [
         ("sprite types", description.sprite_lines().len(), MAX_TYPES),
@@ -235,7 +235,8 @@ fn too_many(description: &Description, what: &str, count: usize, most: usize) ->
 }
 
 /// Reports undeclared names that are similar to a declared but unused name. The declaration counts as
-/// misspelt if the undeclared name is used more than once. Otherwise, either name may be misspelt.
+/// misspelt if the undeclared name is used more than once. Otherwise, either the declaration or its use may
+/// be misspelt.
 fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = || description.sprite_lines().into_iter().map(|(_, line)| line);
     let params = lines().flat_map(|line| &line.params);
@@ -273,7 +274,8 @@ fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnosti
     }
 }
 
-/// Reports sprite types that no level can place and nothing makes: they are valid, but almost certainly not intended.
+/// Reports sprite types that no level can place and nothing creates. Such types are valid, but almost
+/// certainly unintended.
 fn report_sprites_that_never_exist(
     description: &Description,
     types: &[TypeInfo],
@@ -309,7 +311,7 @@ fn report_sprites_that_never_exist(
     }
 }
 
-/// Reports types that levels can place and that have no image, although a parameter selects among their images.
+/// Reports types without an image that levels can place, although a parameter selects among their images.
 fn report_missing_images(
     types: &[TypeInfo],
     mapping: &[SmallVec<[SpriteType; 4]>],
@@ -323,7 +325,7 @@ fn report_missing_images(
     }
 }
 
-/// Returns the problem about a sprite without an image whose `autotiling` or `randomtiling` selects an image.
+/// Returns the problem with a sprite without an image whose `autotiling` or `randomtiling` selects an image.
 pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     let message =
         format!("`{name}` has no image that its tiling could choose: the reference engine crashes on it");
@@ -357,8 +359,8 @@ fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases
     found
 }
 
-/// Returns the sprites that each level character places, by code, and the characters that are mapped to an
-/// undeclared sprite. A level that uses such a character does not load.
+/// Returns the sprites that each level character places, by character code, and the characters that are
+/// mapped to an undeclared sprite. A level that uses such a character does not load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
@@ -401,7 +403,7 @@ fn mapping(
     (mapping, unusable)
 }
 
-/// Looks up names of sprite types, and reports unknown names.
+/// Looks up sprite type names, and reports unknown names.
 #[derive(Clone, Copy)]
 struct Names<'a> {
     types: &'a [TypeInfo],
@@ -423,7 +425,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the sprite type named by a parameter's value, or by one entry of the value.
+    /// Returns the sprite type given by a parameter's value, or by one entry in the value.
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
@@ -439,8 +441,8 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the problem about a name that is neither the name of a sprite nor in `others`. `found` is the
-    /// number of earlier problems.
+    /// Returns the problem with a name that is neither a sprite name nor in `others`. `found` is the number
+    /// of earlier problems.
     fn unknown(self, name: &Word, others: &[&str], found: usize) -> Diagnostic {
         let message = format!("no sprite named `{}`", name.text);
         let problem = Diagnostic::error("unknown-sprite", name.span, message).label("not in the SpriteSet");
@@ -458,14 +460,14 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Returns the leaf types below a type that have a class, up to [`SUBTYPES_SHOWN`].
+    /// Returns the leaf types below a type that have a class, limited to [`SUBTYPES_SHOWN`].
     fn subtypes(self, stype: SpriteType) -> Vec<&'a str> {
         let leaves = self.types.iter().filter(|info| info.leaf && info.class.is_some());
         let below = leaves.filter(|info| info.path.contains(&stype));
         below.map(|info| info.name.as_str()).take(SUBTYPES_SHOWN).collect()
     }
 
-    /// Returns `true` if sprites of the type can be made. Otherwise, reports a problem.
+    /// Returns `true` if sprites of the type can be created. Otherwise, reports a problem.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {

@@ -1,5 +1,5 @@
-//! The part of a game that its levels need: the characters that place sprites, and whether the placed sprites
-//! are avatars.
+//! The part of a game that its levels depend on: the characters that place sprites, and whether the placed
+//! sprites are avatars.
 
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::meanings::{Place, meaning};
@@ -7,7 +7,7 @@ use crate::rules::class::SpriteClass;
 use crate::syntax::{Description, Header, MappingLine, Param, Section, SpriteLine, TerminationLine, Word};
 use std::collections::BTreeSet;
 
-/// Problem codes that make it uncertain which characters the LevelMapping has.
+/// Problem codes that make the characters in the LevelMapping uncertain.
 const HIDES_MAPPING: [&str; 9] = [
     "bad-mapping",
     "missing-arrow",
@@ -25,11 +25,12 @@ pub(crate) struct Outline {
     pub(crate) description: Description,
     /// `true` if the outline contains all characters that the game maps.
     pub(crate) knows_characters: bool,
-    /// `true` if it is known for every character whether it places an avatar.
+    /// `true` if the avatar-placing characters are known with certainty.
     pub(crate) knows_avatars: bool,
 }
 
-/// Returns the outline of a description that was read with these problems, or `None` if it has no LevelMapping.
+/// Returns the outline of a description with these parsing problems, or `None` if the description has no
+/// LevelMapping.
 pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Option<Outline> {
     if !description.has[Section::LevelMapping as usize] || description.mapping.is_empty() {
         return None;
@@ -65,11 +66,11 @@ pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Opt
     Some(Outline { description, knows_characters, knows_avatars: sure && knows_characters })
 }
 
-/// The sprites of an outline, without their hierarchy.
+/// The sprites in an outline, without their hierarchy.
 struct Sprites {
     lines: Vec<SpriteLine>,
     names: BTreeSet<String>,
-    /// `true` if it is known for every sprite whether it is an avatar.
+    /// `true` if the avatars among the sprites are known with certainty.
     sure: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Parameter values: converts text to the type of the field (`spec/01` §1.10).
+//! Parameter values: converts text to the field's type (`spec/01` §1.10).
 
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::limits::MAX_PROBLEMS;
@@ -9,7 +9,7 @@ use crate::rules::constants::{COLORS, Constant, constant, direction_names};
 use crate::rules::traits::Traits;
 use crate::syntax::{Literal, Param, literal};
 
-/// A converted value, before it is compared with the type of the field.
+/// A converted value, not yet checked against the field's type.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value<'a> {
     Int(i32),
@@ -42,12 +42,12 @@ pub(super) fn convert<'a>(key: &str, text: &'a str) -> Value<'a> {
     }
 }
 
-/// Returns `true` if a value reads as a name rather than as a number, a colour or the like.
+/// Returns `true` if a value looks like a name rather than a number, a colour or the like.
 pub(super) fn is_name(text: &str) -> bool {
     matches!(convert("", text), Value::Text(_))
 }
 
-/// The type of a field, with a description for messages.
+/// A field's type, with a description for messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Expected {
     Int,
@@ -71,7 +71,7 @@ impl Expected {
     }
 }
 
-/// Returns the problem about a value of the wrong type. The reference ignores such a value silently.
+/// Returns the problem with a value of the wrong type. The reference silently ignores such a value.
 pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     let value = param.value.text.as_str();
     let message = format!("`{}` takes {}, not `{value}`", param.key.text, expected.words());
@@ -100,20 +100,21 @@ pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     }
 }
 
-/// Returns the problem about a missing parameter that should name a thing needed by the subject.
+/// Returns the problem with a missing parameter that should give the name of something that the subject
+/// needs.
 pub(super) fn missing_name(subject: &str, span: Span, key: &str, thing: &str) -> Diagnostic {
     let message = format!("{subject} needs `{key}=`, the name of {thing}");
     Diagnostic::error("missing-parameter", span, message).help(format!("add `{key}=` and the name"))
 }
 
-/// Returns the number at the start of a value: `5` for `5x`.
+/// Returns the number at the start of a value: for example, `5` from `5x`.
 fn leading_number(value: &str) -> Option<&str> {
     let end = value.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(value.len());
     Some(&value[..end]).filter(|number| number.parse::<i32>().is_ok())
 }
 
-/// The parameters that every sprite accepts, whatever its class. Parameters that only affect images are read and
-/// ignored.
+/// The parameters that every sprite accepts, regardless of its class. Parameters that only affect images are
+/// read and ignored.
 pub const BASE: &[&str] = &[
     "speed",
     "cooldown",
@@ -159,7 +160,7 @@ pub const BASE: &[&str] = &[
     "on_ground",
 ];
 
-/// Fields of the reference that a parameter can set without effect, because they are overwritten, or only
+/// Fields in the reference that a parameter can set without effect, because they are overwritten, or only
 /// used for drawing.
 const BOOK_KEEPING: &[&str] =
     &["spriteID", "bucket", "bucketSharp", "name", "images", "frameRemaining", "currentFrame"];
@@ -169,7 +170,8 @@ pub(super) fn takes(class: SpriteClass, key: &str) -> bool {
     BASE.contains(&key) || BOOK_KEEPING.contains(&key) || class.parameters().contains(&key)
 }
 
-/// Returns the problem about a parameter that the class does not have. `found` is the number of earlier problems.
+/// Returns the problem with a parameter that the class does not accept. `found` is the number of earlier
+/// problems.
 pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize) -> Diagnostic {
     let key = param.key.text.as_str();
     let message = format!("{} has no parameter `{key}`", class.name());
@@ -184,7 +186,7 @@ pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize)
     if found < MAX_PROBLEMS { problem.or_remove(param.span(), key) } else { problem }
 }
 
-/// Sets one parameter of the class in the traits of a sprite type. The caller resolves sprite names (`stype`, `ammo`).
+/// Sets one class parameter in a sprite type's traits. The caller resolves sprite names (`stype`, `ammo`).
 pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) -> Result<(), Diagnostic> {
     let key = param.key.text.as_str();
     if BOOK_KEEPING.contains(&key) {

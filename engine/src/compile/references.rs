@@ -1,5 +1,5 @@
-//! The sprite types that a type's parameters refer to: the types that it makes, follows, spends, is collected
-//! as or leads to.
+//! The sprite types referenced by a type's parameters: the types that it creates, follows, spends, is
+//! collected as or leads to.
 
 use super::Names;
 use super::params::{Expected, Value, convert, missing_name, wrong_type};
@@ -10,13 +10,13 @@ use crate::rules::class::SpriteClass;
 use crate::syntax::{Param, Word};
 use smallvec::SmallVec;
 
-/// The sprite types that a type's parameters refer to. [`SpriteType::NONE`] stands for an undeclared name.
+/// The sprite types referenced by a type's parameters. [`SpriteType::NONE`] stands for an undeclared name.
 pub(super) struct References {
     pub(super) stypes: SmallVec<[SpriteType; 2]>,
     pub(super) ammo: SmallVec<[SpriteType; 2]>,
     pub(super) behind: Option<SpriteType>,
     pub(super) resource: Option<SpriteType>,
-    /// `true` if the type lacks a parameter without which the reference cannot make its sprites.
+    /// `true` if the type lacks a parameter without which the reference cannot create its sprites.
     pub(super) incomplete: bool,
 }
 
@@ -80,8 +80,7 @@ impl Subject<'_> {
         self.params.iter().copied().find(|param| param.key.text == key)
     }
 
-    /// Returns the types that a parameter refers to: one type or, if `many` is `true`, a comma-separated
-    /// list.
+    /// Returns the types referenced by a parameter: one type or, if `many` is `true`, a comma-separated list.
     fn named(
         &self,
         key: &str,
@@ -133,7 +132,7 @@ impl Subject<'_> {
         found
     }
 
-    /// Checks the types that sprites of this type make.
+    /// Checks the types that sprites of this type create.
     fn makes(&self, key: &str, stypes: &[SpriteType], names: Names<'_>, problems: &mut Vec<Diagnostic>) {
         use SpriteClass as C;
         let dies = "the reference engine crashes on that";

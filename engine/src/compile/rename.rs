@@ -1,13 +1,13 @@
-//! Renames the sprite types of a game in all places that use their names.
+//! Renames a game's sprite types wherever their names are used.
 
 use crate::rules::effects::{ParameterKind, effect_parameters};
 use crate::syntax::{Description, Param, SpriteLine, Word};
 use std::collections::BTreeMap;
 
 impl Description {
-    /// Returns the same game with renamed sprite types: each name that is a key of `names` becomes its value, in all
-    /// sections. Names with a meaning in the engine, `wall` and `avatar`, should not be renamed. The lines keep their
-    /// order, so the two games behave alike, including their state hashes.
+    /// Returns the same game with renamed sprite types: each name that is a key in `names` becomes its value,
+    /// in all sections. The names `wall` and `avatar`, which have a built-in meaning, should not be renamed.
+    /// The lines keep their order, so the two games behave alike, including their state hashes.
     #[must_use]
     pub fn renamed(&self, names: &BTreeMap<String, String>) -> Description {
         let names = Names(names);

@@ -1,5 +1,5 @@
-//! Types whose sprites never change: scenery, which no rule, other sprite or termination refers to, and fixtures, which
-//! other sprites only meet.
+//! Types whose sprites never change. No rule, other sprite or termination refers to scenery. Fixtures only
+//! collide with other sprites.
 
 use super::interactions::Program;
 use crate::rules::class::SpriteClass;
@@ -7,12 +7,12 @@ use crate::rules::{SpriteType, TypeInfo};
 use crate::syntax::{Description, Param, Word};
 use std::collections::BTreeSet;
 
-/// The parameter with which the reference reads a type by its number.
+/// The parameter with which the reference refers to a type by its index.
 const BY_NUMBER: &str = "itype";
 
-/// Returns, for each type, `true` if anything other than its own line, its parents' lines and the LevelMapping refers
-/// to it. If in doubt, the result is `true`: a value that merely has the same spelling counts, too. Cost: O(words of
-/// the game × log).
+/// Returns, for each type, `true` if anything other than its own line, its parents' lines and the
+/// LevelMapping refers to the type. If in doubt, the result is `true`: a value that merely has the same
+/// spelling counts, too. Cost: O(words in the game × log).
 pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let interactions = &description.interactions;
     let sides = interactions.iter().flat_map(|line| line.second.iter().chain([&line.first]));
@@ -23,7 +23,7 @@ pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<b
     types.iter().zip(valued).map(|(info, valued)| valued || at_side(info)).collect()
 }
 
-/// Returns, for each type, `true` if the value of a parameter in any line refers to it. Costs as much as
+/// Returns, for each type, `true` if a parameter value on any line refers to the type. Costs as much as
 /// [`referenced`].
 fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let lines = description.sprite_lines();
@@ -46,8 +46,8 @@ fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     types.iter().map(|info| info.tree.iter().any(speaks_of)).collect()
 }
 
-/// Returns `true` if sprites of a type stay as a level makes them, as far as their own updates and the engine are
-/// concerned.
+/// Returns `true` if a type's sprites stay as created by a level, as far as their own updates and the engine
+/// are concerned.
 fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
     let info = &types[stype.index()];
     // The first sprite of a type differs from later ones only if its size differs from a cell's.
@@ -67,9 +67,9 @@ pub(crate) fn scenery(types: &[TypeInfo], referenced: &[bool]) -> Vec<bool> {
     (0..types.len() as u16).map(SpriteType).map(is_scenery).collect()
 }
 
-/// Returns, for each type, `true` if its sprites are fixtures. Other sprites meet fixtures, but no rule
-/// makes, moves, changes or removes them. No parameter refers to the type of a fixture, no effect is executed
-/// on fixtures, and effects executed on other sprites leave fixtures unchanged.
+/// Returns, for each type, `true` if its sprites are fixtures. Other sprites collide with fixtures, but no
+/// rule creates, moves, changes or removes fixtures. No parameter refers to a fixture's type, no effect is
+/// executed on fixtures, and effects executed on other sprites leave fixtures unchanged.
 pub(crate) fn fixtures(description: &Description, types: &[TypeInfo], program: &Program) -> Vec<bool> {
     let firsts = program.passes.iter().map(|pass| pass.first);
     let firsts = firsts.chain(program.edge.iter().map(|&(stype, _)| stype));

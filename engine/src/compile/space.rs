@@ -10,9 +10,9 @@ use std::borrow::Cow;
 
 const KEYS: [&str; 3] = ["values", "value", "string"];
 
-/// Returns the game with the parameter values filled in. In strict mode, each parameter must give its value
-/// with `value=`. The reference draws missing values without a seed, once per use. This engine draws missing
-/// values with a seed derived from the game's text.
+/// Returns the game with the parameter values filled in. In strict mode, each parameter must specify its
+/// value with `value=`. The reference draws missing values without a seed, once per use. This engine draws
+/// missing values with a seed derived from the game's text.
 pub(super) fn settled<'a>(
     description: &'a Description,
     policy: Policy,
@@ -49,7 +49,7 @@ pub(super) fn settled<'a>(
     Cow::Owned(game)
 }
 
-/// The values that a parameter can take.
+/// The possible values of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Values {
     /// A single value.
@@ -183,9 +183,9 @@ impl Values {
     }
 }
 
-/// Parses `min:step:max`: integers, decimals if one of them has a point, or two booleans. The number of
-/// values is the same as in the reference. It is 1 for a zero step over a zero distance, and below 1 if the
-/// step does not lead towards the last value.
+/// Parses `min:step:max`: integers, decimals if any of them contains a point, or two booleans. The number of
+/// values is the same as in the reference. The number is 1 for a zero step over a zero distance, and below 1
+/// if the step does not lead towards the last value.
 fn range(text: &str) -> Option<Values> {
     let parts: Vec<&str> = text.split(':').collect();
     let range = match parts[..] {
@@ -207,8 +207,8 @@ fn range(text: &str) -> Option<Values> {
     Some(range)
 }
 
-/// Returns the number of values, given the number of steps, as a 32-bit integer. The result is positive only
-/// for NaN and for numbers in range.
+/// Returns the number of values for a number of steps, as a 32-bit integer. The result is positive only for
+/// NaN and for numbers in range.
 fn count(steps: f64) -> i32 {
     (steps as i32).wrapping_add(1)
 }

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 struct Resolved<'a> {
     line: Option<&'a SpriteLine>,
     name: String,
-    /// The names from the root down to the type, inclusive.
+    /// The names from the root to the type, inclusive.
     path: Vec<String>,
     /// The descendants in pre-order, without the type itself.
     descendants: Vec<String>,
@@ -75,8 +75,8 @@ pub(super) fn types(
     (types, order)
 }
 
-/// Parameters that a class does not have. A parent line passes its parameters on to children of several
-/// classes. A parameter is a mistake if none of these classes accepts it.
+/// Parameters that a class does not accept. A parent line passes its parameters on to children of several
+/// classes. A parameter is a mistake if it is accepted by none of these classes.
 #[derive(Default)]
 struct Rejected<'a> {
     refused: Vec<(SpriteClass, &'a Param)>,
@@ -149,8 +149,8 @@ fn inherit<'a>(
     }
 }
 
-/// Reports sprites without a class, once for a parent and all its subtypes, and classes that an inherited class
-/// overrides.
+/// Reports sprites without a class, once for a parent and all its subtypes. Also reports classes that an
+/// inherited class overrides.
 fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mut Vec<Diagnostic>) {
     for line in lines {
         let name = line.name.text.as_str();
@@ -191,7 +191,7 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
     }
 }
 
-/// Returns `true` if a line needs its own class, which the inherited class overrides.
+/// Returns `true` if a line needs its own class, but the inherited class overrides it.
 fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     let Some(inherited) = SpriteClass::from_name(&inherited.text) else { return false };
     let lost = |param: &Param| !takes(inherited, &param.key.text) && is_of_own_class(line, param);
@@ -199,8 +199,8 @@ fn loses(line: &SpriteLine, inherited: &Word) -> bool {
     own.is_some_and(|own| own.is_avatar() && !inherited.is_avatar()) || line.params.iter().any(lost)
 }
 
-/// Returns `true` if a parameter belongs to the class on a line without subtypes, even if that class is
-/// overridden.
+/// Returns `true` if a parameter on a line without subtypes belongs to the line's own class, even if that
+/// class is overridden.
 fn is_of_own_class(line: &SpriteLine, param: &Param) -> bool {
     let own = line.class.as_ref().and_then(|own| SpriteClass::from_name(&own.text));
     line.children.is_empty() && own.is_some_and(|own| takes(own, &param.key.text))
@@ -314,7 +314,7 @@ fn type_info<'a>(
     }
 }
 
-/// Returns the span of the parameter that selects an image of a sprite without images (`spec/02` §2.3).
+/// Returns the span of the parameter that selects an image for a sprite without images (`spec/02` §2.3).
 fn lacks_image(params: &[&Param]) -> Option<Span> {
     let chooses = |param: &Param| match (param.key.text.as_str(), convert(&param.key.text, &param.value.text))
     {

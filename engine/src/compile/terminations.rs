@@ -45,8 +45,8 @@ pub(super) fn terminations(
     (terminations, can_end)
 }
 
-/// Returns whether the reference builds a termination from the line, and the number of messages that it logs about the
-/// parameters.
+/// Returns whether the reference builds a termination from the line, and the number of messages that it logs
+/// about the line's parameters.
 pub(super) fn usable(line: &TerminationLine, names: Names<'_>, setting: Setting) -> (bool, u32) {
     let mut problems = Vec::new();
     let built = Reader { line, names, setting, problems: &mut problems }.termination();
@@ -131,8 +131,8 @@ impl<'a> Reader<'a> {
         Some(Termination { condition, win, decided_by })
     }
 
-    /// Returns the decision by counters, in a game with one player. The flag is `true` if the player can win
-    /// by that decision.
+    /// Returns the decision by counters, in a game with one player. The flag is `true` if that decision can
+    /// win the game for the player.
     fn by_counters(&mut self) -> Option<(bool, Decision)> {
         let (used, compared) = (self.flag("use_counter", false), self.flag("compare", false));
         let limits = self.param("limits").and_then(|param| match convert("limits", &param.value.text) {
@@ -206,7 +206,7 @@ impl<'a> Reader<'a> {
         self.names.resolve_value(param, &param.value, self.problems)
     }
 
-    /// Returns the sprite types of the given parameters among `keys`. In strict mode, the first parameter is
+    /// Returns the sprite types given by the parameters in `keys`. In strict mode, the first parameter is
     /// required.
     fn sprites(&mut self, keys: [&str; 3]) -> Option<SmallVec<[SpriteType; 3]>> {
         if self.param(keys[0]).is_none() {
@@ -219,7 +219,7 @@ impl<'a> Reader<'a> {
         (found.len() == given.len()).then_some(found)
     }
 
-    /// Returns the parameter, unless its value reads as something other than a name.
+    /// Returns the parameter, unless its value looks like something other than a name.
     fn named<'b>(&mut self, param: &'b Param) -> Option<&'b Param> {
         if let Value::Text(_) = convert(&param.key.text, &param.value.text) {
             return Some(param);

@@ -1,11 +1,11 @@
-//! Fills the holes in the templates of effects.
+//! Fills the holes in effect templates.
 
 use super::words::{Party, a, count, list, percent, plural};
 use crate::analysis::Analysis;
 use crate::rules::effects::{CHANCE, Sentence, Value};
 use crate::rules::{SpriteType, Timed};
 
-/// Returns the sentence of an effect for two parties that meet.
+/// Returns an effect's sentence for two colliding parties.
 pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
     let both = Party { you: one.you || two.you, ..one.clone() };
     let filler =
@@ -13,13 +13,14 @@ pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Par
     filler.fill(sentence.meeting)
 }
 
-/// Returns the words that introduce the points of an effect for two parties that meet.
+/// Returns the words that introduce an effect's points for two colliding parties.
 pub(super) fn if_scored(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
     let filler = Filler { analysis, sentence, one: Some(one), two: Some(two), both: None, target: None };
     filler.fill(sentence.if_scored)
 }
 
-/// Returns the sentence of a timed effect, which runs on every sprite of a type or on no particular sprite.
+/// Returns the sentence for a timed effect, which runs on every sprite of a type or on no particular
+/// sprite.
 pub(super) fn by_the_clock(analysis: &Analysis, timed: &Timed) -> String {
     let sentence = analysis.game().0.effects[usize::from(timed.effect)].effect.sentence();
     let target = timed.target;
@@ -32,7 +33,7 @@ struct Filler<'a> {
     one: Option<&'a Party>,
     two: Option<&'a Party>,
     both: Option<&'a Party>,
-    /// The type on whose sprites the effect runs, if it is timed.
+    /// The type on whose sprites the effect runs, if the effect is timed.
     target: Option<SpriteType>,
 }
 

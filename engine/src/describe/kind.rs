@@ -1,4 +1,4 @@
-//! The kind of a game, in words.
+//! A description of the kind of game.
 
 use super::words::list;
 use crate::analysis::{Spatiality, Taxonomy, Time};

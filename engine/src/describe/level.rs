@@ -1,4 +1,4 @@
-//! The description of one level in words.
+//! A description of one level in plain English.
 
 use super::rules;
 use super::words::{list, plural};
@@ -6,11 +6,11 @@ use crate::analysis::{Analysis, Cause, ImpossibleGoal, Reach, Unpaid};
 use crate::level::Level;
 use crate::rules::SpriteType;
 
-/// The maximum number of sprites that a sentence lists.
+/// The maximum number of sprites listed in a sentence.
 const MAX_NAMED: usize = 3;
 
-/// Returns the facts about a level that are certain before it is played, as sentences: how much of the level
-/// the player can reach, and which terminations can never hold in it.
+/// Returns the facts that are known about a level before play, as sentences: how much of the level the player
+/// can reach, and which terminations can never hold.
 pub fn level(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     if reach.is_coarse() {
         return vec!["There is too much in it to tell where everything can be.".to_owned()];
@@ -22,7 +22,8 @@ pub fn level(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     lines
 }
 
-/// Returns the winning terminations that can never hold in a level, with the reasons, one sentence per termination.
+/// Returns the winning terminations that can never hold in a level, with the reasons: one sentence per
+/// termination.
 pub fn hindered_wins(analysis: &Analysis, level: &Level, reach: &Reach) -> Vec<String> {
     impossible_goals(analysis, level, reach, |goal| analysis.goals()[goal].win)
 }
@@ -59,7 +60,7 @@ fn impossible_goals(
     impossible_goals.map(sentence).collect()
 }
 
-/// Returns the first [`MAX_NAMED`] sprites by name and position.
+/// Returns the first [`MAX_NAMED`] sprites, by name and position.
 fn placed(analysis: &Analysis, level: &Level, sprites: &[(SpriteType, usize)]) -> String {
     let columns = level.columns();
     let named = sprites.iter().take(MAX_NAMED).map(|&(stype, cell)| {

@@ -1,6 +1,6 @@
-//! The rules of a game in plain English. The same game always gives the same text.
+//! A game's rules in plain English. The same game always produces the same text.
 //!
-//! This is the only module that puts rules into words: prompts, cards and `arcade describe` all use it.
+//! This module is the only source of English rules: prompts, cards and `arcade describe` all use it.
 
 mod fill;
 mod kind;
@@ -24,14 +24,14 @@ use std::fmt;
 /// A game in plain English, as sections of sentences.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Guide {
-    /// The functions of the keys: one sentence for each avatar type that can occur.
+    /// The functions of the keys: one sentence for each possible avatar type.
     pub controls: Vec<String>,
-    /// The ways to win, in order of priority.
+    /// How to win, in order of priority.
     pub winning: Vec<String>,
-    /// The ways to lose, in order of priority.
+    /// How to lose, in order of priority.
     pub losing: Vec<String>,
-    /// The course of a tick: facts that hold for all lines below. Only facts that matter in this game are
-    /// included.
+    /// The course of a tick: facts that apply to all interactions. Only facts that matter in this game
+    /// are included.
     pub order: Vec<String>,
     /// The behaviour of all other sprites, one line per type, in registry order.
     pub sprites: Vec<String>,
@@ -45,9 +45,9 @@ pub struct Guide {
     pub meetings: Vec<String>,
     /// The sprites that each level character places, by character.
     pub legend: Vec<String>,
-    /// The kind of the game, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). The kind is not
-    /// printed with the other sections, because it classifies the rules rather than stating a rule, and
-    /// players may be expected to find it out.
+    /// The kind of game, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). The kind is not
+    /// printed with the other sections, because it classifies the rules instead of stating a rule, and
+    /// players may have to find it out.
     pub kind: Vec<String>,
 }
 
@@ -73,7 +73,7 @@ impl Guide {
         }
     }
 
-    /// Returns the ways to win, as one sentence.
+    /// Returns how to win, as one sentence.
     pub fn goal(&self) -> String {
         let mut ways = self.winning.iter().map(|way| way.trim_end_matches('.'));
         let Some(first) = ways.next() else { return "Nothing wins.".to_owned() };
@@ -83,7 +83,7 @@ impl Guide {
 }
 
 impl fmt::Display for Guide {
-    /// Writes all sections of the rules, each with a heading, except empty ones.
+    /// Writes all non-empty sections of the rules, each with a heading.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sections = [
             ("How you play", &self.controls),
@@ -108,7 +108,7 @@ impl fmt::Display for Guide {
     }
 }
 
-/// Returns the rules of a game in plain English: all sections of its [`Guide`] except its kind.
+/// Returns a game's rules in plain English: all sections of its [`Guide`] except its kind.
 pub fn describe(game: &Game) -> String {
     Guide::of(game).to_string()
 }

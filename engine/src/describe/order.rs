@@ -1,4 +1,4 @@
-//! Describes the course of a tick in words.
+//! Describes the course of a tick in plain English.
 
 use super::phrases::Phrase;
 use super::rules::way;
@@ -152,7 +152,8 @@ fn same_pair(analysis: &Analysis, one: &Encounter, other: &Encounter) -> bool {
         || (alike(one.first, other_second) && alike(second, other.first))
 }
 
-/// Returns `true` if some pair has a line that moves a sprite back and another line whose order relative to it matters.
+/// Returns `true` if, for some pair, one line moves a sprite back and the order of another line relative to
+/// that line matters.
 fn blocking_matters(analysis: &Analysis) -> bool {
     let encounters = analysis.encounters();
     let blockers = encounters.iter().filter(|encounter| encounter.blocks());

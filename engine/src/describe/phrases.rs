@@ -1,4 +1,4 @@
-//! The sentences that do not come from effects, and parts of sentences, as templates with named holes.
+//! Templates with named holes, for parts of sentences and for sentences that do not come from effects.
 
 use crate::rules::effects::templates;
 use std::collections::BTreeSet;
@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// Declares the phrases, each with its template.
 macro_rules! phrases {
     ($($name:ident: $text:literal,)*) => {
-        /// The template of a sentence or of a part of a sentence.
+        /// The template for a sentence or a part of a sentence.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Phrase { $($name,)* }
 
@@ -145,8 +145,9 @@ impl Phrase {
     }
 }
 
-/// Returns the templates of all sentences and parts of sentences. `{one}` and `{two}` are the sprites that meet,
-/// `{one:die|disappears}` is a word that agrees with one of them, and all other holes are values.
+/// Returns the templates for all sentences and parts of sentences. `{one}` and `{two}` are the colliding
+/// sprites, `{one:die|disappears}` is a word that agrees with the sprite `{one}`, and all other holes are
+/// values.
 ///
 /// ```
 /// let all = infinite_arcade_engine::describe::texts();

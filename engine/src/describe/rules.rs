@@ -1,4 +1,4 @@
-//! Describes interactions and terminations in words.
+//! Describes interactions and terminations in plain English.
 
 use super::fill::{by_the_clock, if_scored, when_they_meet};
 use super::phrases::Phrase;
@@ -8,9 +8,9 @@ use crate::rules::effects::{Sentence, Target};
 use crate::rules::terminations::{Condition as Written, Decision, Termination};
 use crate::rules::{Counting, Rules, SpriteType, Timed};
 
-/// Returns one sentence per interaction line, in order of execution, covering all partners of the line. A
-/// line that runs at several positions, because another line already names one of its pairs, gets one
-/// sentence for each position.
+/// Returns one sentence per interaction line, in order of execution, covering all the line's partners. A line
+/// that runs at several positions, because another line already contains one of its pairs, gets one sentence
+/// for each position.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
     let parts = analysis.encounters().chunk_by(|one, next| one.line == next.line);
     let parts = parts.map(|part| (part[0].line, part.iter().collect::<Vec<&Encounter>>()));
@@ -70,7 +70,7 @@ fn negated(text: String) -> String {
     }
 }
 
-/// Returns `true` if no sprite to which a rule about `written` applies is ever removed or replaced.
+/// Returns `true` if no sprite subject to a rule on `written` is ever removed or replaced.
 fn stays(analysis: &Analysis, written: SpriteType) -> bool {
     let concerned: Vec<SpriteType> =
         analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype)).collect();
@@ -132,8 +132,8 @@ pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
     rules.timed.iter().filter_map(line).collect()
 }
 
-/// Returns one line, with all members, for each group to which an interaction, a chaser or a fleeing sprite
-/// refers.
+/// Returns one line, with all members, for each group that an interaction, a chaser or a fleeing sprite
+/// refers to.
 pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let follows = |follower: SpriteType, stype: SpriteType| {
@@ -189,7 +189,7 @@ pub(super) fn goal(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     format!("You {verb} {}{provided}{}", ending(analysis, goal, win), held_up(analysis, goal))
 }
 
-/// Returns a termination as one of several ways to win or lose.
+/// Returns a termination as one of several methods to win or lose.
 pub(super) fn way(analysis: &Analysis, goal: &Goal) -> String {
     ending(analysis, goal, goal.win) + &held_up(analysis, goal)
 }
@@ -233,7 +233,7 @@ fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     text
 }
 
-/// Returns the condition of a termination, as the end of a sentence about winning or losing.
+/// Returns a termination's condition, as the end of a sentence about winning or losing.
 fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     let written = analysis.game().0.terminations[goal.line].counts();
     let types = goal.condition.types();
@@ -281,7 +281,7 @@ fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], w
     }
 }
 
-/// Returns the types of a condition that can occur, by name. A type that occurs twice counts twice.
+/// Returns a condition's possible types, by name. A type that occurs twice counts twice.
 fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> String {
     counted(analysis, types, |name| {
         let own = |stype: &&SpriteType| analysis.game().name(**stype) == name;
@@ -293,14 +293,14 @@ fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> Str
     .name
 }
 
-/// Returns the types of a condition that can occur, or all types of the condition if none can occur.
+/// Returns a condition's possible types, or all its types if no type is possible.
 fn countable(analysis: &Analysis, types: &[SpriteType]) -> Vec<SpriteType> {
     let possible: Vec<SpriteType> =
         types.iter().copied().filter(|&stype| analysis.facts(stype).possible).collect();
     if possible.is_empty() { types.to_vec() } else { possible }
 }
 
-/// Returns the names of the types of a condition that can occur, without repetitions.
+/// Returns the names of a condition's possible types, without duplicates.
 fn counted_names(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for stype in countable(analysis, types) {
@@ -312,8 +312,8 @@ fn counted_names(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str)
     names
 }
 
-/// Returns the types of a condition that can occur, by name. The types stand for the player if they are
-/// exactly the types that the player's avatar can have.
+/// Returns a condition's possible types, by name. If they are exactly the possible types of the player's
+/// avatar, they stand for the player.
 fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
     let all = countable(analysis, types);
     let forms = analysis.avatars();

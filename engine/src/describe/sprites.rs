@@ -1,4 +1,4 @@
-//! Describes the behaviour of the sprites, the player's keys and the level characters in words.
+//! Describes the sprites' behaviour, the player's keys and the level characters in plain English.
 
 use super::phrases::Phrase;
 use super::words::{Party, a, count, glide, list, pace, percent, plural};
@@ -8,8 +8,8 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::Traits;
 
-/// Returns one line for each type, except avatars, that can occur and does something by itself. The last lines are about
-/// the other types.
+/// Returns one line for each possible type, except avatars, that does something by itself. The last lines are
+/// about the other types.
 pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let (mut lines, mut is_all) = (Vec::new(), true);
@@ -58,7 +58,7 @@ fn walked_over(analysis: &Analysis) -> impl Iterator<Item = SpriteType> + '_ {
     })
 }
 
-/// Returns the behaviour of a type, without its name. Empty for types that only stand still.
+/// Returns a type's behaviour, without its name. The result is empty for types that only stand still.
 fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let info = &analysis.game().0.types[stype.index()];
     let facts = analysis.facts(stype);
@@ -159,7 +159,7 @@ fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     Some(phrase.with(&[("way", way)]))
 }
 
-/// Returns the phrase for the way in which sprites of a class chase.
+/// Returns the phrase for how sprites of a class chase.
 pub(super) fn chase(class: Option<SpriteClass>) -> Phrase {
     use SpriteClass as C;
     match class {
@@ -192,8 +192,9 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.encounters().iter().any(turns)
 }
 
-/// Returns two answers about sprites of a type that are made during an episode. The first is whether some of
-/// them are updated in the tick in which they appear. The second is whether some of them are not.
+/// Returns two values about sprites of a type that are created during an episode. The first value is whether
+/// some of these sprites are updated in the tick in which they appear. The second value is whether some are
+/// not.
 pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (bool, bool) {
     let rules = &analysis.game().0;
     let order = |stype: SpriteType| rules.types[stype.index()].order;
@@ -213,8 +214,8 @@ pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (boo
     (makers.contains(&true), later)
 }
 
-/// Returns the number of ticks from a sprite's appearance to its update with the number `updates`. The text
-/// contains two numbers if the delay depends on how the sprite was made.
+/// Returns the number of ticks from a sprite's appearance to its update with the index `updates`. The text
+/// contains two numbers if the delay depends on how the sprite was created.
 fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     match is_updated_at_once(analysis, stype) {
         (true, true) => format!("{} or {}", (updates - 1).max(0), count(updates, "tick")),
@@ -223,7 +224,7 @@ fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     }
 }
 
-/// Returns `true` if some effect makes sprites of a singleton type even if a sprite of the type exists.
+/// Returns `true` if some effect creates sprites of a singleton type even if a sprite of the type exists.
 fn is_made_regardless(analysis: &Analysis, stype: SpriteType) -> bool {
     let all = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype);
     let becomes = |effect: &EffectSummary| *effect == EffectSummary::Become(stype);
@@ -232,7 +233,7 @@ fn is_made_regardless(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.any_effect(all) || analysis.encounters().iter().any(counting)
 }
 
-/// Returns the phrase about the limit of health points, in games in which sprites can gain them.
+/// Returns the phrase about the limit on health points, in games where sprites can gain health points.
 fn most_health(analysis: &Analysis, traits: &Traits) -> String {
     let gains = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by > 0);
     let gained = analysis.encounters().iter().any(|encounter| encounter.does(gains));
@@ -293,7 +294,7 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
     ])
 }
 
-/// Returns the speed of a sprite with these traits in words.
+/// Returns the speed of a sprite with these traits, as text.
 fn step(analysis: &Analysis, traits: &Traits) -> String {
     if traits.continuous {
         return format!("{} pixels a tick", traits.speed);

@@ -1,4 +1,4 @@
-//! The templates of the sentences about interactions, for programs that parse such sentences.
+//! The templates for sentences about interactions, for programs that parse such sentences.
 
 use crate::analysis::{EffectSummary, Precondition};
 use crate::rules::effects::{EffectFamily, Sentence, Summary, sentences};
@@ -15,11 +15,11 @@ use crate::rules::effects::{EffectFamily, Sentence, Summary, sentences};
 pub struct Template {
     /// The parts of the sentence, in order.
     pub parts: Vec<Part>,
-    /// The family of the effects that the sentence describes.
+    /// The family of effects that the sentence describes.
     pub family: EffectFamily,
-    /// The consequences of the effects that the sentence describes. The types are placeholders.
+    /// The consequences of the effects that the sentence describes, with placeholders for the types.
     pub effects: Vec<EffectSummary>,
-    /// The condition of the effects. The condition's type and amount are placeholders.
+    /// The effects' condition, with placeholders for its type and amount.
     pub precondition: Precondition,
 }
 
@@ -32,8 +32,8 @@ pub enum Part {
     First,
     /// The partner of the sprite acted upon.
     Second,
-    /// A word that agrees with a sprite. It has one form for the player, and a different form for all other
-    /// sprites.
+    /// A word that agrees with a sprite. The word has one form for the player, and a different form for all
+    /// other sprites.
     Agreeing {
         /// The form for the player.
         with_you: &'static str,
@@ -42,15 +42,15 @@ pub enum Part {
     },
     /// A value other than a sprite.
     Value {
-        /// The name of the value. For example, the amount of a resource that a sprite holds has the names
-        /// `least` and `resource`.
+        /// The name of the value. For example, the held amount of a resource has the names `least` and
+        /// `resource`.
         name: &'static str,
         /// The text with which the value starts, if the value can be empty.
         optional_start: Option<&'static str>,
     },
 }
 
-/// Returns the templates of the sentences about interactions, without repetitions.
+/// Returns the templates for sentences about interactions, without duplicates.
 pub fn templates() -> Vec<Template> {
     let template = |(sentence, summary): (Sentence, Summary)| {
         let mut parts = Vec::new();

@@ -54,7 +54,8 @@ impl Party {
     }
 }
 
-/// Returns the types below a type in the SpriteSet that can occur and have sprites. Empty for a leaf type.
+/// Returns the possible types with sprites below a type in the SpriteSet. The result is empty for a leaf
+/// type.
 pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType> {
     let game = analysis.game();
     let below = |stype: SpriteType| {
@@ -100,8 +101,8 @@ pub fn plural(noun: &str) -> String {
     }
 }
 
-/// Returns `true` if a noun ends with one of these words, whatever its capitals: both `mouse` and `stageMouse` end with
-/// `mouse`.
+/// Returns `true` if a noun ends with one of these words, ignoring case: both `mouse` and `stageMouse` end
+/// with `mouse`.
 fn ends_with_any(noun: &str, endings: &[&str]) -> bool {
     let small = noun.to_ascii_lowercase();
     endings.iter().any(|ending| small.ends_with(ending))
@@ -116,14 +117,14 @@ fn has_last_word(noun: &str, word: &str) -> bool {
     })
 }
 
-/// Returns `true` if the singular and the plural of a noun are the same, as with many animals that are fished
-/// or hunted.
+/// Returns `true` if a noun's singular and plural are the same, as for many animals that are fished or
+/// hunted.
 fn is_the_same_for_several(noun: &str) -> bool {
     ends_with_any(noun, &["fish", "sheep", "folk", "deer", "moose", "trout", "salmon", "bream"])
         || ["carp", "pike"].iter().any(|word| has_last_word(noun, word))
 }
 
-/// Returns the plural of a noun that changes its vowel or takes `en`.
+/// Returns the plural of a noun that changes its vowel or ends in `en`.
 fn irregular_plural(noun: &str) -> Option<String> {
     /// Nouns that end in `man` without being compounds of `man`.
     const NO_MAN: &[&str] =
@@ -154,7 +155,7 @@ pub(super) fn list(names: &[impl Display], word: &str) -> String {
     }
 }
 
-/// Returns a text with a capital at the start and a full stop at the end.
+/// Capitalises a text and ends it with a full stop.
 pub(super) fn sentence(text: &str) -> String {
     let mut characters = text.chars();
     let first: String = characters.next().into_iter().flat_map(char::to_uppercase).collect();
@@ -167,7 +168,7 @@ pub(super) fn count(number: i64, noun: &str) -> String {
     format!("{number} {noun}{ending}")
 }
 
-/// Returns a probability as a percentage with as many digits as necessary.
+/// Returns a probability as a percentage with the minimum number of digits.
 pub(super) fn percent(probability: f64) -> String {
     let thousandths = (probability * 100_000.0 + 0.5) as i64;
     let (whole, rest) = (thousandths / 1000, thousandths % 1000);
@@ -175,7 +176,7 @@ pub(super) fn percent(probability: f64) -> String {
     format!("{}%", digits.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// Returns the speed of a move of `speed` cells every `cooldown` ticks.
+/// Returns the speed of a move of `speed` cells every `cooldown` ticks, as text.
 pub(super) fn pace(speed: f64, cooldown: i32) -> String {
     let cooldown = i64::from(cooldown);
     let per_cell = (1.0 / speed + 0.5) as i64;
@@ -190,8 +191,8 @@ pub(super) fn pace(speed: f64, cooldown: i32) -> String {
     if ticks == 1 { format!("{cells} a tick") } else { format!("{cells} every {ticks} ticks") }
 }
 
-/// Returns the speed of sprites that move by less than a cell every `cooldown` ticks. `block` is the size of a cell, if
-/// the game sets it.
+/// Returns the speed of sprites that move by less than a cell every `cooldown` ticks, as text. `block` is the
+/// cell size, if the game sets one.
 pub(super) fn glide(speed: f64, cooldown: i32, block: Option<i32>) -> String {
     let whole = |ticks: f64| (ticks - (ticks + 0.5).floor()).abs() < 1e-9;
     // Sprites move by whole pixels.

@@ -1,19 +1,19 @@
-//! Drops problems that only follow from another problem in the same file.
+//! Removes consequential problems, which only follow from another problem in the same file.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, line_start};
 use crate::limits::MAX_PROBLEMS;
 use std::collections::BTreeMap;
 
-/// Problem codes that make it uncertain which sprites are declared.
+/// Problem codes that make the declared sprites uncertain.
 const HIDES_DECLARATIONS: [&str; 4] = ["missing-section", "missing-arrow", "stray-line", "too-deep"];
-/// Problem codes that make it uncertain which word a line starts with.
+/// Problem codes that make the first word of a line uncertain.
 const HIDES_START: [&str; 4] = ["missing-arrow", "bad-mapping", "bad-interaction", "bad-termination"];
 /// Problem codes about a name. Such a problem is reported once, however often the name is used.
 const OF_A_NAME: [&str; 2] = ["unknown-sprite", "parent-sprite"];
 
-/// Returns all problems of a file, sorted by position, except problems that follow from other problems.
-/// Parsing the file gave `read`, and compiling its rules gave `compiled`. A problem's subject is the word
-/// that its message and its help quote.
+/// Returns all problems in a file, sorted by position, except problems that follow from other problems.
+/// `read` contains the problems from parsing the file, and `compiled` the problems from compiling its
+/// rules. A problem's subject is the word quoted in its message and its help text.
 pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &str) -> Diagnostics {
     let unread = Diagnostics::has_errors(&read);
     let all = Diagnostics::sorted(read.into_iter().chain(once_each(compiled)).collect()).0;
@@ -45,7 +45,7 @@ fn is_root(problem: &Diagnostic) -> bool {
     problem.severity == Severity::Error || warns || is_uneven(problem)
 }
 
-/// Returns `true` if the problem is the indent of a sprite, which makes parents and subtypes uncertain.
+/// Returns `true` if the problem is a sprite's indent, which makes parents and subtypes uncertain.
 fn is_uneven(problem: &Diagnostic) -> bool {
     problem.code == "uneven-indent" && !problem.message.ends_with("sections")
 }
@@ -86,7 +86,7 @@ fn quoted(problem: &Diagnostic) -> &str {
     problem.message.split('`').nth(1).unwrap_or_default()
 }
 
-/// Reports a name that is misused several times only at its first use.
+/// Reports a repeatedly misused name only at its first use.
 fn once_each(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let problems = Diagnostics::sorted(problems).0;
     let mut places: BTreeMap<(&str, String), usize> = BTreeMap::new();

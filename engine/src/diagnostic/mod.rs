@@ -33,7 +33,7 @@ pub enum Severity {
     Warning,
 }
 
-/// The replacement of a range of a text. An edit of an empty range inserts text.
+/// The replacement of a range of text. An edit of an empty range inserts text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
     /// The range of the replaced bytes.
@@ -49,7 +49,7 @@ impl Edit {
     }
 }
 
-/// A repair that a program can make: edits of disjoint ranges, to be applied together.
+/// A machine-applicable repair: edits of disjoint ranges, to be applied together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
     /// The name of the repair, as an imperative: "Write `avatar`".
@@ -115,13 +115,13 @@ impl Diagnostic {
         self.fix(format!("Remove `{name}`"), vec![Edit::new(span, "")])
     }
 
-    /// Does the same as [`Diagnostic::remove`], unless there is a repair already.
+    /// Sets the same repair as [`Diagnostic::remove`], unless a repair is already set.
     pub(crate) fn or_remove(self, span: Span, name: &str) -> Diagnostic {
         if self.fix.is_some() { self } else { self.remove(span, name) }
     }
 
-    /// Does the same as [`Diagnostic::mean`] if `found` is low enough for the problem to be shown. Otherwise,
-    /// skips the lookup.
+    /// Has the same effect as [`Diagnostic::mean`] if `found` is low enough for the problem to be shown.
+    /// Otherwise, skips the lookup.
     pub(crate) fn mean_after<'a>(
         self,
         found: usize,
@@ -132,9 +132,9 @@ impl Diagnostic {
         if found < MAX_PROBLEMS { self.mean(place, wrong, candidates) } else { self }
     }
 
-    /// Adds the VGDL equivalent of a word from a different dialect, or else "did you mean" if one of
-    /// `candidates` is close to `wrong`. If `wrong` is the whole span of the problem, the repair replaces it
-    /// with the VGDL word.
+    /// Suggests the VGDL equivalent of a word from a different dialect. Otherwise, adds "did you mean" if one
+    /// of `candidates` is close to `wrong`. If `wrong` is the whole span of the problem, the repair replaces
+    /// it with the VGDL word.
     pub(crate) fn mean<'a>(
         self,
         place: Place,
@@ -172,8 +172,8 @@ impl Diagnostic {
     }
 }
 
-/// Returns the candidate that `wrong` most likely stands for: a candidate with the same words in a different
-/// order, or with a few different letters. Candidates that mean the opposite, or that share only their ending
+/// Returns the candidate most likely meant by `wrong`: a candidate with the same words in a different order,
+/// or with a few different letters. Candidates with the opposite meaning, or that share only their ending
 /// with `wrong`, are not considered.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (key, parts) = (wrong.to_lowercase(), words(wrong));
@@ -201,13 +201,13 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, name)| name)
 }
 
-/// Returns the number of wrong letters allowed in a word of this length.
+/// Returns the maximum number of wrong letters in a word of this length.
 fn near(length: usize) -> usize {
     1.max(length / 3)
 }
 
-/// Returns `true` if each word of one name is close to the word at the same position in the other name. Names that
-/// share only their ending are therefore not alike.
+/// Returns `true` if each word in one name is close to the word at the same position in the other name. Names
+/// that share only their ending are therefore not alike.
 fn alike(one: &[String], other: &[String]) -> bool {
     let close = |(one, other): (&String, &String)| {
         let distance = strsim::damerau_levenshtein(one, other);
@@ -220,7 +220,7 @@ fn alike(one: &[String], other: &[String]) -> bool {
     one.len() != other.len() || one.iter().zip(other).all(close)
 }
 
-/// Returns `true` if two words differ by a prefix that negates one of them.
+/// Returns `true` if two words differ by a prefix that negates one of the two.
 fn opposite(one: &str, other: &str, distance: usize) -> bool {
     const NOT: [&str; 9] = ["im", "in", "un", "non", "not", "no", "dis", "anti", "de"];
     let negates = |long: &str, short: &str| {
@@ -231,7 +231,7 @@ fn opposite(one: &str, other: &str, distance: usize) -> bool {
     negates(one, other) || negates(other, one) || turns(one, other) || turns(other, one)
 }
 
-/// Returns the words of a name like `scoreChange`, `score_change` or `RandomNPC`, in lower case.
+/// Splits a name like `scoreChange`, `score_change` or `RandomNPC` into words in lower case.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut before = ' ';
@@ -252,7 +252,7 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// All problems of a file. At least one is an error.
+/// All problems in a file, including at least one error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
@@ -264,8 +264,8 @@ impl Diagnostics {
         Diagnostics(list)
     }
 
-    /// Keeps the first [`MAX_PROBLEMS`] problems, and adds a problem at `end`, the end of the text, that
-    /// counts the rest.
+    /// Truncates the list to the first [`MAX_PROBLEMS`] problems, and adds a problem that counts the
+    /// remaining problems. The added problem is at `end`, the end of the text.
     pub(crate) fn shortened(mut self, end: usize) -> Diagnostics {
         let Some(rest) = self.0.len().checked_sub(MAX_PROBLEMS).filter(|&rest| rest > 0) else { return self };
         let severity = self.0.iter().map(|problem| problem.severity).min().unwrap_or(Severity::Error);
@@ -295,7 +295,7 @@ impl fmt::Display for Diagnostics {
 
 impl std::error::Error for Diagnostics {}
 
-/// Returns the line and the column of byte `offset` in `source`, both counted from 1. Columns count characters.
+/// Returns the line and column of byte `offset` in `source`, both counted from 1. Columns count characters.
 pub fn line_and_column(source: &str, offset: usize) -> (usize, usize) {
     let mut offset = offset.min(source.len());
     while !source.is_char_boundary(offset) {

@@ -1,5 +1,5 @@
-//! Conversion of games of py-vgdl and EMPA. Constructs with an exact equivalent are rewritten, and all other
-//! constructs are reported with their lines.
+//! Conversion of games from py-vgdl and EMPA. Constructs with an exact equivalent are rewritten, and all
+//! other constructs are reported with their lines.
 
 use super::python_file;
 use crate::compile;
@@ -10,14 +10,14 @@ use crate::syntax::{self, Description, InteractionLine, Param, SpriteLine};
 /// The width of a tab stop in py-vgdl, in columns.
 const TAB: usize = 8;
 
-/// A construct that was rewritten.
+/// A rewritten construct.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
     /// The line in the file, from 1.
     pub line: usize,
     /// The construct in the other dialect.
     pub from: String,
-    /// The equivalent in VGDL, or the reason why the construct was left out.
+    /// The equivalent in VGDL, or the reason for omitting the construct.
     pub to: String,
 }
 
@@ -26,7 +26,7 @@ pub struct Change {
 pub struct Conversion {
     /// The game in VGDL, in canonical form.
     pub text: String,
-    /// The text that [`problems`](Self::problems) refer to. Its lines have the same numbers as in the file.
+    /// The text to which [`problems`](Self::problems) refer, with the same line numbers as the file.
     pub source: String,
     /// The levels in the file.
     pub levels: Vec<String>,
@@ -36,8 +36,8 @@ pub struct Conversion {
     pub problems: Vec<Diagnostic>,
 }
 
-/// Converts a game of py-vgdl or EMPA. The file is either the game's text or a Python file, whose first game is
-/// converted.
+/// Converts a game from py-vgdl or EMPA. The file is either the game's text or a Python file, whose first
+/// game is converted.
 pub fn convert(file: &str) -> Conversion {
     let mut changes = Vec::new();
     let python = python_file(file);
@@ -93,7 +93,7 @@ impl Changes<'_> {
         self.list.push(Change { line: (self.line)(span), from: from.into(), to: to.into() });
     }
 
-    /// Records that a parameter is left out.
+    /// Records the omission of a parameter.
     fn without(&mut self, param: &Param, why: &str) {
         self.note(param.key.span, written(param), format!("left out: {why}"));
     }
@@ -182,7 +182,7 @@ fn sprite_line(sprite: &mut SpriteLine, changes: &mut Changes<'_>) {
     sprite.children.iter_mut().for_each(|child| sprite_line(child, changes));
 }
 
-/// Effects that act whenever their two sprites meet, so that points can be attached to them.
+/// Effects that run in every collision of their two sprites, so that points can be attached to them.
 const ALWAYS: [&str; 11] = [
     "killSprite",
     "killBoth",
@@ -197,7 +197,7 @@ const ALWAYS: [&str; 11] = [
     "flipDirection",
 ];
 
-/// Turns the points of `changeScore` into a parameter of another rule for the same sprites.
+/// Turns the points of `changeScore` into a parameter on a different rule for the same sprites.
 fn scores(description: &mut Description, changes: &mut Changes<'_>) {
     let names = |line: &InteractionLine| {
         let second = line.second.iter().map(|word| word.text.clone());

@@ -27,15 +27,15 @@ const PY_VGDL: [&str; 17] = [
 ];
 /// Words of py-vgdl that other authors may invent as well. At least two such words are needed as evidence.
 const PY_VGDL_MAYBE: [&str; 4] = ["frame_rate", "MarioAvatar", "InertialAvatar", "killIfOtherHasLess"];
-/// Words of EMPA's games.
+/// Words that occur in EMPA's games.
 const EMPA: [&str; 2] = ["bonus", "NoveltyTermination"];
 const EMPA_MAYBE: [&str; 2] = ["nothing", "changeScore"];
 /// The maximum number of words listed in a message.
 const SHOWN: usize = 4;
 
-/// Returns the problems of a faulty game, starting with the problem of its dialect. A Python file and a game
-/// for several players cannot be repaired line by line. For such files, only the problem about the kind of
-/// file is returned.
+/// Returns the problems of a faulty game, starting with the problem about its dialect. A Python file and a
+/// game for several players cannot be repaired line by line. For such files, only the problem about the kind
+/// of file is returned.
 pub(crate) fn told(
     source: &str,
     description: &Description,
@@ -65,7 +65,7 @@ pub(crate) fn told(
     problems
 }
 
-/// Returns `true` if the first line requests several players.
+/// Returns `true` if the first line requires several players.
 pub(crate) fn is_of_several_players(description: &Description) -> bool {
     let players = description.header.params.iter().filter(|param| param.key.text == "no_players");
     players.filter_map(|param| param.value.text.parse::<i64>().ok()).any(|players| players > 1)
@@ -79,7 +79,7 @@ fn other_dialect(span: Span, message: String, dialect: Dialect) -> Diagnostic {
     Diagnostic::error("other-dialect", span, message).help(help)
 }
 
-/// Returns the dialect of a game, with the words that reveal it.
+/// Returns a game's dialect, with the words that reveal the dialect.
 fn dialect(description: &Description) -> Option<(Dialect, Vec<&str>)> {
     let lines = description.sprite_lines();
     let declared: BTreeSet<&str> = lines.iter().map(|(_, line)| line.name.text.as_str()).collect();

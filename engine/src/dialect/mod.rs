@@ -14,7 +14,7 @@ pub use python::{PythonFile, python_file};
 /// A dialect of VGDL.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialect {
-    /// The language of py-vgdl, the Python engine that GVGAI's VGDL comes from.
+    /// The language of py-vgdl, the Python engine from which GVGAI's VGDL originates.
     PyVgdl,
     /// The language of EMPA's games: the language of py-vgdl with additional effects and parameters.
     Empa,

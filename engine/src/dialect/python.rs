@@ -1,4 +1,4 @@
-//! Python files that contain a game, and often its levels, as strings in triple quotes.
+//! Python files that contain a game, and often its levels, as triple-quoted strings.
 
 use crate::syntax::{self, Section};
 use std::collections::BTreeSet;
@@ -8,15 +8,15 @@ use std::collections::BTreeSet;
 pub struct PythonFile {
     /// The game, preceded by one empty line for each line before it in the file, so that line numbers match.
     pub game: String,
-    /// The line of the game's opening quotes.
+    /// The line with the game's opening quotes.
     pub line: usize,
-    /// The levels, in the order of the file.
+    /// The levels, in file order.
     pub levels: Vec<String>,
-    /// The lines of the opening quotes of further games.
+    /// The lines with the opening quotes of further games.
     pub others: Vec<usize>,
 }
 
-/// A string in triple quotes.
+/// A triple-quoted string.
 struct Quoted {
     line: usize,
     text: String,
@@ -52,7 +52,7 @@ fn is_game(text: &str) -> bool {
     text.lines().filter(is_name).count() > 1
 }
 
-/// Returns the strings in triple quotes, resolving the escapes that games and levels contain.
+/// Returns the triple-quoted strings, with the escapes that occur in games and levels resolved.
 fn quoted(source: &str) -> Vec<Quoted> {
     let mut found = Vec::new();
     let (mut rest, mut line) = (source, 1);

@@ -1,10 +1,11 @@
-//! Flat data: structs of numbers and of buffers of numbers, whose fields are declared once.
+//! Flat data: structs that consist of numbers and number buffers, whose fields are declared once.
 //!
-//! From the list of fields, the macro derives copies that reuse buffers, the size of a copy, and differences between
-//! two values (`pack.rs`).
+//! From the field list, the macro derives copies that reuse buffers, the size of a copy, and differences
+//! between two values (`pack.rs`).
 
-/// Declares a struct. `copied` fields are copied, but differences leave them out. `numbers` and `buffers` are part of
-/// differences. `scratch` buffers are empty between steps. `shared` fields are the same in all states of a level.
+/// Declares a struct. `copied` fields are copied, but differences omit them. `numbers` and `buffers` are part
+/// of differences. `scratch` buffers are empty between steps. `shared` fields are the same in all states of a
+/// level.
 macro_rules! flat {
     (
         $(#[$doc:meta])*
@@ -58,7 +59,7 @@ macro_rules! flat {
         }
 
         impl $Name {
-            /// Returns the number of bytes that are copied when the value is copied.
+            /// Returns the number of bytes that a copy of the value copies.
             pub(crate) fn size_in_bytes(&self) -> usize {
                 let buffers = 0 $(+ size_of_val(&self.$buffer[..]))*;
                 size_of::<$Name>() + buffers
@@ -70,7 +71,7 @@ macro_rules! flat {
                 $(crate::flat::put_buffer(&self.$buffer, &base.$buffer, to);)*
             }
 
-            /// Applies differences to `self`, a copy of their base.
+            /// Applies differences to `self`, which must be a copy of the base.
             pub(crate) fn take_differences(&mut self, from: &mut &[u8]) {
                 $(crate::flat::take_scalar(&mut self.$number, from);)*
                 $(crate::flat::take_buffer(&mut self.$buffer, from);)*
@@ -131,7 +132,7 @@ pub(crate) fn take_buffer<T: Bytes>(buffer: &mut Vec<T>, from: &mut &[u8]) {
     }
 }
 
-/// Writes seven bits per byte, low bits first (LEB128).
+/// Writes a number with seven bits per byte, low bits first (LEB128).
 fn put_number(mut number: usize, to: &mut Vec<u8>) {
     while number >= 0x80 {
         to.push(number as u8 | 0x80);
@@ -152,7 +153,7 @@ fn take_number(from: &mut &[u8]) -> usize {
     }
 }
 
-/// A type that can be written as bytes and read back bit for bit.
+/// A type that can be written as bytes and restored bit for bit.
 pub(crate) trait Bytes: Copy {
     fn put(self, to: &mut Vec<u8>);
     fn take(from: &mut &[u8]) -> Self;

@@ -1,8 +1,8 @@
 //! States stored as differences from a base state, for searches that keep millions of states.
 //!
 //! Most of a state is the same in all states of a level: walls, floors and their tables. A [`Packed`] state
-//! stores only the bytes that differ from the base state, which is usually the start of the search. Such a
-//! difference takes a few hundred bytes instead of tens of thousands.
+//! stores only the bytes that differ from the base state (usually the start of the search). Such a difference
+//! takes a few hundred bytes, while a full state takes tens of thousands.
 
 use crate::rules::{Action, Outcome};
 use crate::state::State;

@@ -1,8 +1,8 @@
-//! Games with one interaction disabled, to measure the effect of that interaction.
+//! Games with one interaction disabled, to measure that interaction's effect.
 //!
-//! The disabled interaction still occurs and draws the same random numbers, but has no consequences. Episodes
-//! of the two games are therefore identical up to the interaction's first consequence, because the random
-//! stream does not shift.
+//! The disabled interaction still occurs and draws the same random numbers, but has no consequences. The
+//! random stream does not shift, so episodes in the two games are identical up to the interaction's first
+//! consequence.
 
 use crate::game::Game;
 use crate::rules::{EffectInfo, Rules};
@@ -11,9 +11,9 @@ use std::sync::OnceLock;
 
 impl Game {
     /// Returns the game in which interaction `line` (index into
-    /// [`Description::interactions`](crate::Description)) draws its random numbers but has no consequences.
-    /// Levels of either game fit both games. The digest of the returned game does not belong to any text.
-    /// Cost: one copy of the rules.
+    /// [`Description::interactions`](crate::Description)) draws its random numbers but has no consequences. A
+    /// level that fits one of the two games also fits the other. The returned game's digest does not belong
+    /// to any text. Cost: one copy of the rules.
     ///
     /// # Panics
     /// Panics if the game has no such interaction.

@@ -19,11 +19,11 @@ use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A game, ready to be played.
+/// A compiled game, ready to be played.
 #[derive(Clone, Debug)]
 pub struct Game(pub(crate) Arc<Compiled>);
 
-/// The rules of a game, and data derived once from the rules.
+/// A game's rules, and data derived once from the rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Compiled {
     pub(crate) rules: Rules,
@@ -50,7 +50,7 @@ impl Game {
     /// Compiles a description: resolves its names and checks it.
     ///
     /// # Errors
-    /// Returns all problems of the description, sorted by position.
+    /// Returns all problems in the description, sorted by position.
     pub fn compile(description: &Description) -> Result<Game, Diagnostics> {
         compile::compile(description).map(Game::of)
     }
@@ -58,7 +58,7 @@ impl Game {
     /// Parses and compiles a game's text.
     ///
     /// # Errors
-    /// Returns all problems of the text, sorted by position.
+    /// Returns all problems in the text, sorted by position.
     pub fn from_source(source: &str) -> Result<Game, Diagnostics> {
         let (description, Diagnostics(read)) = crate::syntax::parse_all(source);
         match compile::compile(&description) {
@@ -81,14 +81,14 @@ impl Game {
         self.0.digest
     }
 
-    /// Returns the syntax tree that the game was compiled from.
+    /// Returns the syntax tree from which the game was compiled.
     pub fn description(&self) -> &Description {
         &self.0.description
     }
 
-    /// Parses and compiles a game's text in reference mode: faults are dropped, ignored or overlooked if the
-    /// reference engine does so, and the reference's messages are counted (`spec/01` §1). Use this mode only
-    /// for comparisons with the reference. In strict mode, every fault is an error.
+    /// Parses and compiles a game's text in reference mode: faults are dropped or ignored if the reference
+    /// engine does so, and the reference's messages are counted (`spec/01` §1). Use this mode only for
+    /// comparisons with the reference. In strict mode, every fault is an error.
     ///
     /// # Errors
     /// Returns the fault on which the reference crashes.
@@ -111,7 +111,7 @@ impl Game {
         state.avatar_type().is_some_and(|stype| self.0.types[stype.index()].keys >> action as u8 & 1 != 0)
     }
 
-    /// Returns the actions of an avatar of this type, sorted, without [`Action::Nil`].
+    /// Returns the actions for an avatar of this type, sorted, without [`Action::Nil`].
     pub fn actions_of(&self, avatar: SpriteType) -> &'static [Action] {
         self.0.types[avatar.index()].actions
     }
@@ -127,15 +127,15 @@ impl Game {
         (0..self.0.types.len() as u16).map(SpriteType)
     }
 
-    /// Returns the name of a type, or `#-1` for an undeclared type. Only games loaded in reference mode can count
+    /// Returns a type's name, or `#-1` for an undeclared type. Only games loaded in reference mode can count
     /// undeclared types.
     pub fn name(&self, stype: SpriteType) -> &str {
         self.0.types.get(stype.index()).map_or("#-1", |info| &info.name)
     }
 
-    /// Returns the same game with different names in observations and texts. Types that `names` does not
-    /// contain keep their names. The [`description`](Game::description) and the digest do not change. Cost:
-    /// one copy of the rules.
+    /// Returns the same game with different names in observations and texts. Types not in `names` keep their
+    /// names. The [`description`](Game::description) and the digest do not change. Cost: one copy of the
+    /// rules.
     pub fn under_names(&self, names: &BTreeMap<String, String>) -> Game {
         let mut compiled = (*self.0).clone();
         for info in &mut compiled.rules.types {
@@ -151,7 +151,7 @@ impl Game {
         self.sprite_types().find(|&stype| self.name(stype) == name)
     }
 
-    /// Returns the class of a type, or `None` for grouping nodes without a class.
+    /// Returns a type's class, or `None` for grouping nodes without a class.
     pub fn class(&self, stype: SpriteType) -> Option<SpriteClass> {
         self.0.types[stype.index()].class
     }
@@ -162,7 +162,7 @@ impl Game {
         self.0.types[stype.index()].traits.orientation
     }
 
-    /// Returns the maximum number of steps of an episode: one more than the lowest limit, because the
+    /// Returns the maximum number of steps in an episode: one more than the lowest limit, because the
     /// reference counts the first step as tick 0. The limits are the `limit=` of each Timeout, and the
     /// reference's own limit.
     pub fn time_limit(&self) -> u64 {
@@ -170,7 +170,8 @@ impl Game {
         self.0.first_timeout.saturating_add(1).clamp(1, MAX_TICKS + 1).unsigned_abs().into()
     }
 
-    /// Returns `true` if the game draws no random numbers, so that the same actions always give the same episode.
+    /// Returns `true` if the game draws no random numbers, so that the same actions always produce the same
+    /// episode.
     pub fn is_deterministic(&self) -> bool {
         !self.0.draws
     }

@@ -10,9 +10,9 @@ use base::Digest;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// The maximum number of problems of one kind that are reported individually.
+/// The maximum number of problems of the same kind to report individually.
 const MAX_REPEATS: usize = 10;
-/// The code of characters without a mapping, in levels loaded in reference mode.
+/// The code for unmapped characters in levels loaded in reference mode.
 const UNMAPPED: u8 = 0;
 
 /// A level that fits one game: row-major characters, each of which is a space or in the game's LevelMapping.
@@ -29,12 +29,12 @@ pub struct Level {
 }
 
 impl Level {
-    /// Returns the number of columns of the board.
+    /// Returns the number of columns on the board.
     pub fn columns(&self) -> usize {
         self.columns
     }
 
-    /// Returns the number of rows of the board.
+    /// Returns the number of rows on the board.
     pub fn rows(&self) -> usize {
         self.rows
     }
@@ -45,7 +45,7 @@ impl Level {
         &self.cells
     }
 
-    /// Returns the warnings: parts of the level that are valid but almost certainly not intended.
+    /// Returns the warnings: parts of the level that are valid but almost certainly unintended.
     pub fn warnings(&self) -> &[Diagnostic] {
         &self.warnings
     }
@@ -76,14 +76,14 @@ impl fmt::Display for Level {
 }
 
 impl Game {
-    /// Returns the sprites that a level character places, in order. Empty for spaces and characters without a
-    /// mapping.
+    /// Returns the sprites that a level character places, in order. The result is empty for spaces and
+    /// unmapped characters.
     pub fn places(&self, symbol: u8) -> &[SpriteType] {
         self.0.mapping.get(usize::from(symbol)).map_or(&[], |types| types)
     }
 
-    /// Returns the character that a cell's code represents. This is the ASCII character with that code or, in
-    /// games loaded in reference mode, possibly a character beyond ASCII.
+    /// Returns the character that a cell code represents: the ASCII character with that code or, in games
+    /// loaded in reference mode, possibly a character beyond ASCII.
     pub fn character(&self, symbol: u8) -> char {
         self.0.aliases.of_code(symbol).map_or(char::from(symbol), |alias| alias.character)
     }
@@ -91,8 +91,8 @@ impl Game {
     /// Checks a level's text against this game and builds the level.
     ///
     /// # Errors
-    /// Returns all problems of the text, sorted by position: characters without a mapping, no avatar or several, or a
-    /// size beyond [`MAX_SIDE`], [`MAX_CELLS`] or [`MAX_SPRITES`].
+    /// Returns all problems in the text, sorted by position: unmapped characters, no avatar or several
+    /// avatars, or a size beyond [`MAX_SIDE`], [`MAX_CELLS`] or [`MAX_SPRITES`].
     pub fn level(&self, text: &str) -> Result<Level, Diagnostics> {
         let everything = Span::new(0, 0);
         let fail = |problem| Err(Diagnostics(vec![problem]));
@@ -144,7 +144,7 @@ impl Game {
     }
 }
 
-/// The rules for the levels of a faulty game, if its LevelMapping and its SpriteSet can be read.
+/// The level rules of a faulty game, if its LevelMapping and its SpriteSet can be read.
 #[derive(Clone, Debug)]
 pub struct LevelMapping {
     game: Game,
@@ -153,8 +153,8 @@ pub struct LevelMapping {
 }
 
 impl LevelMapping {
-    /// Reads the LevelMapping of a game that may have faults elsewhere. Returns `None` if the LevelMapping itself is
-    /// faulty.
+    /// Reads the LevelMapping of a game that may have faults elsewhere. Returns `None` if the LevelMapping
+    /// itself is faulty.
     pub fn of_source(source: &str) -> Option<LevelMapping> {
         let (description, Diagnostics(problems)) = crate::syntax::parse_all(source);
         if crate::dialect::is_of_several_players(&description) {
@@ -165,7 +165,7 @@ impl LevelMapping {
         Some(LevelMapping { game, knows_characters, knows_avatars })
     }
 
-    /// Returns the problems of a level's text that do not depend on the faults of the game, sorted by position.
+    /// Returns the problems in a level's text that do not depend on the game's faults, sorted by position.
     pub fn problems(&self, text: &str) -> Vec<Diagnostic> {
         let level = self.game.level(text);
         let mut problems = level.map_or_else(|problems| problems.0, |level| level.warnings);
@@ -187,7 +187,7 @@ struct LevelReader<'a> {
     problems: Vec<Diagnostic>,
     avatars: Vec<(Span, SpriteType)>,
     sprites: usize,
-    /// Characters without a mapping: the cell, the character, and its position in the text.
+    /// Unmapped characters: the cell, the character, and its position in the text.
     undefined: Vec<(usize, char, Span)>,
 }
 
@@ -292,7 +292,7 @@ impl LevelReader<'_> {
         }
     }
 
-    /// Reports characters without a mapping, and suggests the characters that were most likely meant.
+    /// Reports unmapped characters, and suggests the characters that were most likely meant.
     fn report_undefined(&mut self, columns: usize, cells: &[u8]) {
         let unused: Vec<char> =
             self.mapped.iter().copied().filter(|&c| !cells.contains(&(c as u8))).collect();
@@ -374,8 +374,8 @@ impl LevelReader<'_> {
         }
     }
 
-    /// Returns the sprite type that an unmapped character most likely stands for: the only type whose name begins with
-    /// this character and that no character places.
+    /// Returns the sprite type that an unmapped character most likely stands for: the only type whose name
+    /// begins with this character and that no character places.
     fn unplaced(&self, symbol: char) -> Option<&str> {
         let rules = &self.game.0;
         let mapped: BTreeSet<&SpriteType> = rules.mapping.iter().flatten().collect();
@@ -391,7 +391,7 @@ impl LevelReader<'_> {
         free.next().filter(|_| free.next().is_none() && symbol.is_ascii_alphanumeric())
     }
 
-    /// Returns the first character in the LevelMapping that places an avatar.
+    /// Returns the first avatar-placing character in the LevelMapping.
     fn avatar_symbol(&self) -> Option<char> {
         let rules = &self.game.0;
         let is_avatar = |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
@@ -401,8 +401,9 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
-    /// Reports avatars of a parent type, which the engine does not find when the level starts. Avatars of the
-    /// type that is drawn first are not found either, but the warning about that type belongs to the game.
+    /// Reports avatars of a parent type, which the engine does not find when the level starts. The engine
+    /// does not find avatars of the type drawn first, either, but the warning about that type belongs to the
+    /// game.
     fn report_lost_avatar(&mut self) {
         let info = |stype: SpriteType| &self.game.0.types[stype.index()];
         let Some(&(span, stype)) = self.avatars.first() else { return };
@@ -424,7 +425,7 @@ impl LevelReader<'_> {
         self.problems.push(Diagnostic::error("no-avatar", span, message).help(help));
     }
 
-    /// Returns the line that is missing in a LevelMapping in which no character places an avatar, as advice.
+    /// Returns, as advice, the missing line in a LevelMapping that places no avatar.
     fn lacking_avatar(&self) -> String {
         let description = &self.game.0.description;
         let is_avatar = |name: &str| {
@@ -525,7 +526,7 @@ fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
     (weights[usize::from(code)] > 0).then_some(char::from(code))
 }
 
-/// Returns the lines of a level, each with its start. A final newline does not start a new line.
+/// Returns the lines in a level, each with its start position. A final newline does not start a new line.
 fn level_lines(text: &str) -> Vec<(usize, &str)> {
     let mut lines = Vec::new();
     let mut rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);

@@ -1,5 +1,5 @@
-//! Semantic lints: rules that are valid but almost certainly mistakes, according to the analysis of the
-//! rules. The parser and the compiler report mistakes that are visible in the text alone.
+//! Semantic lints: valid rules that are almost certainly mistakes, according to the rule analysis. The parser
+//! and the compiler report mistakes that are visible in the text alone.
 
 mod swapped;
 mod terminations;
@@ -18,8 +18,8 @@ use crate::rules::effects::{Displacement, EffectFamily};
 use crate::syntax::Param;
 
 impl Game {
-    /// Returns the warnings: parts of the file that are valid but almost certainly not intended, sorted by position.
-    /// Empty for games loaded in reference mode.
+    /// Returns the warnings: parts of the file that are valid but almost certainly unintended, sorted by
+    /// position. The result is empty for games loaded in reference mode.
     ///
     /// Cost: the first call analyses the rules ([`Analysis::of`](crate::Analysis::of)).
     pub fn warnings(&self) -> &[Diagnostic] {
@@ -30,7 +30,7 @@ impl Game {
     }
 }
 
-/// Returns all warnings about the semantics of a game, in no particular order. Cost: one call of [`Analysis::of`].
+/// Returns all warnings about a game's semantics, in no particular order. Cost: one call of [`Analysis::of`].
 fn lint(game: &Game) -> Vec<Diagnostic> {
     let linter = Linter { game, analysis: &Analysis::of(game) };
     let mut problems = Vec::new();
@@ -51,7 +51,8 @@ struct Linter<'a> {
 }
 
 impl Linter<'_> {
-    /// Reports interactions whose sprites never meet, or that need more of a resource than any sprite can hold.
+    /// Reports interactions whose sprites never collide, or that need more of a resource than any sprite can
+    /// hold.
     fn rules_that_never_fire(&self, problems: &mut Vec<Diagnostic>) {
         let lines = &self.game.description().interactions;
         for (number, line) in lines.iter().enumerate() {
@@ -71,8 +72,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Reports interactions that move back a sprite that never moves, if nothing else stops the avatar that walks into
-    /// it.
+    /// Reports interactions that move back a motionless sprite, if nothing else stops the avatar that walks
+    /// into it.
     fn swapped_barriers(&self, problems: &mut Vec<Diagnostic>) {
         let encounters = self.analysis.encounters();
         for (number, line) in self.game.description().interactions.iter().enumerate() {
@@ -152,7 +153,7 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns the types that can occur and to which a rule on `written` applies.
+    /// Returns the possible types to which a rule on `written` applies.
     fn tree(&self, written: SpriteType) -> Vec<SpriteType> {
         let types = self.game.sprite_types();
         types
@@ -160,7 +161,7 @@ impl Linter<'_> {
             .collect()
     }
 
-    /// Returns `true` if sprites of the type can be in cells in which no level places them.
+    /// Returns `true` if sprites of the type can reach cells in which no level places them.
     fn roams(&self, stype: SpriteType) -> bool {
         let facts = self.analysis.facts(stype);
         let info = &self.game.0.types[stype.index()];
@@ -193,7 +194,7 @@ impl Linter<'_> {
         }) || self.analysis.any_effect(gains)
     }
 
-    /// Reports sprites that take part in rules but are drawn under scenery that takes part in no rules.
+    /// Reports sprites that take part in rules but are drawn under scenery, which takes part in no rules.
     fn hidden_sprites(&self, problems: &mut Vec<Diagnostic>) {
         let rules = &self.game.0;
         let acts = |stype: SpriteType| {

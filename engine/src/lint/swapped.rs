@@ -19,15 +19,16 @@ pub struct SwappedRule {
     pub repaired: Vec<String>,
 }
 
-/// The maximum number of interactions in a game that is searched for a swapped rule. Each interaction
-/// requires two analyses.
+/// The maximum number of interactions in a game for the search for a swapped rule. Each interaction requires
+/// two analyses.
 const MAX_LINES: usize = 128;
-/// The maximum product of interactions and sprite types in a game that is searched for a swapped rule.
+/// The maximum product of the numbers of interactions and sprite types in a game for the search for a swapped
+/// rule.
 const MAX_TRIED: usize = 1 << 13;
 
-/// Returns the only interaction that makes the game winnable when its sides are swapped, while removing it
-/// does not. `wins` returns whether a game can be won. Returns `None` if there is no such interaction or more
-/// than one. Unusually large games are skipped. Cost: two compilations and two calls of `wins` per line.
+/// Returns the only interaction that makes the game winnable when its sides are swapped, but not when it is
+/// removed. `wins` returns whether a game can be won. Returns `None` if there is no such interaction or more
+/// than one. Skips unusually large games. Cost: two compilations and two calls of `wins` per line.
 pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<SwappedRule> {
     let description = game.description();
     let lines = &description.interactions;

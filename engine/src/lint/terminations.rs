@@ -1,4 +1,4 @@
-//! Lints for terminations that end a game too early, or never.
+//! Lints for terminations that end a game too early or never.
 
 use super::{Linter, swapped};
 use crate::analysis::{
@@ -14,7 +14,7 @@ use crate::rules::{Outcome, SpriteType};
 use crate::syntax::{Param, TerminationLine};
 use base::Seed;
 
-/// The number of seeds with which the first tick of a level is tried, in stochastic games.
+/// The number of seeds for which a level's first tick is tested, in stochastic games.
 const SEEDS: u64 = 4;
 
 /// Returns a warning about the termination that ends an episode of the level in its first tick.
@@ -100,7 +100,7 @@ pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
     }))
 }
 
-/// Returns the outcomes of the first tick of a level, with each action, and with several seeds if the game is
+/// Returns the outcomes of a level's first tick, with each action, and with several seeds if the game is
 /// stochastic.
 fn first_outcomes(game: &Game, level: &Level) -> Vec<Outcome> {
     let seeds = if game.is_deterministic() { 1 } else { SEEDS };
@@ -114,22 +114,22 @@ fn first_outcomes(game: &Game, level: &Level) -> Vec<Outcome> {
     outcomes
 }
 
-/// Returns the span of the `limit` of a termination, or of its class if it has no limit.
+/// Returns the span of a termination's `limit`, or of its class if the termination has no limit.
 fn limit_of(line: &TerminationLine) -> Span {
     let limit = line.params.iter().rfind(|param| param.key.text == "limit");
     limit.map_or(line.class.span, Param::span)
 }
 
-/// Returns `true` if a termination may lose a level in its first tick although no player changes its count: the
-/// termination holds while some of its sprites exist.
+/// Returns `true` if a termination may lose a level in its first tick although no player changes its count:
+/// the termination holds while some of its sprites exist.
 fn may_lose_from_start(goal: &Goal) -> bool {
     let some = matches!(goal.condition, Counted::AtMost(_, 1..) | Counted::Exactly(_, 1..));
     goal.can_lose() && some && goal.attainable == Attainable::FromStart
 }
 
 impl Linter<'_> {
-    /// Reports terminations that hold at the start or never hold, and games without any termination that can become
-    /// true.
+    /// Reports terminations that hold at the start or never hold, and games in which no termination can ever
+    /// hold.
     pub(super) fn terminations(&self, problems: &mut Vec<Diagnostic>) {
         let lines = &self.game.description().terminations;
         let all = &self.game.0.terminations;
@@ -175,7 +175,8 @@ impl Linter<'_> {
         }
     }
 
-    /// Reports that the rules cannot lead to a win, or to a loss, unless another warning already gives the reason.
+    /// Reports that the rules cannot lead to a win, or to a loss, unless another warning already gives the
+    /// reason.
     pub(super) fn unreachable_outcomes(&self, problems: &mut Vec<Diagnostic>) {
         if problems.iter().any(|problem| problem.code == "ends-at-once") {
             return;
@@ -225,7 +226,7 @@ impl Linter<'_> {
         problems.push(Diagnostic::warning(code, line.class.span, format!("{fault}: {reason}")).help(help));
     }
 
-    /// Returns an avatar type that levels place, and the first rule that removes it.
+    /// Returns an avatar type that levels can place, and the first rule that removes avatars of that type.
     fn deadly_rule(&self) -> Option<(String, String)> {
         let avatar = self.analysis.start_avatar()?.stype;
         let kills = |encounter: &&Encounter| {
@@ -318,8 +319,8 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if sprites counted as this type would be changed by a rule that never fires and has its
-    /// own warning.
+    /// Returns `true` if a rule that never fires, and that has its own warning, would change sprites counted
+    /// as this type.
     fn has_rules_that_never_fire(&self, written: SpriteType) -> bool {
         let counts = |side: SpriteType| self.analysis.applies(side, written);
         let mut encounters = self.analysis.encounters().iter().filter(|encounter| !encounter.blocks());
@@ -329,8 +330,8 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a level can place sprites counted as this type, or sprites that make them, directly or in
-    /// several steps.
+    /// Returns `true` if a level can place sprites counted as this type, or sprites that create such sprites,
+    /// directly or in several steps.
     fn at_start(&self, written: SpriteType) -> bool {
         let types: Vec<SpriteType> = self.game.sprite_types().collect();
         let mut there: Vec<bool> =

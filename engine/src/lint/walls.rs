@@ -8,7 +8,7 @@ use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::syntax::{InteractionLine, Word};
 
-/// The minimum side of a board whose outermost cells count as a border.
+/// The minimum side length of a board whose outermost cells count as a border.
 const LEAST_SIDE: usize = 4;
 
 impl Linter<'_> {
@@ -25,7 +25,7 @@ impl Linter<'_> {
 }
 
 /// Returns a warning about the type that surrounds a level and does not stop the avatar. Types named like
-/// walls are left out, because the game has a warning about them.
+/// walls are skipped, because the game already has a warning about them.
 pub(crate) fn open_border(game: &Game, level: &Level) -> Option<Diagnostic> {
     let (columns, rows) = (level.columns(), level.rows());
     if columns < LEAST_SIDE || rows < LEAST_SIDE {
@@ -46,9 +46,9 @@ pub(crate) fn open_border(game: &Game, level: &Level) -> Option<Diagnostic> {
     (!is_named(game, wall) && !is_ground(wall)).then(|| warning(game, wall, avatar, Span::new(0, 0)))
 }
 
-/// Returns an avatar type that a level can place, if the type `wall` is Immovable and open to avatars. The
-/// type is open if no rule involves an avatar together with `wall`, or with a type that some character places
-/// together with `wall`.
+/// Returns an avatar type that a level can place, if the type `wall` is Immovable and does not stop avatars.
+/// The type stops no avatar if no rule involves an avatar together with `wall`, or with a type that some
+/// character places together with `wall`.
 fn open_to(game: &Game, wall: SpriteType) -> Option<SpriteType> {
     let info = &game.0.types[wall.index()];
     let is_avatar = |stype: SpriteType| game.class(stype).is_some_and(SpriteClass::is_avatar);

@@ -1,12 +1,12 @@
 //! The intended meaning of foreign words.
 
-/// The intended meaning of some words.
+/// The intended meaning of certain foreign words.
 #[derive(Debug)]
 pub(crate) struct Meaning {
-    /// The words, in lower case, with letters and digits only.
+    /// The foreign words, in lower case, with letters and digits only.
     pub(super) words: &'static str,
-    /// The VGDL words to write instead, of which the first word that fits is used. Empty if the line has to
-    /// be rewritten.
+    /// The VGDL words to write instead. The first suitable word is used. Empty if the line has to be
+    /// rewritten.
     pub(crate) write: &'static [&'static str],
     /// The advice. Empty if the replacement needs no explanation.
     pub(crate) advice: &'static str,

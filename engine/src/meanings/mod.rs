@@ -1,6 +1,6 @@
 //! Words that do not exist in VGDL, but that people, language models and other dialects use. Each word comes
-//! with the VGDL words for its intended meaning. A similar spelling may mean the opposite, so this table
-//! takes precedence over spelling.
+//! with the VGDL words for its intended meaning. A similarly spelt word may have the opposite meaning, so
+//! this table takes precedence over spelling.
 
 mod meaning;
 mod nouns;
@@ -14,30 +14,30 @@ use nouns::{CLASSES, GAMES, SECTIONS, TERMINATIONS};
 use parameters::{EFFECT_PARAMETERS, GAME_PARAMETERS, SPRITE_PARAMETERS, TERMINATION_PARAMETERS};
 use verbs::EFFECTS;
 
-/// The position in which an unknown word occurs.
+/// The syntactic position of an unknown word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// The first word of the file.
     Game,
     /// A parameter of the first line.
     GameParameter,
-    /// The name of a section.
+    /// A section name.
     Section,
-    /// The class of a sprite.
+    /// A sprite's class.
     Class,
-    /// A parameter of a sprite.
+    /// A sprite's parameter.
     SpriteParameter,
-    /// The effect of an interaction.
+    /// An interaction's effect.
     Effect,
-    /// A parameter of an interaction.
+    /// An interaction's parameter.
     EffectParameter,
-    /// The class of a termination.
+    /// A termination's class.
     Termination,
-    /// A parameter of a termination.
+    /// A termination's parameter.
     TerminationParameter,
 }
 
-/// Returns the meaning of a word in a position, ignoring case and separators.
+/// Returns the meaning of a word at a syntactic position, ignoring case and separators.
 pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain: String =
         word.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect();
@@ -48,8 +48,8 @@ pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     table(place).iter().find(|known| known.words.split(' ').any(|word| word == plain))
 }
 
-/// Returns the meaning of a word that differs by one letter from a word in the table, or of any other word for an
-/// avatar.
+/// Returns the meaning of a word that differs by one letter from a word in the table, or the meaning of any
+/// other word for an avatar.
 pub(crate) fn near_meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain = word.to_lowercase();
     if plain.len() > MAX_NAME {
@@ -74,7 +74,7 @@ fn table(place: Place) -> &'static [Meaning] {
     }
 }
 
-/// The meanings for any other avatar class.
+/// The meanings of all other avatar classes.
 const AVATAR: &[Meaning] = &[means(
     "",
     &[],

@@ -1,5 +1,5 @@
-//! The random number generator of games: the 48-bit linear congruential generator of the reference's VGDL
-//! games (`spec/01` §7.1). The algorithm is the published algorithm of `java.util.Random`.
+//! The random number generator for games: the 48-bit linear congruential generator that the reference
+//! uses in VGDL games (`spec/01` §7.1). The algorithm is the published algorithm of `java.util.Random`.
 
 use crate::flat::bytes_of_wrapper;
 use base::Seed;
@@ -21,7 +21,7 @@ impl Chance {
         Chance::from_java(seed.number("infinite-arcade 1 chance"))
     }
 
-    /// Creates the generator that the reference makes from a seed recorded in a trace.
+    /// Creates the generator that the reference creates from a seed recorded in a trace.
     pub fn from_java(seed: i64) -> Chance {
         Chance((seed as u64 ^ MULTIPLIER) & MASK)
     }
@@ -31,13 +31,13 @@ impl Chance {
         self.0
     }
 
-    /// Makes one draw of at most 31 bits.
+    /// Draws up to 31 bits.
     pub(crate) fn next(&mut self, bits: u32) -> i32 {
         self.0 = self.0.wrapping_mul(MULTIPLIER).wrapping_add(0xB) & MASK;
         (self.0 >> (48 - bits)) as i32
     }
 
-    /// Returns a uniform number in `0..bound`. Powers of two take one draw, and other bounds seldom take
+    /// Returns a uniform number in `0..bound`. Powers of two need one draw, and other bounds seldom need
     /// more.
     pub fn below(&mut self, bound: i32) -> i32 {
         debug_assert!(bound > 0, "a choice needs at least one option");
@@ -55,12 +55,12 @@ impl Chance {
         }
     }
 
-    /// Returns a uniform number in [0, 1) with 24 bits. Takes one draw.
+    /// Returns a uniform number in [0, 1) with 24 bits, using one draw.
     pub fn float(&mut self) -> f32 {
         self.next(DRAW) as f32 / (1 << DRAW) as f32
     }
 
-    /// Returns a uniform number in [0, 1) with 53 bits. Takes two draws.
+    /// Returns a uniform number in [0, 1) with 53 bits, using two draws.
     pub fn double(&mut self) -> f64 {
         let high = i64::from(self.next(26)) << 27;
         let low = i64::from(self.next(27));

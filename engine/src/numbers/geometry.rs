@@ -64,7 +64,7 @@ bytes_of_fields! { Direction { x y } }
 impl Direction {
     /// No direction.
     pub const NONE: Direction = Direction { x: 0.0, y: 0.0 };
-    /// The reference's marker for a direction that is not yet chosen.
+    /// The reference's marker for a direction that has not been chosen yet.
     pub const NIL: Direction = Direction { x: -1.0, y: -1.0 };
     /// The unit vector up.
     pub const UP: Direction = Direction { x: 0.0, y: -1.0 };
@@ -77,7 +77,7 @@ impl Direction {
     /// The four unit vectors, in the order of every random choice and every loop over directions.
     pub const BASE: [Direction; 4] = [Direction::UP, Direction::LEFT, Direction::DOWN, Direction::RIGHT];
 
-    /// Returns the direction with unit length. Zero stays zero.
+    /// Returns the direction as a unit vector. Zero stays zero.
     pub fn normalised(self) -> Direction {
         let length = (self.x * self.x + self.y * self.y).sqrt();
         if length == 0.0 { Direction::NONE } else { Direction { x: self.x / length, y: self.y / length } }

@@ -10,7 +10,7 @@ use crate::rules::{Outcome, SpriteType};
 use crate::state::State;
 use crate::world::{Sprite, flag};
 
-/// An observation: the part of a state that players may see.
+/// An observation: the part of a state that is visible to players.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
     /// The number of ticks played.
@@ -28,9 +28,9 @@ pub struct Observation {
     pub cells: Vec<Vec<String>>,
     /// The resources that the avatar holds, as names and amounts, sorted by name.
     pub resources: Vec<(String, i32)>,
-    /// The player's avatar, whatever its type is called, or `None` once it is gone.
+    /// The player's avatar, regardless of its type's name, or `None` once the avatar is gone.
     pub avatar: Option<AvatarView>,
-    /// The visible sprites that move in a direction of their own, other than avatars, in drawing order.
+    /// The visible sprites that move in their own direction, except avatars, in drawing order.
     pub movers: Vec<MoverView>,
 }
 
@@ -52,8 +52,8 @@ pub struct MoverView {
 pub struct AvatarView {
     /// The name of the avatar's type, which may change as the avatar transforms.
     pub name: String,
-    /// The column of the cell that contains the avatar's centre, from 0 at the left. Out of range while the avatar is
-    /// off the board.
+    /// The column of the cell that contains the avatar's centre, from 0 at the left. The column is out of
+    /// range while the avatar is off the board.
     pub column: i32,
     /// The row of the cell that contains the avatar's centre, from 0 at the top.
     pub row: i32,
@@ -63,7 +63,7 @@ pub struct AvatarView {
     pub health: i32,
 }
 
-/// The properties of one sprite that a golden trace records.
+/// A sprite's properties as recorded in a golden trace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpriteRecord {
     /// The sprite's creation number.
@@ -78,10 +78,11 @@ pub struct SpriteRecord {
     pub speed: f64,
     /// The sprite's health points.
     pub health: i32,
-    /// The sum of the sprite's flags: 1 disabled, 2 avatar, 4 made by the avatar, 8 on the ground.
+    /// The sum of the sprite's flags: 1 for disabled, 2 for an avatar, 4 for created by the avatar, 8 for on
+    /// the ground.
     pub flags: u16,
-    /// The resources that the sprite holds, sorted by type. Each entry contains the type ([`u16::MAX`] if it
-    /// is undeclared) and the amount.
+    /// The resources that the sprite holds, sorted by type. Each entry contains the type ([`u16::MAX`] for an
+    /// undeclared type) and the amount.
     pub resources: Vec<(u16, i32)>,
     /// The sprite's rotation in radians.
     pub rotation: f64,
@@ -90,7 +91,7 @@ pub struct SpriteRecord {
 /// The event at the end of a countdown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// The sprite makes another sprite.
+    /// The sprite creates another sprite.
     Makes,
     /// The sprite vanishes.
     Ends,
@@ -105,18 +106,18 @@ pub struct Countdown {
     pub event: Event,
     /// The number of steps until the event, at least 1, or `None` if the event is random.
     pub ticks: Option<i32>,
-    /// The number of sprites that the sprite can still make, or `None` if there is no limit.
+    /// The number of sprites that the sprite can still create, or `None` for no limit.
     pub left: Option<i32>,
 }
 
 /// The categories that the reference passes to its planners (`spec/01` §9.5). The first category that applies is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Category {
-    /// A sprite that the player can control.
+    /// A sprite controllable by the player.
     Avatar,
     /// A sprite that can be held.
     Resource,
-    /// A door, a portal, or a sprite that is declared to be a portal.
+    /// A door, a portal, or a sprite declared as a portal.
     Portal,
     /// A character that decides its own moves.
     Npc,
@@ -127,8 +128,8 @@ pub enum Category {
 }
 
 impl Game {
-    /// Returns the category of a type's sprites. If that category is [`Category::Static`] or
-    /// [`Category::Movable`], sprites that an avatar has made have a different category.
+    /// Returns the category for a type's sprites. If that category is [`Category::Static`] or
+    /// [`Category::Movable`], sprites created by an avatar have a different category.
     pub fn category(&self, stype: SpriteType) -> Category {
         let info = &self.0.types[stype.index()];
         match &info.traits {
@@ -141,13 +142,13 @@ impl Game {
         }
     }
 
-    /// Returns `true` if observations leave out sprites of the type.
+    /// Returns `true` if observations omit sprites of the type.
     pub fn is_hidden(&self, stype: SpriteType) -> bool {
         self.0.types[stype.index()].traits.hidden
     }
 
-    /// Returns the observation of a state. Only the first [`MAX_SEEN`] names are included, a limit that matters only
-    /// for boards full of giant sprites. Cost: O(sprites + cells).
+    /// Returns the observation of a state. Only the first [`MAX_SEEN`] names are included. This limit matters
+    /// only for boards full of giant sprites. Cost: O(sprites + cells).
     pub fn observe(&self, state: &State) -> Observation {
         let (columns, rows) = (state.world.columns() as usize, state.world.rows() as usize);
         let mut cells = vec![Vec::new(); columns * rows];
@@ -247,8 +248,8 @@ impl Game {
         records
     }
 
-    /// Returns the countdowns of sprites that make other sprites or vanish by themselves, sorted by type,
-    /// then in order of creation. Cost: O(sprites that count down).
+    /// Returns the countdowns of sprites that create other sprites or vanish by themselves, sorted by type,
+    /// then in order of creation. Cost: O(sprites with countdowns).
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         use SpriteClass as C;
         let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
@@ -285,18 +286,18 @@ impl Game {
         counting.flat_map(|stype| state.world.sprites_of(stype).map(countdown)).collect()
     }
 
-    /// Returns the colour (red, green and blue) that the SpriteSet gives to a type or one of its parents, or
-    /// `None` if it gives no colour.
+    /// Returns the colour (red, green and blue) that the SpriteSet sets for a type or one of its parents, or
+    /// `None` if no colour is set.
     pub fn color(&self, stype: SpriteType) -> Option<[u8; 3]> {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
     }
 
-    /// Returns the types that have at least one sprite, in registry order. Cost: O(types).
+    /// Returns the types with at least one sprite, in registry order. Cost: O(types).
     pub fn present_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         self.sprite_types().filter(|&stype| state.world.group(stype).count > 0)
     }
 
-    /// Returns the types that sprites hold as resources. A type appears once per holder.
+    /// Returns the types held by sprites as resources. A type appears once per holder.
     pub fn held_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         let held = state.world.held().iter().filter(|held| held.amount != 0).map(|held| held.resource);
         held.filter(|&stype| stype != SpriteType::NONE)
@@ -329,7 +330,7 @@ impl State {
         self.world.sprites_of(stype).map(|sprite| (sprite.rect, self.world.overrides_of(&sprite).orientation))
     }
 
-    /// Returns the number of a type's sprites, without disabled avatars. Cost: O(1).
+    /// Returns the number of a type's sprites, excluding disabled avatars. Cost: O(1).
     pub fn alive(&self, stype: SpriteType) -> usize {
         let group = self.world.group(stype);
         usize::from(group.count - group.disabled)

@@ -1,5 +1,5 @@
-//! Observations for learning agents: boards as planes of bytes, one plane per sprite type, updated from tick
-//! to tick.
+//! Observations for learning agents: boards as byte planes, one plane per sprite type, updated from tick to
+//! tick.
 
 use crate::game::Game;
 use crate::numbers::geometry::Rect;
@@ -12,13 +12,13 @@ const TRACKED: usize = 64;
 /// The number of changes after which [`Planes::update`] settles the running hash, which empties the list of changes.
 const MANY_CHANGES: usize = 24;
 
-/// The [`Drawn`] entry of a slot that is on no plane.
+/// The [`Drawn`] entry for a slot that is on no plane.
 const NOWHERE: u32 = u32::MAX;
-/// The cell of a sprite that does not cover exactly one cell, or is partly off the board. Such a sprite always counts
-/// as changed.
+/// The cell value for a sprite that does not cover exactly one cell, or is partly off the board. Such a
+/// sprite always counts as changed.
 const SPREAD: u32 = 0xFFFF;
 
-/// The planes of a game's boards of one size: one plane per shown sprite type, in order.
+/// The planes for a game's boards of a given size: one plane per shown sprite type, in order.
 ///
 /// A plane is `[rows][columns]`, row-major. A cell is 1 if a sprite of the plane's type overlaps it, else 0. The planes
 /// are contiguous.
@@ -27,13 +27,14 @@ pub struct Planes {
     columns: usize,
     rows: usize,
     types: Vec<SpriteType>,
-    /// The plane of each type, or [`Planes::NO_PLANE`].
+    /// For each type, the index of its plane, or [`Planes::NO_PLANE`].
     plane_of: Vec<u16>,
-    /// The planes of types whose sprites move without an entry in the list of changes.
+    /// The planes of types whose sprites can move without being recorded in the list of changes, as a bit
+    /// set.
     unnoted: u64,
 }
 
-/// The sprites of a board as they were drawn last, by slot.
+/// A board's sprites as last drawn, by slot.
 #[derive(Clone, Debug, Default)]
 pub struct Drawn(Vec<u32>);
 
@@ -59,12 +60,12 @@ impl Planes {
         Planes { columns, rows, types, plane_of, unnoted }
     }
 
-    /// Returns the types, in the order of their planes.
+    /// Returns the types in the order of their planes.
     pub fn types(&self) -> &[SpriteType] {
         &self.types
     }
 
-    /// Returns the size of all planes together, in bytes.
+    /// Returns the total size of all planes in bytes.
     pub fn size(&self) -> usize {
         self.types.len() * self.columns * self.rows
     }
@@ -193,7 +194,7 @@ impl Planes {
     }
 }
 
-/// Returns the bit of a plane, or 0 for planes that are not tracked.
+/// Returns a plane's bit, or 0 for untracked planes.
 fn bit(plane: usize) -> u64 {
     1u64.checked_shl(plane as u32).unwrap_or(0)
 }

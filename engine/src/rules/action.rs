@@ -1,11 +1,11 @@
-//! The actions of players.
+//! The actions available to players.
 
 use std::fmt;
 
 base::named_enum! {
     /// A player's action in one tick.
     pub enum Action {
-        /// No key: the player does nothing.
+        /// No key is pressed: the player does nothing.
         Nil = "nil",
         /// The up key.
         Up = "up",
@@ -21,7 +21,7 @@ base::named_enum! {
 }
 
 impl Action {
-    /// Parses the reference's spelling, such as `ACTION_LEFT`, which traces use.
+    /// Parses the reference's spelling as used in traces, such as `ACTION_LEFT`.
     pub fn from_reference(name: &str) -> Option<Action> {
         let name = name.strip_prefix("ACTION_")?;
         Action::ALL.into_iter().find(|action| action.name().eq_ignore_ascii_case(name))

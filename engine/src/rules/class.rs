@@ -3,23 +3,24 @@
 use crate::rules::Action;
 
 base::named_enum! {
-    /// The behaviour of a class: what its sprites do by themselves.
+    /// A class's behaviour: what its sprites do by themselves.
     pub enum ClassFamily {
-        /// Sprites that do nothing by themselves: they lie about, are pushed, lead somewhere or carry other sprites.
+        /// Sprites that do nothing by themselves: they can be collected, be pushed, lead to other sprites or
+        /// carry other sprites.
         Thing = "thing",
         /// Sprites that do nothing by themselves and can be held.
         Resource = "resource",
         /// Sprites that disappear after a while, or spread.
         Flicker = "flicker",
-        /// Sprites that fly straight ahead.
+        /// Sprites that move straight ahead.
         Missile = "missile",
         /// Sprites that wander, chase or flee.
         Npc = "npc",
         /// Sprites that walk and fall.
         Walker = "walker",
-        /// Sprites that make other sprites.
+        /// Sprites that create other sprites.
         Producer = "producer",
-        /// Sprites that the player controls.
+        /// Sprites controlled by the player.
         Avatar = "avatar",
     }
 }
@@ -37,17 +38,17 @@ macro_rules! classes {
             /// All classes that the engine supports.
             pub const ALL: &[SpriteClass] = &[$(SpriteClass::$name),*];
 
-            /// Returns the name of the class in VGDL.
+            /// Returns the class's name in VGDL.
             pub fn name(self) -> &'static str {
                 match self { $(SpriteClass::$name => stringify!($name)),* }
             }
 
-            /// Returns the class that this class extends. A root class returns itself.
+            /// Returns the parent class. A root class returns itself.
             fn parent(self) -> SpriteClass {
                 match self { $(SpriteClass::$name => SpriteClass::$parent),* }
             }
 
-            /// Returns the family of the class. Code that treats some classes specially decides by family for all
+            /// Returns the class's family. Code that treats some classes specially decides by family for all
             /// others, so that every class is covered.
             pub fn family(self) -> ClassFamily {
                 match self { $(SpriteClass::$name => ClassFamily::$family),* }
@@ -124,7 +125,7 @@ impl SpriteClass {
             || matches!(self, C::RandomMissile | C::Spreader | C::SpawnPointMultiSprite)
     }
 
-    /// Returns the class with this name. Case matters.
+    /// Returns the class with this name. The name is case-sensitive.
     pub fn from_name(name: &str) -> Option<SpriteClass> {
         SpriteClass::ALL.iter().copied().find(|class| class.name() == name)
     }
@@ -139,7 +140,7 @@ impl SpriteClass {
         self.is_a(SpriteClass::MovingAvatar)
     }
 
-    /// Returns `true` if sprites of the class make other sprites at regular intervals (`spec/02` §8).
+    /// Returns `true` if sprites of the class create other sprites at regular intervals (`spec/02` §8).
     pub(crate) fn is_spawner(self) -> bool {
         self.is_a(SpriteClass::SpawnPoint) || self == SpriteClass::SpawnPointMultiSprite
     }
@@ -149,14 +150,15 @@ impl SpriteClass {
         self.is_a(SpriteClass::PlatformerAvatar) || self.is_a(SpriteClass::Walker)
     }
 
-    /// Returns the parameters that this class has in addition to the base sprite's parameters, including
+    /// Returns the parameters that this class accepts in addition to the base sprite's parameters, including
     /// inherited parameters.
     pub fn parameters(self) -> Vec<&'static str> {
         let inherited = if self.parent() == self { Vec::new() } else { self.parent().parameters() };
         inherited.into_iter().chain(self.own_parameters().iter().copied()).collect()
     }
 
-    /// Returns the actions, apart from NIL, that a player may choose (`spec/01` §6.4), in the order of [`Action`].
+    /// Returns the actions that a player may choose (`spec/01` §6.4), except [`Action::Nil`], in the order of
+    /// [`Action`].
     pub fn actions(self) -> &'static [Action] {
         use Action::{Down, Left, Right, Up, Use};
         use ClassFamily as Family;

@@ -8,11 +8,11 @@ pub(crate) enum Constant {
     Direction(Direction),
     Int(i32),
     Color([u8; 3]),
-    /// A constant of a kind that no parameter accepts.
+    /// A constant whose kind no parameter accepts.
     Unusable,
 }
 
-/// Returns the constant with this name. Case matters.
+/// Returns the constant with this name. The name is case-sensitive.
 pub(crate) fn constant(name: &str) -> Option<Constant> {
     use Constant::{Color, Int};
     let bare = name.strip_prefix('D').filter(|rest| DIRECTIONS.iter().any(|(name, _)| name == rest));
@@ -47,7 +47,7 @@ const DIRECTIONS: &[(&str, Direction)] = &[
     ("NIL", Direction::NIL),
 ];
 
-/// Returns the names of the directions, for suggestions.
+/// Returns the direction names, for suggestions.
 pub(crate) fn direction_names() -> impl Iterator<Item = &'static str> {
     DIRECTIONS.iter().map(|(name, _)| *name)
 }

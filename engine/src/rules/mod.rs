@@ -1,5 +1,5 @@
-//! The compiled rules of a game: types, effects, passes and terminations, resolved from its text. Compiled
-//! rules are immutable.
+//! A game's compiled rules: types, effects, passes and terminations, resolved from its text. Compiled rules
+//! are immutable.
 
 mod action;
 pub(crate) mod class;
@@ -31,12 +31,12 @@ pub(crate) struct TypeInfo {
     /// The class, or `None` for a grouping node without a class.
     pub(crate) class: Option<SpriteClass>,
     pub(crate) traits: Traits,
-    /// The ancestors from the root down, followed by the type itself.
+    /// The ancestors, starting with the root, followed by the type itself.
     pub(crate) path: Box<[SpriteType]>,
-    /// The ancestors, the type itself and its descendants: the types that rules on this type apply to (`spec/01`
-    /// §1.6.3).
+    /// The ancestors, the type itself and its descendants: the types to which rules on this type apply
+    /// (`spec/01` §1.6.3).
     pub(crate) tree: Box<[SpriteType]>,
-    /// The position of every type in `tree`, or `NOT_IN_TREE`, indexed by type.
+    /// Each type's position in `tree`, or `NOT_IN_TREE`, indexed by type.
     pub(crate) rank: Box<[u16]>,
     /// The position in the update order, or `None` for types whose sprites are never updated.
     pub(crate) order: Option<u16>,
@@ -53,20 +53,20 @@ pub(crate) struct TypeInfo {
     /// The parameter that selects among the type's images, if the type has no images. The reference crashes
     /// on a level that places sprites of such a type.
     pub(crate) lacks_image: Option<Span>,
-    /// `true` if the type lacks a parameter without which the reference crashes when it makes a sprite of the
-    /// type.
+    /// `true` if the type lacks a parameter without which the reference crashes when it creates a sprite of
+    /// the type.
     pub(crate) incomplete: bool,
-    /// The number of messages that the reference logs when it makes the first sprite of the type. It logs one
-    /// message for each parameter that the class does not have.
+    /// The number of messages that the reference logs when it creates the first sprite of the type: one for
+    /// each parameter that the class does not accept.
     pub(crate) unknown_parameters: u32,
     /// `true` if sprites of the type detect the ground when rules test their overlaps.
     pub(crate) ground_aware: bool,
     /// `true` if the first sprite of the type differs from later sprites, which are copies. Copies have the
-    /// scaled size from the start, their unknown parameters are already reported, and they leave walls
+    /// scaled size from the start, their unknown parameters have already been reported, and they leave walls
     /// behind.
     pub(crate) first_differs: bool,
-    /// The actions that are available with this type as the avatar, without [`Action::Nil`]. If there are no
-    /// actions, contains only [`Action::Nil`].
+    /// The available actions with this type as the avatar, except [`Action::Nil`]. If there are no such
+    /// actions, the slice contains only [`Action::Nil`].
     pub(crate) actions: &'static [Action],
     /// The available actions as a bit mask.
     pub(crate) keys: u8,
@@ -90,25 +90,25 @@ impl TypeInfo {
     }
 
     /// Returns `true` if the search for the player's avatar, when a level starts, includes sprites of the
-    /// type. The search excludes parent types and the type that is drawn first (`spec/01` §4.2). `wall` and
-    /// `avatar` are always in the update order.
+    /// type. The search excludes parent types and the type drawn first (`spec/01` §4.2). `wall` and `avatar`
+    /// are always in the update order.
     pub(crate) fn is_sought(&self) -> bool {
         self.is_like_avatar() && self.order.is_some_and(|order| order > 0)
     }
 
-    /// Returns `true` if the tree contains a type twice, as it does for a type that is declared below itself (`spec/01`
+    /// Returns `true` if the tree contains a type twice, as for a type declared below itself (`spec/01`
     /// §1.6.3).
     pub(crate) fn repeats(&self) -> bool {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
     }
 
-    /// Returns the class and the position in the update order of sprites whose updates do something.
+    /// Returns the class and the update-order position of sprites whose updates have an effect.
     pub(crate) fn updated(&self) -> Option<(SpriteClass, i32)> {
         let class = self.class.filter(|_| !self.is_idle())?;
         Some((class, i32::from(self.order?)))
     }
 
-    /// Returns `true` if the updates of the type's sprites do nothing at all. Such updates cost nothing in a
+    /// Returns `true` if updates of the type's sprites never have an effect. Such updates cost nothing in a
     /// tick.
     pub(crate) fn is_idle(&self) -> bool {
         let (Some(class), traits) = (self.class, &self.traits) else { return true };
@@ -143,20 +143,20 @@ pub(crate) struct EffectInfo {
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
     /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if the value is not a number. Such a value
-    /// counts as 0, and the reference logs a message each time.
+    /// counts as 0, and the reference logs a message at each use.
     pub(crate) score_faults: [bool; 2],
-    /// The changes that an execution makes to the game's counters, if any.
+    /// The changes to the game's counters by an execution, if any.
     pub(crate) counting: Option<Box<Counting>>,
     /// `true` if the effect runs once on all partners of a sprite together.
     pub(crate) in_batch: bool,
-    /// `true` if the line also runs as a timed effect. The line's score and counters then apply whatever the
-    /// effect decides at run time.
+    /// `true` if the line also runs as a timed effect. The line's score and counters then apply regardless of
+    /// the effect's result at run time.
     pub(crate) steady: bool,
-    /// The index of the line in the description.
+    /// The line's index in the description.
     pub(crate) line: usize,
 }
 
-/// The memory that an effect keeps between executions (`spec/03` §13), as the bits of one byte per effect.
+/// The memory that an effect keeps between executions (`spec/03` §13), as bits in one byte per effect.
 pub(crate) mod memory {
     /// The score changes when the effect runs. Many effects set this bit at run time.
     pub(crate) const APPLY_SCORE: u8 = 1;
@@ -168,9 +168,9 @@ pub(crate) mod memory {
     pub(crate) const NO_COUNT_ELSE: u8 = 8;
 }
 
-/// `counter` and `counterElse` of a line (`spec/03` §3), with one amount per counter of the game. `None`
-/// stands for a text that is not a number. Such a text counts as 0, and the reference logs a message each
-/// time.
+/// The values of `counter` and `counterElse` on a line (`spec/03` §3), with one amount per counter in the
+/// game. `None` stands for a text that is not a number. Such a text counts as 0, and the reference logs a
+/// message at each use.
 #[derive(Clone, Debug)]
 pub(crate) struct Counting {
     pub(crate) count: bool,
@@ -180,7 +180,7 @@ pub(crate) struct Counting {
 }
 
 impl EffectInfo {
-    /// Returns the entry of an effect alone, without a score, counters or a line of its own.
+    /// Returns the entry for a standalone effect, without a score, counters or a line of its own.
     pub(crate) fn of(effect: Effect) -> EffectInfo {
         let summary = effect.summary();
         EffectInfo {
@@ -197,7 +197,7 @@ impl EffectInfo {
         }
     }
 
-    /// Returns the initial [`memory`] of the effect.
+    /// Returns the effect's initial [`memory`].
     pub(crate) fn initial_memory(&self) -> u8 {
         let off = |counts: fn(&Counting) -> bool| self.counting.as_deref().is_some_and(|c| !counts(c));
         let bits = [
@@ -209,17 +209,17 @@ impl EffectInfo {
     }
 }
 
-/// A timed effect, written with TIME or scheduled by addTimer (`spec/03` §6).
+/// A timed effect, either written with TIME or scheduled by addTimer (`spec/03` §6).
 #[derive(Clone, Debug)]
 pub(crate) struct Timed {
     /// The effect, with its own memory.
     pub(crate) effect: u16,
-    /// The type of the sprites on which the effect runs, or `None` if it runs once, on no sprite.
+    /// The type of the sprites on which the effect runs, or `None` if the effect runs once, on no sprite.
     pub(crate) target: Option<SpriteType>,
-    /// The number of ticks from scheduling to running.
+    /// The number of ticks between scheduling and execution.
     pub(crate) timer: i32,
     pub(crate) repeating: bool,
-    /// The tick of the first run, or `None` if addTimer schedules the effect.
+    /// The tick of the first execution, or `None` if addTimer schedules the effect.
     pub(crate) first_due: Option<i32>,
     /// The effect whose line sets the score change: either this effect or the addTimer.
     pub(crate) wrapper: u16,
@@ -234,26 +234,26 @@ pub(crate) struct Pass {
     pub(crate) first: SpriteType,
     pub(crate) second: SpriteType,
     pub(crate) effect: u16,
-    /// The number of the effect's keyword, for shields.
+    /// The keyword index of the effect, for matching shields.
     pub(crate) keyword: u16,
-    /// `true` if the second tree contains a type twice, so that its sprites are met twice.
+    /// `true` if the second tree contains a type twice, so that its sprites are visited twice.
     pub(crate) repeats: bool,
-    /// `true` if hits can be searched for from the second side, because executing the effect moves nothing that a later
-    /// hit depends on.
+    /// `true` if the search for hits can start from the second side, because executing the effect moves
+    /// nothing on which a later hit depends.
     pub(crate) either_side: bool,
 }
 
-/// The non-ASCII characters of a LevelMapping. The reference looks up UTF-16 code units. Each mapped non-ASCII unit
-/// gets an ASCII code that stands for nothing else in the game, so that the cells of levels are ASCII codes in every
-/// game.
+/// The non-ASCII characters in a LevelMapping. The reference looks up UTF-16 code units. Each mapped
+/// non-ASCII unit gets an ASCII code that is otherwise unused in the game, so that level cells contain ASCII
+/// codes in every game.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Aliases(pub(crate) Vec<Alias>);
 
-/// A non-ASCII character and the code that stands for it.
+/// A non-ASCII character and the code that represents it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Alias {
     pub(crate) code: u8,
-    /// The first code unit of the character, by which the reference looks it up.
+    /// The character's first code unit, by which the reference looks it up.
     pub(crate) unit: u16,
     pub(crate) character: char,
 }
@@ -275,24 +275,24 @@ pub(crate) struct Rules {
     pub(crate) digest: Digest,
     /// The warnings about the text alone.
     pub(crate) warnings: Vec<Diagnostic>,
-    /// All warnings, including warnings about the meaning of the rules. The warnings are computed on first
-    /// use.
+    /// All warnings, including warnings about the rules' meaning. The warnings are computed on first use.
     pub(crate) all_warnings: OnceLock<Vec<Diagnostic>>,
     /// `true` if the game was loaded in reference mode. The game's levels are then loaded in reference mode,
     /// too.
     pub(crate) as_reference: bool,
     /// The number of messages that the reference logs while it loads the rules.
     pub(crate) messages: u32,
-    /// The size of a cell in pixels, if the game sets it.
+    /// The cell size in pixels, if the game sets one.
     pub(crate) square_size: Option<i32>,
     /// The value of `no_counters=`.
     pub(crate) counters: usize,
-    /// `true` if counters can end the game, as the terminations set it with `canEnd=`.
+    /// `true` if counters can end the game, as set by `canEnd=` in the terminations.
     pub(crate) can_end: bool,
     pub(crate) types: Vec<TypeInfo>,
     /// The drawing order. Updates run in reverse drawing order.
     pub(crate) order: Vec<SpriteType>,
-    /// For each type, `true` if anything other than its own line, its parents' lines and the LevelMapping refers to it.
+    /// For each type, `true` if anything other than its own line, its parents' lines and the LevelMapping
+    /// refers to the type.
     pub(crate) referenced: Vec<bool>,
     /// For each type, `true` if its sprites are scenery (`scenery.rs`).
     pub(crate) scenery: Vec<bool>,
@@ -306,14 +306,15 @@ pub(crate) struct Rules {
     /// that uses such a character.
     pub(crate) unusable: BTreeSet<u8>,
     pub(crate) effects: Vec<EffectInfo>,
-    /// The passes at the edge of the screen, with repetitions expanded: the type and the effect.
+    /// The passes at the edge of the screen, with repetitions expanded. Each pass consists of the type and
+    /// the effect.
     pub(crate) edge: Vec<(SpriteType, u16)>,
-    /// `true` if one of the `edge` passes names an undeclared type, which makes the reference crash in the
-    /// first tick.
+    /// `true` if one of the `edge` passes refers to an undeclared type, which makes the reference crash in
+    /// the first tick.
     pub(crate) undeclared_at_edge: bool,
     pub(crate) passes: Vec<Pass>,
     pub(crate) timed: Vec<Timed>,
-    /// `true` if the game has `obs=`, and therefore path finding.
+    /// `true` if the game sets `obs=`, and therefore uses path finding.
     pub(crate) finds_paths: bool,
     /// The types that paths avoid, from `obs=`.
     pub(crate) obstacles: Vec<SpriteType>,
@@ -330,9 +331,9 @@ pub(crate) struct Rules {
     pub(crate) reads_score: bool,
     /// The size of the largest sprite in cells, rounded up.
     pub(crate) reach: i32,
-    /// The cooldowns of spawners. Spawners that are made later fire at ticks that are multiples of their cooldown.
+    /// The spawners' cooldowns. Spawners created later fire at ticks that are multiples of their cooldown.
     pub(crate) clocks: Vec<i32>,
-    /// The ticks before which wizards, including wizards made later, make no block.
+    /// The ticks before which wizards, including wizards created later, create no block.
     pub(crate) wizard_ticks: Vec<i32>,
     /// `true` if the first sprite of some type can differ from later sprites of the type.
     pub(crate) first_differs: bool,

@@ -1,9 +1,9 @@
-//! The outcomes of an episode.
+//! Episode outcomes.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The outcome of an episode.
+/// An episode's outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
@@ -13,42 +13,43 @@ pub enum Outcome {
     Won,
     /// The player has lost.
     Lost,
-    /// The episode is over without a winner, because there were too many messages (`spec/01` §4.9).
+    /// The episode is over without a winner, because the reference logged too many messages (`spec/01` §4.9).
     Ended,
     /// The rules did something on which the reference engine crashes, or a limit was exceeded.
     Stopped(Limit),
 }
 
-/// The reason why an episode was stopped.
+/// The reason for stopping an episode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Limit {
-    /// There were more sprites than a state can hold.
+    /// The number of sprites exceeded the limit for a state.
     Sprites,
-    /// One tick needed more work (effects, and examined sprites and cells) than [`MAX_WORK`](crate::limits::MAX_WORK).
+    /// The work in one tick (effects, and examined sprites and cells) exceeded
+    /// [`MAX_WORK`](crate::limits::MAX_WORK).
     Work,
-    /// A sprite was spawned of the type whose sprites were being updated, which makes the reference throw an
+    /// A sprite was spawned while sprites of its type were being updated, which makes the reference throw an
     /// exception.
     SpawnIntoUpdatedType,
     /// A score changed after the avatar was removed permanently, which makes the reference throw an
     /// exception.
     NoAvatar,
-    /// A sprite of height 0 moved. The reference divides by the height.
+    /// A sprite with height 0 moved. The reference divides by the height.
     FlatSprite,
     /// A path was requested in a game without `obs=`.
     NoPaths,
-    /// A rule tried to make or look up a sprite whose type is undeclared or has no class.
+    /// A rule tried to create or look up a sprite whose type is undeclared or has no class.
     NoType,
     /// An effect was executed without the sprites that it needs.
     NoSprite,
     /// A type turned into itself endlessly.
     EndlessTransform,
-    /// A sprite's parameters do not fit its class. The reference throws an exception when it makes the
-    /// sprite, or when it uses the parameters.
+    /// A sprite's parameters are unsuitable for its class. The reference throws an exception when it creates
+    /// the sprite, or when it uses the parameters.
     UnfitSprite,
-    /// More timers were pending than [`MAX_TIMERS`](crate::limits::MAX_TIMERS).
+    /// The number of pending timers exceeded [`MAX_TIMERS`](crate::limits::MAX_TIMERS).
     Timers,
-    /// Sprites held more resources than a state can hold.
+    /// The resources held by sprites exceeded the limit for a state.
     Resources,
 }
 

@@ -9,10 +9,10 @@ pub struct SpriteType(pub u16);
 bytes_of_wrapper! { SpriteType }
 
 impl SpriteType {
-    /// No type: the value of an undeclared name in games loaded in reference mode.
+    /// No type: the value for an undeclared name in games loaded in reference mode.
     pub(crate) const NONE: SpriteType = SpriteType(u16::MAX);
 
-    /// Returns the index into tables with one entry per type.
+    /// Returns the type's index into tables with one entry per type.
     pub fn index(self) -> usize {
         usize::from(self.0)
     }

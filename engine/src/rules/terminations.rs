@@ -13,10 +13,10 @@ pub(crate) struct Termination {
     pub(crate) decided_by: Decision,
 }
 
-/// The rule by which a termination decides between win and loss (`spec/01` §4.8, with one player).
+/// How a termination decides between win and loss (`spec/01` §4.8, for one player).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Decision {
-    /// The `win` parameter of the line decides.
+    /// The line's `win` parameter decides.
     Line,
     /// `count_score`: any score other than 0 wins.
     Score,
@@ -28,30 +28,30 @@ pub(crate) enum Decision {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Condition {
-    /// Holds while at most `limit` sprites are left.
+    /// Holds while at most `limit` sprites exist.
     SpriteCounter { stype: SpriteType, limit: i32 },
-    /// Holds while there are at least `limit` sprites.
+    /// Holds while at least `limit` sprites exist.
     SpriteCounterMore { stype: SpriteType, limit: i32 },
     /// Holds while several types together have exactly `limit` sprites, or at least `limit` sprites if `min`
     /// is `true`.
     MultiSpriteCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
     /// Holds while a type has exactly `limit` sprites of exactly `kinds` distinct subtypes.
     MultiSpriteCounterSubTypes { stype: SpriteType, limit: i32, kinds: i32 },
-    /// Never holds, but keeps counters from ending the game while the sum equals the limit, or exceeds the
-    /// limit if `min` is `true`.
+    /// Never holds, but prevents counters from ending the game while the sum equals the limit, or exceeds
+    /// the limit if `min` is `true`.
     StopCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
     /// Holds from the tick `limit` on.
     Timeout { limit: i32 },
 }
 
-/// Returns `true` if anything can keep terminations that count sprites from ending the game while they hold.
+/// Returns `true` if anything can prevent sprite-counting terminations from ending the game while they hold.
 pub(crate) fn can_be_held_up(rules: &Rules) -> bool {
     !rules.can_end
         || rules.terminations.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. }))
 }
 
 impl Termination {
-    /// Returns the tick from which on the termination holds, if it depends on the tick.
+    /// Returns the first tick at which the termination holds, if it depends on the tick.
     pub(crate) fn timeout(&self) -> Option<i32> {
         match self.condition {
             Condition::Timeout { limit } => Some(limit),

@@ -1,4 +1,4 @@
-//! The traits of a sprite type: base fields, class defaults, parameters (`spec/02` §1, `spec/01` §3.1).
+//! A sprite type's traits: base fields, class defaults, parameters (`spec/02` §1, `spec/01` §3.1).
 
 use super::class::SpriteClass;
 use crate::numbers::geometry::Direction;
@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 base::with_defaults! {
     /// The values of a type's fields after class defaults and parameters: a sprite's initial values and its
-    /// constants. The defaults are the defaults of the base sprite.
+    /// constants. The defaults are those of the base sprite.
     #[derive(Clone, Debug)]
     pub(crate) struct Traits {
         pub(crate) speed: f64 = 0.0,
@@ -35,12 +35,12 @@ base::with_defaults! {
         pub(crate) last_move: i32 = 0,
         pub(crate) is_first_tick: bool = true,
         pub(crate) on_ground: bool = false,
-        /// `true` if the sprite has images for the four directions and for no other direction.
+        /// `true` if the sprite has images for exactly the four directions.
         pub(crate) oriented_image: bool = false,
         pub(crate) hidden: bool = false,
         pub(crate) invisible: bool = false,
         pub(crate) color: Option<[u8; 3]> = None,
-        /// The `limit` of Resource and Flicker.
+        /// The `limit` parameter of Resource and Flicker.
         pub(crate) limit: i32 = 0,
         pub(crate) value: i32 = 1,
         /// The type as which a Resource is collected.
@@ -58,7 +58,7 @@ base::with_defaults! {
         /// `true` for continuous physics, `false` for grid physics.
         pub(crate) continuous: bool = false,
         /// `true` unless the type is declared to have grid physics. An unknown kind of physics acts like grid
-        /// physics, but avatars have passive movement.
+        /// physics, but gives avatars passive movement.
         pub(crate) off_grid: bool = false,
         pub(crate) mass: f64 = 1.0,
         pub(crate) gravity: f64 = 0.0,
@@ -69,7 +69,7 @@ base::with_defaults! {
         /// The angle in radians per tick.
         pub(crate) angle_diff: f64 = 0.0,
         pub(crate) rotation: f64 = 0.0,
-        /// The direction of a CarAvatar: 0 forwards, 1 backwards.
+        /// The direction of a CarAvatar: 0 for forwards, 1 for backwards.
         pub(crate) facing: f64 = 0.0,
         /// The direction that a WizardAvatar faces, and the tick of its last block.
         pub(crate) facing_dir: Direction = Direction::RIGHT,
@@ -82,14 +82,15 @@ base::with_defaults! {
         pub(crate) epsilon: f64 = 0.0,
         pub(crate) random_target: bool = false,
         pub(crate) spawn_behind: Option<SpriteType> = None,
-        /// The types that sprites shoot, spawn, chase or lead to: `stype`, `stype1`, `stypes` or `stypeMissile`.
+        /// The types that sprites shoot, spawn, chase or lead to: `stype`, `stype1`, `stypes` or
+        /// `stypeMissile`.
         pub(crate) stypes: SmallVec<[SpriteType; 2]> = SmallVec::new(),
         /// The resources that shots cost: `ammo`.
         pub(crate) ammo: SmallVec<[SpriteType; 2]> = SmallVec::new(),
     }
 }
 
-/// The number of ticks between two blocks of a wizard.
+/// The number of ticks between two blocks created by a wizard.
 pub(crate) const BLOCK_PAUSE: i32 = 5;
 
 impl Traits {
@@ -98,15 +99,15 @@ impl Traits {
         self.continuous && self.gravity > 0.0 && self.mass > 0.0
     }
 
-    /// Returns the columns and rows of cells that a sprite of the type overlaps if it starts at the corner of
-    /// a cell. Both numbers are at least 1 and at most [`MAX_REACH`](crate::limits::MAX_REACH).
+    /// Returns the number of columns and rows that a sprite of the type overlaps if it starts at a cell's
+    /// corner. Both numbers are at least 1 and at most [`MAX_REACH`](crate::limits::MAX_REACH).
     pub(crate) fn span(&self) -> (usize, usize) {
         let cells = |factor: f64| (factor.ceil() as usize).max(1);
         (cells(self.width_factor), cells(self.height_factor))
     }
 
-    /// Returns the base defaults, overridden by the defaults of the class and its ancestors, from the root
-    /// down.
+    /// Returns the base defaults, overridden by the defaults of the class and its ancestors, starting with
+    /// the root.
     pub(crate) fn of_class(class: SpriteClass) -> Traits {
         let mut traits = Traits { is_avatar: class.is_avatar(), ..Traits::default() };
         traits.class_defaults(class);
@@ -231,7 +232,7 @@ impl Traits {
         }
     }
 
-    /// Completes the traits as the reference does after the parameters are set (`spec/01` §3.5).
+    /// Completes the traits as the reference does after setting the parameters (`spec/01` §3.5).
     pub(crate) fn settle(&mut self) {
         self.is_oriented |= self.orientation != Direction::NONE;
         if self.max_health == 0 {

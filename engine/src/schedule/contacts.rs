@@ -1,10 +1,10 @@
-//! The interactions that are currently possible. They are updated as sprites appear and disappear, so that a
-//! tick examines only rules whose two sides share a cell somewhere.
+//! The currently possible interactions, updated as sprites appear and disappear. A tick examines only rules
+//! whose two sides share a cell somewhere.
 //!
-//! Every type that takes part in a rule has a bit, and each cell of the board has the bits of the types in it
-//! (`occupancy.rs`). For each pair of bits with a rule, a counter stores the number of cells that contain
-//! both. Each pass of the event phase counts its pairs that share a cell anywhere, and a pass without any
-//! such pair is skipped.
+//! Every type that takes part in a rule has a bit, and each board cell has a mask with the bits of the types
+//! in the cell (`occupancy.rs`). For each pair of bits with a rule, a counter stores the number of cells that
+//! contain both. Each pass in the event phase counts its pairs that share a cell anywhere, and a pass without
+//! any such pair is skipped.
 //!
 //! A sprite larger than a cell is in the mask of only one cell, so a pass with such a sprite on either side
 //! also counts as possible. The cells that large sprites cover are stored separately.
@@ -13,27 +13,27 @@ use super::Schedule;
 use crate::rules::Rules;
 use crate::world::{Models, World, ones};
 
-/// The number that stands for no pair.
+/// The index that stands for no pair.
 const NO: u16 = u16::MAX;
 
-/// The fixed tables of one game.
+/// A game's constant tables.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contacts {
     bits: usize,
-    /// For each combination of two bits, the number of their pair.
+    /// For each pair of bits, the pair's index.
     pair: Vec<u16>,
-    /// For each pair, the passes that involve it.
+    /// For each pair, the passes that involve the pair.
     passes: Vec<Box<[u16]>>,
-    /// For each type, the passes that involve it.
+    /// For each type, the passes that involve the type.
     of_type: Vec<Box<[u16]>>,
     /// The number of passes.
     passes_in_all: usize,
-    /// The passes that are always possible: for some classes, testing the ground below has an effect in itself.
+    /// The always possible passes: for some classes, testing the ground below has an effect in itself.
     always: Vec<u16>,
 }
 
 impl Contacts {
-    /// Computes the tables. Cost: O(types² + passes × the largest trees).
+    /// Computes the tables. Cost: O(types² + passes × size of the largest trees).
     pub(crate) fn of(rules: &Rules, models: &Models) -> Contacts {
         let (types, bits) = (&rules.types, models.used_bits);
         let mut contacts = Contacts {
@@ -114,7 +114,8 @@ impl Schedule {
         }
     }
 
-    /// Returns `true` if any sprite with this bit may share a cell with a sprite with any of the bits `others`.
+    /// Returns `true` if any sprite with the bit `own` may share a cell with a sprite with any of the bits
+    /// `others`.
     #[inline]
     pub(crate) fn may_meet(&self, world: &World, own: u64, others: u64) -> bool {
         self.meets[own.trailing_zeros() as usize] & others != 0 || world.is_big(own | others)
@@ -134,7 +135,7 @@ impl Schedule {
         }
     }
 
-    /// Returns the first possible pass from `from` on.
+    /// Returns the first possible pass with an index of at least `from`.
     pub(crate) fn next_possible(&self, from: usize) -> Option<usize> {
         let mut word = from / 64;
         let mut bits = self.possible.get(word)? & (u64::MAX << (from % 64));

@@ -1,15 +1,16 @@
-//! Sprites in flight: sprites that move straight on as long as nothing happens to them.
+//! Sprites in flight: sprites that keep moving straight ahead as long as nothing happens to them.
 //!
 //! A car on a road moves two pixels in every tick, and each tick repeats the last tick. An invader moves in
-//! every third tick, and otherwise only draws whether to drop something. Such sprites are not updated. Their
-//! position and their hash contribution (`contribution.rs`) are extrapolated from an earlier position and the
-//! time since then. A sprite is recorded in other cells only when it is about to cover them. The rules that
-//! pair the sprite with other sprites in its cells are known all the time (`contacts.rs`), and overlap is
-//! tested with the extrapolated position. As soon as an effect is executed on the sprite, or can reach it,
-//! the sprite lands and becomes an ordinary sprite again.
+//! every third tick, and in the other ticks only draws a random number to decide whether to drop something.
+//! Such sprites are not updated. Their position and their hash contribution (`contribution.rs`) are
+//! extrapolated from an earlier position and the time since then. A sprite is recorded in a new cell only
+//! when it is about to cover that cell. The rules that pair the sprite with other sprites in its cells are
+//! always known (`contacts.rs`), and overlap is tested with the extrapolated position. As soon as an effect
+//! is executed on the sprite, or can reach it, the sprite lands and becomes an ordinary sprite again.
 //!
-//! Types may fly only if the result is the same (`spec/01` §4): their movement draws and counts nothing, and
-//! no other sprite looks for them. Producers that draw continue to draw, and land when they make something.
+//! Types may fly only if the result is the same (`spec/01` §4): their movement draws no random numbers and
+//! counts nothing, and no other sprite searches for them. Producers that draw random numbers continue to do
+//! so, and land when they create a sprite.
 
 use super::{Foresight, mark};
 use crate::flat::bytes_of_fields;
@@ -35,7 +36,7 @@ const FASTEST: i32 = 1 << 15;
 /// The maximum number of ticks between the moves of a sprite in flight.
 pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
-/// Returns the tick of the move after `moves` further moves.
+/// Returns the tick in which the sprite moves after `moves` further moves.
 fn due(sprite: &Sprite, moves: i32) -> i32 {
     let ticks = i32::from(sprite.period).saturating_mul(moves.saturating_add(1));
     sprite.moved_at.saturating_add(ticks)
@@ -60,8 +61,8 @@ impl Step<'_, Foresight<'_>> {
         self.world.enter_anew(self.models, slot, rect, &mut self.scheduler);
     }
 
-    /// Records sprites in flight that are due in their new cells, before the updates of a tick. This is a
-    /// little early for sprites whose update comes later, but nothing reads the cells before the event phase.
+    /// Records due sprites in flight in their new cells, before the updates of a tick. This is slightly early
+    /// for sprites whose update comes later, but nothing reads the cells before the event phase.
     #[inline]
     pub(crate) fn fly(&mut self) {
         if self.world.tick() >= self.scheduler.schedule.next_due {
@@ -120,7 +121,7 @@ impl Step<'_, Foresight<'_>> {
         self.land(slot, self.world.tick());
     }
 
-    /// Lands a sprite that is about to be updated in this tick.
+    /// Lands a sprite immediately before its update in this tick.
     #[inline(never)]
     pub(crate) fn land_before_update(&mut self, slot: Slot) {
         self.strike_flight(slot);
@@ -140,7 +141,7 @@ impl Step<'_, Foresight<'_>> {
         sprite.last_corner = (sprite.rect.x, sprite.rect.y);
     }
 
-    /// Lands all sprites in flight during the updates, when sprites that are yet to be updated are one tick behind.
+    /// Lands all sprites in flight during the updates, when sprites not yet updated are one tick behind.
     pub(super) fn land_midway(&mut self) {
         let mut flights = std::mem::take(&mut self.scheduler.schedule.flights);
         for flight in flights.drain(..) {
@@ -154,8 +155,8 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.next_due = i32::MAX;
     }
 
-    /// Starts a flight after a tick in which a sprite has only moved by itself. Returns `false` if the sprite cannot
-    /// fly.
+    /// Starts a sprite's flight after a tick in which the sprite has only moved by itself. Returns `false` if
+    /// the sprite cannot fly.
     pub(super) fn take_off(&mut self, slot: Slot) -> bool {
         let sprite = *self.world.sprite(slot);
         let (dx, dy) = (

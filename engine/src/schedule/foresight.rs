@@ -1,5 +1,5 @@
-//! The scheduler that skips work without effect. The table lists everything that a tick may skip, with the
-//! reason.
+//! A scheduler that skips work without effect. The table lists all skippable work, with the reason for
+//! skipping.
 //!
 //! | Skipped | Because | Where |
 //! |---|---|---|
@@ -12,9 +12,9 @@
 //! | updates of a sprite that the same rule moves back every time | nothing entered or left its cells; whatever does wakes it | `sleep.rs` |
 //!
 //! Nothing else is skipped. Unforeseeable events wake and land all sprites ([`Scheduler::unsettles`]):
-//! timers, effects on distant sprites, a tick that stops. Tests compare every tick with
+//! timers, effects on distant sprites, and a stopped tick. Tests compare every tick with
 //! [`Unscheduled`](crate::tick::Unscheduled), on all games and on random games.
-//! `docs/lab/decisions/0005-foreseen-sprites.md` gives the cost and the gain of each shortcut.
+//! `docs/lab/decisions/0005-foreseen-sprites.md` documents the cost and the gain of each shortcut.
 
 use super::{Plan, Schedule, updates};
 use crate::numbers::geometry::Rect;
@@ -35,8 +35,8 @@ pub(crate) struct Foresight<'a> {
 }
 
 impl<'a> Foresight<'a> {
-    /// Returns the scheduler of a step that starts with this world. No sprite sleeps without an avatar, because a rule
-    /// with a score would then stop the game.
+    /// Returns the scheduler for a step that starts with this world. Without an avatar, no sprite sleeps,
+    /// because a rule with a score would then stop the game.
     pub(crate) fn new(plan: &'a Plan, schedule: &'a mut Schedule, world: &World) -> Foresight<'a> {
         let sleeps = plan.any_sleep && world.has_avatar();
         Foresight { plan, schedule, sleeps, flies: plan.any_fly, any_moved: false }

@@ -32,22 +32,22 @@ flat! {
             together: u16,
             /// For each bit, the bits that share a cell with it anywhere.
             meets: u64,
-            /// For each pass, the number of reasons to examine it.
+            /// For each pass, the number of reasons to examine the pass.
             reasons: u16,
             /// The passes with at least one reason, as a bit set.
             possible: u64,
             /// The sleeping sprites (`sleep.rs`).
             sleepers: Sleeper,
-            /// For each cell, the number of sleeping sprites that watch the cell. Empty in games in which
+            /// For each cell, the number of sleeping sprites that watch the cell. Empty for games in which
             /// sprites cannot sleep.
             watched: u8,
-            /// For each cell, the tick of the last permanent change, or the tick up to which a sprite flies
-            /// there. Empty in games in which sprites cannot sleep.
+            /// For each cell, the tick of the last permanent change, or the tick until which a sprite flies
+            /// there. Empty for games in which sprites cannot sleep.
             stamps: i16,
             /// The sprites in flight (`flight.rs`).
             flights: Flight,
-            /// For each type, the number of sprites that are asleep or in flight. Empty in games in which
-            /// sprites can neither sleep nor fly.
+            /// For each type, the number of its sprites that are asleep or in flight. Empty for games in
+            /// which sprites can neither sleep nor fly.
             skipped: u16,
         }
         scratch {
@@ -58,14 +58,14 @@ flat! {
     }
 }
 
-/// The shortcuts of a game, derived from its rules.
+/// A game's shortcuts, derived from its rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
-    /// The types whose updates do something, in update order.
+    /// The types whose updates have an effect, in update order.
     movers: Vec<Mover>,
     /// The tables of possible passes, by the types that share cells.
     pub(crate) contacts: Contacts,
-    /// The shortcuts of each type.
+    /// Each type's shortcuts.
     pub(crate) shortcuts: Vec<Shortcuts>,
     /// `true` if sprites of some type may sleep.
     pub(crate) any_sleep: bool,
@@ -74,7 +74,7 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Derives the shortcuts of a game. Cost: O(types² + passes × the largest trees).
+    /// Derives a game's shortcuts. Cost: O(types² + passes × size of the largest trees).
     pub(crate) fn of(rules: &Rules, models: &Models) -> Plan {
         let shortcuts = shortcuts(&rules.types, &rules.passes, &rules.effects);
         Plan {
@@ -88,7 +88,7 @@ impl Plan {
 }
 
 impl Schedule {
-    /// Returns the schedule of a world in which no sprite sleeps or flies. Cost: O(sprites + cells).
+    /// Returns the schedule for a world in which no sprite sleeps or flies. Cost: O(sprites + cells).
     pub(crate) fn of(plan: &Plan, models: &Models, world: &mut World) -> Schedule {
         let mut schedule = Schedule::empty(plan, world);
         let mut foresight = Foresight::new(plan, &mut schedule, world);
@@ -96,14 +96,14 @@ impl Schedule {
         schedule
     }
 
-    /// Wakes and lands all sprites, between two steps.
+    /// Wakes and lands all sprites between two steps.
     pub(crate) fn suspend(step: &mut Step<'_, Foresight<'_>>) {
         step.scheduler.wake_all(step.world);
         step.land_all(step.world.tick());
         (0..step.world.slot_count() as Slot).for_each(|slot| *step.world.activity(slot) = mark::NOTHING);
     }
 
-    /// Returns the schedule of a world without sprites.
+    /// Returns the schedule for a world without sprites.
     pub(crate) fn empty(plan: &Plan, world: &World) -> Schedule {
         // Games without shortcuts do not pay for these tables.
         let cells = if plan.any_sleep { World::cell_count(world.columns(), world.rows()) } else { 0 };
@@ -125,7 +125,7 @@ impl Schedule {
         schedule
     }
 
-    /// Returns the number of sprites of a type that are asleep or in flight.
+    /// Returns the number of a type's sprites that are asleep or in flight.
     #[inline(always)]
     pub(crate) fn skipped_of(&self, stype: SpriteType) -> u16 {
         self.skipped.get(stype.index()).copied().unwrap_or(0)

@@ -1,4 +1,4 @@
-//! The passes of the event phase whose two sides share a cell somewhere, visited from the side with fewer sprites.
+//! The event-phase passes whose two sides share a cell somewhere, visited from the side with fewer sprites.
 
 use super::Foresight;
 use crate::rules::{Pass, SpriteType};
@@ -7,8 +7,8 @@ use crate::world::{Hit, Hits, NONE};
 use smallvec::SmallVec;
 
 impl Step<'_, Foresight<'_>> {
-    /// Returns `true` if the second side of a pass has fewer sprites, and the same hits can be found from
-    /// that side.
+    /// Returns `true` if the second side of a pass has fewer sprites, and a search from that side finds the
+    /// same hits.
     #[inline(always)]
     pub(super) fn is_second_side_smaller(&self, pass: &Pass) -> bool {
         let size = |side: SpriteType| {
@@ -22,7 +22,8 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Processes the same hits as [`Step::visit_first_side`] in the same order, but finds them from the second side.
+    /// Processes the same hits as [`Step::visit_first_side`] in the same order, but searches from the second
+    /// side.
     pub(super) fn visit_second_side(&mut self, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
         let (first, second) = (self.side(pass.first), self.side(pass.second));
         let mut pairs: SmallVec<[(Hit, Hit); 16]> = SmallVec::new();

@@ -1,10 +1,10 @@
-//! Recounts everything that a schedule maintains incrementally, for tests and fuzzing.
+//! Recounts all incrementally maintained parts of a schedule, for tests and fuzzing.
 
 use super::{Foresight, Plan, Schedule, mark};
 use crate::world::{Models, Slot, World, flag};
 
 impl Schedule {
-    /// Compares everything that is maintained incrementally with a count from scratch. Cost: O(sprites + cells).
+    /// Compares all incrementally maintained values with a count from scratch. Cost: O(sprites + cells).
     ///
     /// # Errors
     /// Returns a message that describes the first difference.

@@ -1,18 +1,18 @@
-//! Sleeping sprites: sprites that try to move in every tick, and are moved back by the same rule every time.
+//! Sleeping sprites: sprites that try to move in every tick, but are moved back by the same rule every time.
 //!
-//! A boulder on the ground falls a little, meets the dirt below and is moved back, tick after tick. As long
-//! as nothing enters or leaves the cells that it stands in and falls into, each tick repeats the last tick
-//! and changes nothing. Such a sprite is skipped. As soon as anything touches these cells, the sprite wakes.
-//! If its own movement in this tick is already past, but the rule that moves it back is not, the movement is
-//! made up for.
+//! A boulder on the ground falls a little, collides with the dirt below and is moved back in every tick. As
+//! long as nothing enters or leaves the cells of the boulder and the cells below, each tick repeats the last
+//! tick and changes nothing. Such a sprite is skipped. As soon as anything touches these cells, the sprite
+//! wakes. If the sprite's turn to move in this tick has already passed, but the rule that moves it back has
+//! not run yet, the movement is performed late.
 //!
 //! Sprites may sleep only if the result is the same (`spec/01` §4, `spec/03` §4). The conditions are:
 //!
-//! - The sprite's movement draws nothing, counts nothing and does not wait.
+//! - The sprite's movement draws no random numbers, counts nothing and does not wait.
 //! - The rule that moves the sprite back has no score.
 //! - Nothing else happens to the sprite in the tick.
 //! - No rule pairs the sprite with anything that it stands on.
-//! - Nothing looks for the sprite's type.
+//! - Nothing searches for the sprite's type.
 //!
 //! An effect that reaches distant sprites wakes all sleeping sprites.
 
@@ -27,16 +27,16 @@ use crate::tick::Step;
 use crate::tick::physics;
 use crate::world::{Slot, Sprite, World, flag};
 
-/// Values of [`Sprite::activity`]: what has happened to the sprite in this tick.
+/// Values of [`Sprite::activity`], which record the sprite's activity in this tick.
 pub(crate) mod mark {
-    /// The sprite has not moved by itself, or not in the way that sleeping sprites do.
+    /// The sprite has not moved by itself, or not in the manner of sleeping sprites.
     pub(crate) const NOTHING: u16 = 0;
     /// The sprite has moved by itself, and nothing else has happened.
     pub(crate) const MOVED: u16 = 0x7FFF;
     /// Something else has happened as well.
     pub(crate) const DISTURBED: u16 = 0x7FFE;
-    /// A bit that is set for sprites that are not updated. Without this bit, other values are one more than the pass
-    /// that moved the sprite back.
+    /// A bit set for sprites that are not updated. Without this bit, other values are one more than the index
+    /// of the pass that moved the sprite back.
     pub(crate) const SKIPPED: u16 = 0x8000;
 }
 
@@ -62,7 +62,7 @@ impl Sleeper {
     }
 }
 
-/// The shortcuts that sprites of a type may take.
+/// The shortcuts available to sprites of a type.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Shortcuts {
     /// `true` if sprites of the type may fly.
@@ -71,7 +71,7 @@ pub(crate) struct Shortcuts {
     pub(crate) sleeps: bool,
 }
 
-/// Returns the shortcuts of each type.
+/// Returns each type's shortcuts.
 pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectInfo]) -> Vec<Shortcuts> {
     use SpriteClass as C;
     let large = |factor: f64| factor.is_nan() || factor > LARGEST;
@@ -136,7 +136,7 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
 }
 
 impl Schedule {
-    /// Records that the cells of a sprite have changed, so that the sleeping sprites that watch them wake.
+    /// Records that a sprite's cells have changed, so that the sleeping sprites that watch these cells wake.
     #[inline(never)]
     fn touch(&mut self, world: &World, slot: Slot) {
         let Schedule { watched, touched, .. } = self;
@@ -168,7 +168,7 @@ impl Foresight<'_> {
 }
 
 impl Step<'_, Foresight<'_>> {
-    /// Records that the cells of a sprite have changed.
+    /// Records that a sprite's cells have changed.
     #[inline(always)]
     pub(crate) fn touch(&mut self, slot: Slot) {
         if !self.scheduler.schedule.sleepers.is_empty() {
@@ -176,13 +176,13 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Records a permanent change in the cells of a sprite.
+    /// Records a permanent change in a sprite's cells.
     pub(super) fn stamp(&mut self, slot: Slot) {
         let sprite = *self.world.sprite(slot);
         self.scheduler.schedule.stamp(self.world, &sprite, self.world.tick());
     }
 
-    /// Does the same as [`Step::relocate`], in a game in which sprites sleep.
+    /// Relocates a sprite like [`Step::relocate`], in a game in which sprites sleep.
     pub(super) fn relocate_noisily(&mut self, slot: Slot, rect: Rect) {
         let before = *self.world.sprite(slot);
         self.touch(slot);
@@ -197,7 +197,7 @@ impl Step<'_, Foresight<'_>> {
     }
 
     /// Returns `true` if a move is the sprite's own move, or the step back from that move. Both moves are
-    /// judged at the end of the tick.
+    /// evaluated at the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps
             && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))
@@ -239,8 +239,8 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Puts sprites to sleep or into flight after a tick. Sprites that were moved back to a position where nothing else
-    /// changed start to sleep, and sprites that will continue to move in the same way start to fly.
+    /// Puts sprites to sleep or into flight after a tick. Sprites that were moved back to a position where
+    /// nothing else changed start to sleep. Sprites that will continue to move in the same way start to fly.
     #[inline]
     pub(crate) fn sleep_or_fly(&mut self) {
         if self.scheduler.any_moved && self.stopped.is_none() {
@@ -270,7 +270,8 @@ impl Step<'_, Foresight<'_>> {
         self.world.shorten_moved();
     }
 
-    /// Records the moves that have not been undone. All other changes were recorded when they happened.
+    /// Records the moves that have not been undone. All other changes are recorded immediately when they
+    /// happen.
     fn stamp_moved(&mut self) {
         for at in 0..self.world.moved().len() {
             let slot = self.world.moved()[at];
@@ -326,7 +327,7 @@ impl Step<'_, Foresight<'_>> {
         found
     }
 
-    /// Wakes the sleeping sprites around the touched cells.
+    /// Wakes the sleeping sprites near the touched cells.
     #[inline]
     pub(crate) fn wake(&mut self) {
         if !self.scheduler.schedule.touched.is_empty() {
@@ -354,8 +355,8 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Wakes one sprite. Makes up for its movement in this tick if that movement is past and the rule that moves it
-    /// back is not.
+    /// Wakes one sprite. If the sprite's turn to move in this tick has passed, and the rule that moves it
+    /// back has not run yet, performs the movement late.
     fn wake_one(&mut self, sleeper: Sleeper) {
         let slot = sleeper.slot;
         for cell in sleeper.cells(self.world) {
@@ -378,7 +379,7 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Returns `true` if a sprite's own update in this tick is past.
+    /// Returns `true` if a sprite's own update in this tick has already run.
     pub(crate) fn has_moved(&self, slot: Slot) -> bool {
         let Sprite { id, stype, .. } = *self.world.sprite(slot);
         let order = self.rules.types[stype.index()].order.map_or(-1, i32::from);
@@ -409,7 +410,7 @@ impl Sleeper {
     }
 }
 
-/// Returns a tick as a stamp. Games end long before a stamp overflows.
+/// Converts a tick into a stamp. Games end long before a stamp overflows.
 fn stamp_of(tick: i32) -> i16 {
     tick.clamp(-1, i32::from(i16::MAX)) as i16
 }

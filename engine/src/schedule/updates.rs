@@ -1,4 +1,5 @@
-//! The updates of a tick that do something. Idle types, waiting sprites and producers that only draw are skipped.
+//! The updates in a tick that have an effect. Idle types, waiting sprites and producers that only draw random
+//! numbers are skipped.
 
 use super::sleep::{Shortcuts, mark};
 use super::{Foresight, Step};
@@ -9,8 +10,8 @@ use crate::rules::{Rules, SpriteType};
 use crate::tick::sprites::{self, npcs};
 use crate::world::{NONE, Slot, Sprite, World, flag};
 
-/// Returns `true` if [`sprites::base`] does nothing to a sprite in this tick, because the sprite does not move by
-/// itself, or its cooldown has not passed.
+/// Returns `true` if [`sprites::base`] has no effect on a sprite in this tick, because the sprite does not
+/// move by itself, or its cooldown has not passed.
 #[inline]
 fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     let stands =
@@ -26,7 +27,7 @@ fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     traits.cooldown > age && !sprite.is(flag::FIRST_TICK | flag::FROZEN) && !traits.continuous
 }
 
-/// A type whose sprites have updates that do something.
+/// A type whose sprites' updates have an effect.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mover {
     stype: SpriteType,
@@ -36,23 +37,23 @@ pub(crate) struct Mover {
     update_kind: UpdateKind,
     /// `true` if sprites of the type may fly or sleep.
     may_fly: bool,
-    /// For producers, the bound below which a draw makes something: see [`threshold`].
+    /// For producers, the bound below which a draw creates a sprite: see [`threshold`].
     threshold: i32,
 }
 
-/// The way in which a type's updates start.
+/// How a type's updates start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum UpdateKind {
-    /// The update makes a draw. If no sprite is made, only [`sprites::base`] follows.
+    /// The update makes a random draw. If no sprite is created, only [`sprites::base`] follows.
     Draws,
     /// The update consists of [`sprites::base`] alone.
     Moves,
-    /// The sprite drifts and chooses a direction. While it waits, it only chooses.
+    /// The sprite drifts and chooses a direction. While waiting, the sprite only chooses a direction.
     Chooses,
     Other,
 }
 
-/// Returns the kind of update of a type.
+/// Returns the kind of a type's updates.
 fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     use ClassFamily as Family;
     use SpriteClass as C;
@@ -69,7 +70,7 @@ fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     }
 }
 
-/// Returns the types whose updates do something, in update order.
+/// Returns the types whose updates have an effect, in update order.
 pub(super) fn movers(rules: &Rules, shortcuts: &[Shortcuts]) -> Vec<Mover> {
     let mover = |&stype: &SpriteType| {
         let info = &rules.types[stype.index()];
@@ -86,7 +87,7 @@ pub(super) fn movers(rules: &Rules, shortcuts: &[Shortcuts]) -> Vec<Mover> {
     rules.order.iter().rev().filter_map(mover).collect()
 }
 
-/// Returns the bound of a producer's draws, as a number of [`DRAW`] bits. Draws below this bound are below
+/// Returns the bound for a producer's draws, as a number of [`DRAW`] bits. Draws below this bound are below
 /// the producer's probability.
 fn threshold(prob: f64) -> i32 {
     // Scaling by a power of two is exact. No draw is at or above NaN.
@@ -94,8 +95,8 @@ fn threshold(prob: f64) -> i32 {
     if scaled.is_nan() { i32::MAX } else { scaled as i32 }
 }
 
-/// Skips SpawnPoints and Bombers, from `slot` on, that only draw in this tick, which is the most frequent
-/// case. Returns the first sprite that does more.
+/// Skips SpawnPoints and Bombers, starting at `slot`, that only make a draw in this tick (the most frequent
+/// case). Returns the first sprite that does more.
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = world.chance();
     while slot != NONE {
@@ -157,7 +158,7 @@ pub(super) fn update_all(step: &mut Step<'_, Foresight<'_>>) {
     }
 }
 
-/// Returns `true` if nothing of a sprite's update in this tick is left to do.
+/// Returns `true` if a sprite's update in this tick has no work left.
 #[inline(always)]
 fn is_done(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, traits: &Traits) -> bool {
     let sprite = step.world.own(slot);

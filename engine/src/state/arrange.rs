@@ -1,4 +1,4 @@
-//! States that are constructed instead of reached by playing.
+//! Construction of states without playing.
 
 use crate::game::Game;
 use crate::level::Level;
@@ -8,9 +8,9 @@ use crate::state::State;
 use base::Seed;
 
 impl Game {
-    /// Does the same as [`Game::start`], but the avatar faces `facing` and holds the resources `held`, in
-    /// addition to its initial resources. Players use this function to reconstruct a state from an
-    /// observation.
+    /// Starts an episode like [`Game::start`], but the avatar faces `facing` and holds the resources
+    /// `held`, in addition to its initial resources. Players use this function to reconstruct a state
+    /// from an observation.
     pub fn start_as(
         &self,
         level: &Level,

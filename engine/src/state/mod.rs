@@ -1,4 +1,4 @@
-//! The state of an episode: a world, and a schedule of the work that its next ticks may skip.
+//! An episode's state: a world, and a schedule of the work that its next ticks may skip.
 
 pub(crate) mod arrange;
 pub(crate) mod recount;
@@ -9,7 +9,7 @@ use crate::rules::{Outcome, SpriteType};
 use crate::schedule::Schedule;
 use crate::world::{StateHash, World, flag};
 
-/// The state of an episode.
+/// An episode's state.
 ///
 /// `clone` also copies the random number generator, so planners use [`State::fork`] instead. `clone_from`
 /// reuses buffers and does not allocate once the buffers have grown.
@@ -46,7 +46,7 @@ impl State {
         self.world.counters()
     }
 
-    /// Returns the outcome of the episode so far.
+    /// Returns the episode's outcome so far.
     pub fn outcome(&self) -> Outcome {
         self.world.outcome()
     }
@@ -61,7 +61,8 @@ impl State {
         self.world.chance()
     }
 
-    /// Copies the state with a different random future, for planners, which must not foresee random events.
+    /// Copies the state with a different random future. Planners use such copies because they must not
+    /// foresee random events.
     pub fn fork(&self, seed: base::Seed) -> State {
         let mut state = self.clone();
         state.world.reseed(Chance::from_seed(seed), Chance::from_seed(seed.child("jumps", 0)));
@@ -74,12 +75,12 @@ impl State {
         self.world.reseed(chance, chance);
     }
 
-    /// Returns the number of bytes that are copied when the state is copied.
+    /// Returns the number of bytes that a copy of the state copies.
     pub fn size_in_bytes(&self) -> usize {
         self.world.size_in_bytes() + self.schedule.size_in_bytes()
     }
 
-    /// Returns the size of a cell in pixels.
+    /// Returns the cell size in pixels.
     pub fn block(&self) -> i32 {
         self.world.block()
     }
@@ -95,7 +96,7 @@ impl State {
         (!sprite.is(flag::DISABLED)).then_some(sprite.stype)
     }
 
-    /// Returns the hash of everything that can influence the future. Cost: O(sprites changed since
+    /// Returns the hash of all data that can influence the future. Cost: O(sprites changed since
     /// [`State::settle_hash`]).
     pub fn state_hash(&self) -> StateHash {
         self.world.state_hash()

@@ -1,11 +1,11 @@
-//! Recounts everything that a state maintains incrementally, for tests and fuzzing.
+//! Recounts all incrementally maintained parts of a state, for tests and fuzzing.
 
 use crate::game::{Compiled, Game};
 use crate::state::State;
 
 impl State {
-    /// Compares everything that is maintained incrementally with a count from scratch. Returns the number of sprites of
-    /// each type. Cost: O(sprites + cells).
+    /// Compares all incrementally maintained values with a count from scratch. Returns the number of sprites
+    /// of each type. Cost: O(sprites + cells).
     ///
     /// # Errors
     /// Returns a message that describes the first difference.

@@ -1,4 +1,4 @@
-//! Keys of the live part of states, for planners' transposition tables.
+//! Keys for the live part of states, for planners' transposition tables.
 
 use crate::SpriteClass;
 use crate::analysis::StateAbstraction;
@@ -9,8 +9,8 @@ use crate::rules::{Rules, SpriteType, TypeInfo, memory};
 use crate::state::State;
 use crate::world::{Extra, Mixer, Replaced, SearchKey, Slot, Sprite, Target, World, bits, flag, two};
 
-/// The flags that a later step can read. The other flags follow from the type, or record where the sprite
-/// came from.
+/// The flags that a later step can read. The remaining flags follow from the type, or record the sprite's
+/// origin.
 const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
 
 const TAG: u64 = 0x4B65_7900;
@@ -19,7 +19,7 @@ const TAG: u64 = 0x4B65_7900;
 trait Absorb {
     fn pair(&mut self, a: u64, b: u64);
 
-    /// Absorbs the words of each slot in such a way that the order of the slots makes no difference.
+    /// Absorbs the words for each slot such that the order of the slots makes no difference.
     fn in_any_order(&mut self, slots: impl Iterator<Item = Slot>, words: impl Fn(Slot, &mut Self));
 }
 
@@ -59,17 +59,17 @@ impl Absorb for Vec<u64> {
 }
 
 impl State {
-    /// Returns a hash of the part of the state that can affect later steps. If two states of one game and
-    /// level have equal keys, they have equal keys, outcomes and score changes after the same actions. There
-    /// are three exceptions:
+    /// Returns a hash of the part of the state that can affect later steps. Two states in the same game and
+    /// level with equal keys have equal keys, outcomes and score changes after the same actions. There are
+    /// three exceptions:
     ///
-    /// - states near the reference's limit of ticks, which planners do not reach
-    /// - states near the engine's limit of work, which planners do not reach
-    /// - score changes by removeScore, because it removes the whole score
+    /// - states near the reference's tick limit, which planners do not reach
+    /// - states near the engine's work limit, which planners do not reach
+    /// - score changes by removeScore, which removes the whole score
     ///
-    /// The key leaves out the score, the counters and the tick, unless a termination reads them. Spawners
-    /// read only the remainder of the tick. The key also leaves out the random number generator, unless
-    /// something can draw, and memory that is never read again. Ages count up to the cooldown, timers are
+    /// The key omits the score, the counters and the tick, unless a termination reads their values. Spawners
+    /// read only the remainder of the tick. The key also omits the random number generator, unless random
+    /// draws are possible, and memory that is never read again. Ages count up to the cooldown, timers are
     /// relative to the tick, and sprites are identified by their order instead of their IDs. Cost:
     /// O(sprites).
     pub fn search_key(&self, game: &Game) -> SearchKey {
@@ -184,7 +184,7 @@ impl World {
         }
     }
 
-    /// Returns the age as the next update or event reads it. All ages beyond the cooldown are equivalent.
+    /// Returns the age as read by the next update or event. All ages beyond the cooldown are equivalent.
     fn live_age(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
         let age = if sprite.is(flag::FROZEN) {
             sprite.moved_at
@@ -195,8 +195,8 @@ impl World {
         if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) }
     }
 
-    /// Returns the phase of a spawner, which fires when the sum of its start and the tick is a multiple of the
-    /// cooldown.
+    /// Returns a spawner's phase. The spawner fires when the sum of its start and the tick is a multiple of
+    /// the cooldown.
     fn phase(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
         match self.overrides_of(sprite).start {
             // The first update will set the start.
@@ -230,8 +230,8 @@ impl World {
         to.pair(two(x, y), 0);
     }
 
-    /// Absorbs the memory that effects read before they write it. Also absorbs the types whose next sprite is
-    /// not their first sprite, if this makes a difference.
+    /// Absorbs the memory that effects read before they write it. Also absorbs the types whose first sprite
+    /// has already been created, if this makes a difference.
     fn remembered_words(&self, rules: &Rules, to: &mut impl Absorb) {
         let credits = memory::APPLY_SCORE | memory::NO_COUNT | memory::NO_COUNT_ELSE;
         for &effect in &rules.remembering {

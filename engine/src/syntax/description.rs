@@ -1,4 +1,4 @@
-//! The syntax tree of a game file, as written, before any name is resolved.
+//! A game file's syntax tree, as written, before any name is resolved.
 
 use crate::diagnostic::Span;
 use base::Sampler;
@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A word and its position.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Word {
-    /// The text of the word, as written.
+    /// The word's text, as written.
     pub text: String,
-    /// The position of the word. In trees built by generators, the default span.
+    /// The word's position. In trees built by generators, the default span.
     pub span: Span,
 }
 
@@ -46,7 +46,7 @@ impl Param {
     }
 }
 
-/// The comments that belong to a line. `arcade fmt` keeps comments, and digests ignore them.
+/// The comments attached to a line. `arcade fmt` keeps comments, and digests ignore them.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Trivia {
     /// The comment lines above the line, without the `#`.
@@ -60,9 +60,9 @@ pub struct Trivia {
 pub struct Header {
     /// The word `BasicGame` or `GameSpace`.
     pub class: Word,
-    /// The parameters of the game.
+    /// The game's parameters.
     pub params: Vec<Param>,
-    /// The comments of the line.
+    /// The line's comments.
     pub trivia: Trivia,
 }
 
@@ -77,7 +77,7 @@ pub struct SpriteLine {
     pub params: Vec<Param>,
     /// The sprite types that inherit from this type.
     pub children: Vec<SpriteLine>,
-    /// The comments of the line.
+    /// The line's comments.
     pub trivia: Trivia,
 }
 
@@ -88,24 +88,24 @@ pub struct MappingLine {
     pub symbol: char,
     /// The position of the character.
     pub span: Span,
-    /// The sprites placed, in order.
+    /// The placed sprites, in order.
     pub names: Vec<Word>,
-    /// The comments of the line.
+    /// The line's comments.
     pub trivia: Trivia,
 }
 
 /// An interaction line, `first second … > effect key=value …`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct InteractionLine {
-    /// The sprite that the effect acts on.
+    /// The sprite affected by the effect.
     pub first: Word,
-    /// The partners of the first sprite.
+    /// The first sprite's partners.
     pub second: Vec<Word>,
-    /// The keyword of the effect.
+    /// The effect's keyword.
     pub effect: Word,
-    /// The parameters of the effect.
+    /// The effect's parameters.
     pub params: Vec<Param>,
-    /// The comments of the line.
+    /// The line's comments.
     pub trivia: Trivia,
 }
 
@@ -114,20 +114,20 @@ pub struct InteractionLine {
 pub struct TerminationLine {
     /// The termination class.
     pub class: Word,
-    /// The parameters of the termination.
+    /// The termination's parameters.
     pub params: Vec<Param>,
-    /// The comments of the line.
+    /// The line's comments.
     pub trivia: Trivia,
 }
 
 /// A parameter line of a `GameSpace`, `NAME > values=min:step:max value=x`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct ParameterLine {
-    /// The name of the parameter, which other lines use as a value.
+    /// The parameter's name, which other lines use as a value.
     pub name: Word,
     /// The parameters `values`, `value` and `string`.
     pub params: Vec<Param>,
-    /// The comments of the line.
+    /// The line's comments.
     pub trivia: Trivia,
 }
 
@@ -144,24 +144,24 @@ pub struct Description {
     pub interactions: Vec<InteractionLine>,
     /// The lines of the TerminationSet.
     pub terminations: Vec<TerminationLine>,
-    /// For each section, in the order of [`Section::ALL`], `true` if the file has it.
+    /// For each section, in the order of [`Section::ALL`], `true` if the file contains the section.
     pub has: [bool; 4],
-    /// The comments of the lines with the section names, in the order of [`Section::ALL`], followed by the
-    /// comments of the ParameterSet's line.
+    /// The comments on the section name lines, in the order of [`Section::ALL`], followed by the comments on
+    /// the ParameterSet's line.
     pub section_trivia: [Trivia; 5],
     /// The comments below the last line.
     pub tail: Vec<String>,
-    /// The lines of the ParameterSet of a `GameSpace`.
+    /// The ParameterSet lines of a `GameSpace`.
     pub parameters: Vec<ParameterLine>,
-    /// The sections in file order, each with the number of its lines that the reference reads. The reference does not
-    /// see anything after a fault.
+    /// The sections in file order, each with the number of its lines that the reference reads. The reference
+    /// reads nothing after a fault.
     pub order: Vec<(Section, usize)>,
     /// The number of messages that the reference would have logged while reading the lines.
     pub messages: u32,
 }
 
 impl Description {
-    /// The names that have a meaning in the engine.
+    /// The names with a built-in meaning in the engine.
     pub const RESERVED_NAMES: [&str; 2] = ["wall", "avatar"];
 
     /// Returns every sprite line in pre-order, each with its depth.
@@ -177,7 +177,7 @@ impl Description {
         out
     }
 
-    /// Returns the names of the types that the file declares, without repetitions and without
+    /// Returns the names of the types that the file declares, without duplicates and without
     /// [`Description::RESERVED_NAMES`].
     pub fn own_names(&self) -> Vec<&str> {
         let mut seen = BTreeSet::from(Description::RESERVED_NAMES);

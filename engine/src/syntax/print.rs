@@ -9,7 +9,7 @@ pub fn print(description: &Description) -> String {
     Printer { out: String::new(), comments: true }.game(description)
 }
 
-/// Returns the canonical text without comments, which is the input of a game's digest.
+/// Returns the canonical text without comments: the input for a game's digest.
 pub fn print_bare(description: &Description) -> String {
     Printer { out: String::new(), comments: false }.game(description)
 }

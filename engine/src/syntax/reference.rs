@@ -1,5 +1,5 @@
 //! Reads a game file in reference mode (`spec/01` §1.1–§1.9). The indentation turns the lines into a tree,
-//! faulty lines are dropped with a message each, and only the direct children of each section count.
+//! faulty lines are dropped with one message per line, and only the direct children of each section count.
 
 use super::description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
@@ -12,7 +12,7 @@ use crate::syntax::parse::layout;
 use crate::syntax::parse::layout::Line;
 use crate::syntax::parse::sections;
 
-/// Returns the description that the reference works with, or the fault on which it crashes.
+/// Returns the description as the reference uses it, or the fault on which the reference crashes.
 pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     if let Some(span) = layout::bare_hashes(source) {
         let problem =
@@ -37,7 +37,7 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
 struct Node<'a> {
     line: &'a Line<'a>,
     tokens: Vec<Word>,
-    /// The grammar of the line, which is given by the last section name before the line, wherever that name
+    /// The line's grammar, which is determined by the last section name before the line, wherever that name
     /// is in the tree.
     grammar: Option<Section>,
     /// The section whose name is on the line, ignoring case.
@@ -216,7 +216,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Reads sprite lines. A line without `>` ends its list of siblings.
+    /// Reads sprite lines. A line without `>` ends the list of siblings.
     fn sprites(&self, siblings: &[usize], depth: usize) -> Result<Vec<SpriteLine>, Diagnostic> {
         let mut lines = Vec::new();
         for &at in siblings {
@@ -243,7 +243,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Returns the words of a line, which are separated only by spaces and control characters.
+/// Returns the words on a line, separated only by spaces and control characters.
 fn tokens(line: &Line<'_>) -> Vec<Word> {
     let words = line.text.split(|c: char| c <= ' ').filter(|word| !word.is_empty());
     words.map(|word| Word { text: word.to_owned(), span: line.span_of(word) }).collect()

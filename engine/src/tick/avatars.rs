@@ -62,7 +62,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Ac
     }
 }
 
-/// Returns the direction of an action, as an index into [`Direction::BASE`].
+/// Returns an action's direction, as an index into [`Direction::BASE`].
 fn base(action: Action) -> Option<usize> {
     match action {
         Action::Up => Some(0),
@@ -134,7 +134,7 @@ fn flak(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     }
 }
 
-/// Makes the first type of shot for which there is ammunition, one body length ahead.
+/// Creates the first type of shot for which ammunition is available, one body length ahead.
 fn shoot(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let facing = step.world.overrides(slot).orientation.normalised();
     shoot_towards(step, slot, facing);
@@ -173,7 +173,7 @@ fn shoot_kind(step: &mut Step<'_, impl Scheduler>, slot: Slot, kind: usize, faci
     }
 }
 
-/// Makes a different type of shot with each key, always in the same direction.
+/// Creates a different type of shot with each key, always in the same direction.
 fn shoot_only(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     glide(step, slot);
     let kind = match action {
@@ -315,7 +315,7 @@ fn platformer(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direct
     }
 }
 
-/// Acts like a platformer, and places blocks in the direction that the wizard faces.
+/// Moves a wizard like a platformer, and places blocks in the direction that the wizard faces.
 fn wizard(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction, action: Action) {
     platformer(step, slot, direction, action);
     let rules = step.rules;

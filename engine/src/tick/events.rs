@@ -39,7 +39,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Runs the effects that are due. Effects due in the same tick run in the reverse order of their scheduling
+    /// Runs the due effects. Effects due in the same tick run in the reverse order of their scheduling
     /// (`spec/03` §6.3).
     fn timers(&mut self, watch: &mut (impl Watch + ?Sized)) {
         while let Some(Timer { timed: number, .. }) = self.world.take_due() {
@@ -74,8 +74,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.plan(timer);
     }
 
-    /// Executes a timed effect on every sprite of a type and its relatives. The score change of the line
-    /// applies, regardless of the effect's outcome.
+    /// Executes a timed effect on every sprite of a type and its relatives. The line's score change applies,
+    /// regardless of the effect's outcome.
     fn timed_group(&mut self, timed: &Timed, stype: SpriteType, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let info = &rules.effects[usize::from(timed.effect)];
@@ -146,8 +146,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Visits every sprite of the tree that is not completely on the screen. An effect that adds to the group being
-    /// visited ends that visit with a message.
+    /// Visits every sprite in the tree that is not completely on the screen. An effect that adds to the group
+    /// being visited ends that visit with a message.
     fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
@@ -294,7 +294,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
 
-    /// Reports the sprites of an execution that is about to happen.
+    /// Reports the sprites of an imminent execution.
     #[cold]
     fn tell(&self, watch: &mut (impl Watch + ?Sized), line: usize, one: Slot, two: Option<Slot>) {
         let first = self.world.present(one);
@@ -303,7 +303,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         watch.meeting(Meeting { line, first: first.stype, second, cell });
     }
 
-    /// Returns the sprites that are alive before an execution, each with the type of its partner.
+    /// Returns the living sprites before an execution, each with its partner's type.
     #[cold]
     fn standing(&self, one: Slot, partners: &[Slot]) -> Vec<(Slot, Option<SpriteType>)> {
         let stype = |slot: Slot| self.world.sprite(slot).stype;
@@ -329,8 +329,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.sprite(slot).is(flag::KILLED | flag::DISABLED)
     }
 
-    /// Does the same as [`Step::execute`], but on all partners at once. The effect determines how many times
-    /// the score counts.
+    /// Executes an effect like [`Step::execute`], but on all partners together. The effect determines how
+    /// many times the score counts.
     #[inline(always)]
     fn execute_batch(
         &mut self,
@@ -365,8 +365,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.credit(info, self.world.memory(effect), times);
     }
 
-    /// Collects the partners of a sprite whose class detects the ground by testing for a solid sprite just below it.
-    /// Returns the number of examined cells and sprites.
+    /// Collects the partners of a sprite whose class detects the ground by testing for a solid sprite
+    /// immediately below. Returns the number of examined cells and sprites.
     fn look_down(&mut self, slot: Slot, second: Side<'_>, newborn: u32, hits: &mut Hits) -> usize {
         if !self.world.may_stand_on(second, self.world.sprite(slot), GROUND) {
             return 1;
@@ -398,5 +398,5 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 }
 
-/// The number of pixels below a sprite within which solid ground counts.
+/// The maximum distance in pixels below a sprite at which solid ground counts.
 const GROUND: i32 = 3;

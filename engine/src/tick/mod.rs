@@ -1,5 +1,5 @@
-//! One step of a game: the cycle of `spec/01` §4. Effects and updates change sprites through the operations in
-//! `population.rs` and `motion.rs`.
+//! One step of a game: the cycle of `spec/01` §4. Effects and updates change sprites through the operations
+//! in `population.rs` and `motion.rs`.
 
 mod avatars;
 mod effects;
@@ -21,43 +21,44 @@ pub(crate) use scheduler::{Scheduler, Unscheduled};
 /// An execution of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Meeting {
-    /// The index of the interaction in [`Description::interactions`](crate::Description).
+    /// The interaction's index in [`Description::interactions`](crate::Description).
     pub line: usize,
-    /// The type of the sprite that the effect acts on, before the effect.
+    /// The first sprite's type, before the effect acts on the sprite.
     pub first: SpriteType,
-    /// The type of the partner, or `None` for the edge of the screen or a timed effect.
+    /// The partner's type, or `None` for the edge of the screen or a timed effect.
     pub second: Option<SpriteType>,
-    /// The column and row of the cell that contains the top-left corner of the first sprite.
+    /// The column and row of the cell that contains the first sprite's top-left corner.
     pub cell: (i32, i32),
 }
 
-/// The removal of a sprite by an interaction in which it took part.
+/// A sprite's removal by an interaction that involves the sprite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Removal {
-    /// The index of the interaction in [`Description::interactions`](crate::Description).
+    /// The interaction's index in [`Description::interactions`](crate::Description).
     pub line: usize,
-    /// The type of the removed sprite.
+    /// The removed sprite's type.
     pub sprite: SpriteType,
-    /// The type of the partner, or `None` for the edge of the screen or a timed effect.
+    /// The partner's type, or `None` for the edge of the screen or a timed effect.
     pub by: Option<SpriteType>,
 }
 
-/// An observer of a step, which is notified of the executed interactions and their sprites.
+/// A step observer, which is notified of the executed interactions and their sprites.
 pub trait Watch {
-    /// Called when interaction `line` (index into [`Description::interactions`](crate::Description)) has been executed.
-    /// An interaction that moves the same sprite back to the same position tick after tick is reported once.
+    /// Called after interaction `line` (index into [`Description::interactions`](crate::Description)) has
+    /// been executed. An interaction that moves the same sprite back to the same position in every tick is
+    /// reported only once.
     fn interaction(&mut self, line: usize);
 
-    /// Returns `true` if [`Watch::meeting`] is to be called.
+    /// Returns `true` if the observer wants calls of [`Watch::meeting`].
     fn wants_meetings(&self) -> bool {
         false
     }
 
-    /// Called after [`Watch::interaction`] with the sprites of the execution, except for timed effects that run on no
-    /// sprite.
+    /// Called after [`Watch::interaction`] with the sprites in the execution, except for timed effects that
+    /// run on no sprite.
     fn meeting(&mut self, _meeting: Meeting) {}
 
-    /// Returns `true` if [`Watch::removal`] is to be called.
+    /// Returns `true` if the observer wants calls of [`Watch::removal`].
     fn wants_removals(&self) -> bool {
         false
     }
@@ -66,7 +67,7 @@ pub trait Watch {
     /// avatars are left disabled.
     fn removal(&mut self, _removal: Removal) {}
 
-    /// Called at the end of the step with the amount of its work. See [`MAX_WORK`].
+    /// Called at the end of the step with the amount of work. See [`MAX_WORK`].
     fn worked(&mut self, _work: usize) {}
 }
 
@@ -81,16 +82,16 @@ pub(crate) struct Step<'a, S> {
     pub(crate) models: &'a Models,
     pub(crate) world: &'a mut World,
     pub(crate) scheduler: S,
-    /// The position in the update order that is being updated. Types with a lower position are still to be updated in
-    /// this tick.
+    /// The update-order position that is being updated. Types with a lower position have not been updated yet
+    /// in this tick.
     pub(crate) updating: i32,
-    /// The reason why the step was stopped, or `None` if it was not stopped.
+    /// The reason for stopping the step, or `None` if the step was not stopped.
     pub(crate) stopped: Option<Limit>,
-    /// The work so far. See [`MAX_WORK`].
+    /// The amount of work so far. See [`MAX_WORK`].
     pub(crate) work: usize,
-    /// The creation number of the sprite that is being updated.
+    /// The creation number of the sprite being updated.
     pub(crate) updating_id: u32,
-    /// The number of the pass in the event phase, or −1 before the first pass.
+    /// The index of the current event-phase pass, or −1 before the first pass.
     pub(crate) pass: i32,
 }
 
@@ -166,7 +167,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Updates the sprites of a type, in order of creation.
+    /// Updates a type's sprites, in order of creation.
     fn update_type(&mut self, stype: SpriteType) {
         let info = &self.rules.types[stype.index()];
         let Some((class, order)) = info.updated() else { return };
@@ -183,7 +184,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Starts the updates of a type's sprites. Returns `false` if there are no sprites, or too many.
+    /// Starts the updates of a type's sprites. Returns `false` if the type has no sprites, or too many.
     #[inline(always)]
     pub(crate) fn start_type(&mut self, order: i32, stype: SpriteType) -> bool {
         let count = self.world.group(stype).count;
@@ -205,7 +206,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         sprites::update(self, slot, class);
     }
 
-    /// Checks the orientation. Before each update, the reference looks for an image with this orientation,
+    /// Checks the orientation. Before each update, the reference searches for an image with this orientation,
     /// and throws an exception if there is no such image.
     fn turn_picture(&mut self, slot: Slot) {
         if !Direction::BASE.contains(&self.world.overrides(slot).orientation) {
@@ -213,8 +214,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Finds the player's avatar: the last sprite of an avatar class in update order, ignoring the type that
-    /// is drawn first (`spec/01` §4.2). Checked levels have a single avatar.
+    /// Finds the player's avatar: the last sprite of an avatar class in update order, ignoring the type drawn
+    /// first (`spec/01` §4.2). Checked levels have a single avatar.
     pub(crate) fn find_avatar(&mut self) {
         let types = self.rules.order.iter().skip(1).rev();
         let slots = types.flat_map(|&stype| self.world.slots(stype));
@@ -228,7 +229,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Removes all avatars except the avatar made first, and logs a message, like the reference. Checked
+    /// Removes all avatars except the first avatar created, and logs a message, like the reference. Checked
     /// levels have only one avatar.
     pub(crate) fn remove_extra_avatars(&mut self) {
         let slots = 0..self.world.slot_count() as Slot;
@@ -242,7 +243,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.forget_gone();
     }
 
-    /// Removes the sprites that were killed in this tick (`spec/01` §4.10).
+    /// Removes the sprites killed in this tick (`spec/01` §4.10).
     #[inline(always)]
     fn clear(&mut self) {
         if !self.world.killed().is_empty() {
@@ -278,7 +279,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.stopped.get_or_insert(limit);
     }
 
-    /// Counts examined sprites or cells. If there are too many in one tick, the episode is stopped.
+    /// Counts examined sprites or cells. Stops the episode if their number in one tick exceeds the limit.
     pub(crate) fn work(&mut self, amount: usize) {
         self.work = self.work.saturating_add(amount);
         if self.work > MAX_WORK {
@@ -291,7 +292,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.work(EFFECT_WORK);
     }
 
-    /// Calls [`World::add_amount`], and enforces the limit on resources.
+    /// Calls [`World::add_amount`], and enforces the resource limit.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         self.world.add_amount(holder, resource, change);
         if self.world.held().len() > MAX_HELD {

@@ -6,7 +6,8 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{Slot, Sprite, flag};
 
 impl<S: Scheduler> Step<'_, S> {
-    /// Returns the reference's `lastmove`: the ticks since the last move, as of this tick's update or events.
+    /// Returns the value of `lastmove` in the reference: the ticks since the last move, as of this tick's
+    /// update or events.
     pub(crate) fn age(&self, slot: Slot) -> i32 {
         let sprite = self.world.own(slot);
         // The reference's counter overflows in the same way.
@@ -23,7 +24,7 @@ impl<S: Scheduler> Step<'_, S> {
         sprite.moved_at = if sprite.is(flag::FROZEN) { age } else { tick.wrapping_sub(age) };
     }
 
-    /// Sets the rectangle of a sprite, including its size.
+    /// Sets a sprite's rectangle, including its size.
     pub(crate) fn place(&mut self, slot: Slot, rect: Rect) {
         if rect.h == 0 {
             self.stop(Limit::FlatSprite);
@@ -58,7 +59,7 @@ impl<S: Scheduler> Step<'_, S> {
         true
     }
 
-    /// Does the same as [`Step::displace`], along one of [`Direction::BASE`].
+    /// Makes the basic step like [`Step::displace`], along one of [`Direction::BASE`].
     #[inline(always)]
     pub(crate) fn displace_along(&mut self, slot: Slot, base: usize, amount: i32) -> bool {
         if self.is_held_up(slot) {
@@ -72,7 +73,7 @@ impl<S: Scheduler> Step<'_, S> {
         true
     }
 
-    /// Returns `true` if a sprite's cooldown prevents it from moving.
+    /// Returns `true` if a sprite's cooldown prevents a move.
     #[inline(always)]
     fn is_held_up(&self, slot: Slot) -> bool {
         self.rules.types[self.world.own(slot).stype.index()].traits.cooldown > self.age(slot)
@@ -112,7 +113,7 @@ impl<S: Scheduler> Step<'_, S> {
         Some(rect.at(rect.x.wrapping_add(shift(direction.x)), rect.y.wrapping_add(shift(direction.y))))
     }
 
-    /// Returns the displacement of a sprite in this tick.
+    /// Returns a sprite's displacement in this tick.
     pub(crate) fn last_direction(&self, slot: Slot) -> Direction {
         let Sprite { rect, last_corner, .. } = *self.world.sprite(slot);
         Direction {

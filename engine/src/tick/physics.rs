@@ -13,7 +13,7 @@ pub(crate) enum Movement {
     Move,
 }
 
-/// Returns the size of a grid cell in pixels as physics uses it. Continuous physics uses a constant.
+/// Returns the grid cell size in pixels used by the sprite's physics. Continuous physics uses a constant.
 pub(crate) fn grid_size(step: &Step<'_, impl Scheduler>, slot: Slot) -> f64 {
     if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.world.block()) }
 }
@@ -22,8 +22,8 @@ fn is_continuous(rules: &Rules, step: &Step<'_, impl Scheduler>, slot: Slot) -> 
     rules.types[step.world.sprite(slot).stype.index()].traits.continuous
 }
 
-/// Moves a sprite along its own orientation, unless it is static. The first call only clears the sprite's first-tick
-/// flag.
+/// Moves a sprite along its own orientation, unless the sprite is static. The first call only clears the
+/// sprite's first-tick flag.
 #[inline]
 pub(crate) fn passive(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let sprite = step.world.sprite(slot);
@@ -73,7 +73,8 @@ pub(crate) fn aim(step: &Step<'_, impl Scheduler>, slot: Slot) -> Option<Rect> {
     step.shifted(slot, orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
 }
 
-/// Moves a sprite in the direction that it or its player has chosen. A speed of 0 stands for the sprite's own speed.
+/// Moves a sprite in the direction chosen by the sprite or its player. A speed of 0 stands for the sprite's
+/// own speed.
 #[inline]
 pub(crate) fn active(
     step: &mut Step<'_, impl Scheduler>,
@@ -103,7 +104,7 @@ pub(crate) fn active(
     if step.displace(slot, direction, (speed * block) as i32) { Movement::Move } else { Movement::Still }
 }
 
-/// Does the same as [`active`], along one of [`Direction::BASE`].
+/// Moves a sprite like [`active`], along one of [`Direction::BASE`].
 #[inline(always)]
 pub(crate) fn active_along(
     step: &mut Step<'_, impl Scheduler>,

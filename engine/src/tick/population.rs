@@ -1,4 +1,4 @@
-//! The operations that make, kill and release sprites.
+//! The operations that create, kill and release sprites.
 
 use crate::limits::MAX_SPRITES;
 use crate::numbers::geometry::Rect;
@@ -8,12 +8,13 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
 impl<S: Scheduler> Step<'_, S> {
-    /// Returns `true` if the sprite's class is an avatar class. [`flag::AVATAR`] marks sprites that are avatars.
+    /// Returns `true` if the sprite's class is an avatar class. [`flag::AVATAR`] marks the actual avatars.
     pub(crate) fn can_be_played(&self, slot: Slot) -> bool {
         self.rules.types[self.world.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
     }
 
-    /// Makes a sprite, unless a singleton of its line exists or there are too many sprites (`spec/01` §3.5).
+    /// Creates a sprite, unless a singleton of its line exists or the number of sprites is at its limit
+    /// (`spec/01` §3.5).
     pub(crate) fn add(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         let rules = self.rules;
         if self.is_full() {
@@ -28,12 +29,12 @@ impl<S: Scheduler> Step<'_, S> {
         self.make(stype, x, y)
     }
 
-    /// Makes a sprite even if a singleton of its line exists.
+    /// Creates a sprite even if a singleton of its line exists.
     pub(crate) fn add_forced(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         if self.is_full() { None } else { self.make(stype, x, y) }
     }
 
-    /// Returns `true`, and logs a message, if there are too many sprites to make another sprite.
+    /// Returns `true`, and logs a message, if there are too many sprites to create another sprite.
     fn is_full(&mut self) -> bool {
         let full = self.world.population() > MAX_SPRITES as i32;
         if full {
@@ -108,8 +109,8 @@ impl<S: Scheduler> Step<'_, S> {
         Some(slot)
     }
 
-    /// Kills a sprite. Avatars are disabled and stay. Other sprites are removed at the end of the tick
-    /// (`spec/03` §5.1).
+    /// Kills a sprite. Avatars are disabled and stay on the board. Other sprites are removed at the end of
+    /// the tick (`spec/03` §5.1).
     pub(crate) fn kill(&mut self, slot: Slot) {
         if !self.can_be_played(slot) {
             return self.remove(slot);
@@ -122,7 +123,7 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.disable(slot);
     }
 
-    /// Stops the updates and the ageing of a sprite.
+    /// Stops a sprite's updates and ageing.
     fn freeze(&mut self, slot: Slot) {
         let age = self.age(slot);
         let sprite = self.world.edit(slot);
@@ -136,7 +137,7 @@ impl<S: Scheduler> Step<'_, S> {
     }
 
     /// Makes a sprite the player's avatar. From now on, this sprite is updated and ages, and the previous
-    /// avatar is not updated and does not age.
+    /// avatar no longer does.
     pub(crate) fn control(&mut self, slot: Slot) {
         let before = self.world.set_avatar(slot);
         if before != NONE && before != slot && !self.world.sprite(before).is(flag::FROZEN) {

@@ -7,7 +7,7 @@ use crate::world::{Slot, Watcher, World};
 
 /// A scheduler, which is notified of a tick's changes and may skip work that has no effect.
 ///
-/// By default nothing is skipped, and a tick is the cycle of `spec/01` §4.
+/// By default, nothing is skipped, and a tick follows the cycle of `spec/01` §4.
 pub(crate) trait Scheduler: Watcher + Sized {
     /// Called before the updates of a tick.
     fn begin(_: &mut Step<'_, Self>) {}
@@ -22,17 +22,18 @@ pub(crate) trait Scheduler: Watcher + Sized {
         }
     }
 
-    /// Returns the next pass of the event phase from `from` on.
+    /// Returns the next event-phase pass with an index of at least `from`.
     fn next_pass(step: &Step<'_, Self>, from: usize) -> Option<usize> {
         Some(from).filter(|&number| number < step.rules.passes.len())
     }
 
-    /// Runs a pass. Sprites from the creation number `newborn` on do not take part.
+    /// Runs a pass. Sprites with a creation number of `newborn` or higher do not take part.
     fn run_pass(step: &mut Step<'_, Self>, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
         step.visit_first_side(pass, newborn, watch);
     }
 
-    /// Returns `true` if any sprite with the bit `own` may share a cell with a sprite with one of the bits `others`.
+    /// Returns `true` if any sprite with the bit `own` may share a cell with a sprite with any of the bits
+    /// `others`.
     fn may_meet(&self, _world: &World, _own: u64, _others: u64) -> bool {
         true
     }
@@ -51,10 +52,10 @@ pub(crate) trait Scheduler: Watcher + Sized {
         step.relocate(slot, rect);
     }
 
-    /// Called before the last rectangle of a sprite is set.
+    /// Called before a sprite's last rectangle is set.
     fn changes(_: &mut Step<'_, Self>, _: Slot) {}
 
-    /// Called after a sprite has been made.
+    /// Called after a sprite has been created.
     fn made(_: &mut Step<'_, Self>, _: Slot) {}
 
     /// Called before a killed sprite is removed.
@@ -64,7 +65,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
     fn ends(_: &mut Step<'_, Self>) {}
 }
 
-/// The scheduler that skips nothing.
+/// A scheduler that skips nothing.
 pub(crate) struct Unscheduled;
 
 impl Scheduler for Unscheduled {}

@@ -30,7 +30,7 @@ impl Termination {
         counted && world.can_end()
     }
 
-    /// Returns `true` if the player wins by this termination, provided that it holds.
+    /// Returns `true` if the player wins through this termination, provided that it holds.
     pub(crate) fn wins(&self, world: &World) -> bool {
         match self.decided_by {
             Decision::Line => self.win,
@@ -40,8 +40,8 @@ impl Termination {
         }
     }
 
-    /// Returns whether counters can end the game from now on, or `None` if this termination does not decide
-    /// that.
+    /// Returns whether counters can end the game from now on, or `None` if this termination does not affect
+    /// that setting.
     pub(crate) fn permits(&self, rules: &Rules, world: &World) -> Option<bool> {
         let Condition::StopCounter { stypes, limit, min } = &self.condition else { return None };
         let sum: i32 = stypes.iter().map(|&stype| world.count_live(rules, stype)).sum();

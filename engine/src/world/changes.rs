@@ -1,17 +1,17 @@
-//! The changes of sprites. Every change, whatever its rule, is made by a method in this file or by a method
+//! Changes to sprites. Every change, regardless of the rule, is made by a method in this file or by a method
 //! in this list:
 //!
 //! - [`World::admit`] adds a new sprite, and [`World::release`] removes a sprite. In between, a sprite may be
 //!   in the kill list ([`World::doom`]), or an avatar may be disabled ([`World::disable`]).
-//! - [`World::add_fixture`] makes a sprite that never changes (`fixtures.rs`), and [`World::add_scenery`]
-//!   makes a sprite that no rule involves (`scenery.rs`).
-//! - [`World::relocate`] moves a sprite to another position, and may change its size (`occupancy.rs`).
+//! - [`World::add_fixture`] creates a sprite that never changes (`fixtures.rs`), and [`World::add_scenery`]
+//!   creates a sprite that no rule involves (`scenery.rs`).
+//! - [`World::relocate`] moves a sprite to a different position, and may change its size (`occupancy.rs`).
 //!   [`World::set_last`] changes its previous rectangle (`moved.rs`).
 //! - [`World::edit`] and [`World::edit_motion`] give access to a sprite's other fields, and mark its part of
 //!   the hash as stale.
-//! - [`World::edit_overrides`] does the same for values that a sprite shares with its type (`overrides.rs`):
-//!   orientation, speed, health. [`World::add_amount`] and [`World::replace_missile`] do the same for tables
-//!   that few sprites need (`side_tables.rs`).
+//! - [`World::edit_overrides`] also marks this part as stale, and gives access to values that a sprite shares
+//!   with its type (`overrides.rs`): orientation, speed, health. [`World::add_amount`] and
+//!   [`World::replace_missile`] change tables that few sprites need (`side_tables.rs`).
 //!
 //! The VGDL operations in `tick/population.rs` and `tick/motion.rs` call these methods, and effects and
 //! updates call those operations. `numbers.rs` changes the numbers that are stored next to the sprites.
@@ -21,7 +21,7 @@ use crate::limits::MAX_SLOTS;
 use crate::world::hash::contribution::Contribution;
 
 impl World {
-    /// Stores `sprite` in a slot, at the end of its type's chain. Returns `None` if no slot is left.
+    /// Stores `sprite` in a slot, at the end of its type's chain. Returns `None` if all slots are in use.
     pub(crate) fn admit(
         &mut self,
         models: &Models,
@@ -107,14 +107,14 @@ impl World {
         self.killed.push(slot);
     }
 
-    /// Empties the kill list. For a sprite that is in the list twice, the reference's counter is decremented
-    /// twice.
+    /// Empties the kill list. For a sprite listed twice, the reference's counter is decremented twice.
     pub(crate) fn forget_killed(&mut self) {
         self.population -= self.killed.len() as i32;
         self.killed.clear();
     }
 
-    /// Removes a slot from its chains and frees it. After the last call, the caller calls [`World::forget_gone`].
+    /// Removes a slot from its chains and frees the slot. After the last such call, the caller must call
+    /// [`World::forget_gone`].
     pub(crate) fn release(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);
         self.leave_cell(models, slot, watcher);
@@ -140,7 +140,7 @@ impl World {
         (sprite.next, sprite.flags) = (next, flag::FREE | flag::DIRTY);
     }
 
-    /// Clears references to slots that have been freed. Pursuers keep the last rectangle of their target.
+    /// Clears references to freed slots. Chasing sprites keep their target's last rectangle.
     pub(crate) fn forget_gone(&mut self) {
         self.forget_moved();
         let World { extras, sprites, .. } = self;

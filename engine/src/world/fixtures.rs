@@ -1,10 +1,10 @@
-//! Fixtures: sprites that other sprites meet, and that no rule makes, moves, changes or removes. Most
-//! fixtures are walls.
+//! Fixtures: sprites that other sprites collide with, but that no rule creates, moves, changes or removes.
+//! Most fixtures are walls.
 //!
 //! Fixtures stay where the level placed them for the whole episode, so all states of a level share them, and
-//! a copy of a state does not copy them. Their slots count down from the highest slot. The running hash
-//! contains their contributions from the start. In the chain of a cell, fixtures come last, so that no
-//! fixture links to another kind of sprite.
+//! a copy of a state does not copy them. Fixture slots count down from the highest slot. The running hash
+//! contains the fixtures' contributions from the start. Fixtures come last in a cell's chain, so that no
+//! fixture links to a different kind of sprite.
 
 use super::{Models, NONE, Slot, Sprite, Watcher, World};
 use crate::world::hash::contribution::{Contribution, exchange};
@@ -43,7 +43,7 @@ impl World {
         &mut sprites[mirrored(usize::from(slot))]
     }
 
-    /// Makes a fixture. If other states share the fixtures, this state gets its own copy first.
+    /// Creates a fixture. If other states share the fixtures, this state gets its own copy first.
     pub(crate) fn add_fixture(&mut self, models: &Models, mut sprite: Sprite, watcher: &mut impl Watcher) {
         let slot = mirrored(self.fixture_count()) as Slot;
         (sprite.column, sprite.row) = self.place_of(sprite.rect);
@@ -79,7 +79,7 @@ impl World {
         self.arrive(models.bits[sprite.stype.index()], cell, watcher);
     }
 
-    /// Records all fixtures again, after the cells have been emptied.
+    /// Records all fixtures again after the cells have been emptied.
     pub(super) fn reenter_fixtures(&mut self, models: &Models, watcher: &mut impl Watcher) {
         for slot in (0..self.fixture_count()).map(|number| mirrored(number) as Slot) {
             let sprite = *self.fixture(slot);

@@ -1,11 +1,10 @@
-//! The world of an episode: sprites, cells and a few other numbers, as flat arrays without pointers to the
-//! rules (`docs/lab/decisions/0004-state-as-flat-data.md`). The world is independent of the schedule's
-//! shortcuts.
+//! An episode's world: sprites, cells and a few other numbers, as flat arrays without pointers to the rules
+//! (`docs/lab/decisions/0004-state-as-flat-data.md`). The world is independent of the schedule's shortcuts.
 //!
-//! Sprites are stored in the slots of one array. Two linked lists (chains) run through the slots. One
-//! contains the sprites of one type in the order of their creation (a group in the reference), and the other
-//! contains the sprites in one cell of the board (`occupancy.rs`). Effects read and write sprites only
-//! through methods of this module, so that the layout can change without changes to the effects.
+//! Sprites are stored in the slots of one array. Two kinds of linked lists (chains) run through the slots. A
+//! type's chain contains its sprites in order of creation (a group in the reference). A cell's chain contains
+//! the sprites in that cell (`occupancy.rs`). Effects read and write sprites only through methods of this
+//! module, so that the layout can change without changes to the effects.
 
 mod board;
 mod changes;
@@ -33,10 +32,10 @@ pub(crate) use sprites::overrides::{Extra, Overrides, Target};
 pub(crate) use sprites::side_tables::{Held, Replaced};
 pub(crate) use sprites::sprite::{Group, NO_HEADING, NONE, Slot, Sprite, flag};
 
-/// The length in pixels of the longer side of a board whose game does not set `square_size`.
+/// The length in pixels of the board's longer side, in games that do not set `square_size`.
 const SCREEN: i32 = 800;
 
-/// A timer of the time phase: the timed effect, and the tick in which it is due.
+/// A timer in the time phase: the timed effect, and the tick in which it is due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Timer {
     pub(crate) due: i32,
@@ -45,20 +44,20 @@ pub(crate) struct Timer {
 
 bytes_of_fields! { Timer { due timed } }
 
-/// An observer of a world, which is notified of the types that come to share cells, or stop sharing them.
+/// An observer of a world, which is notified when types start or stop sharing cells.
 pub(crate) trait Watcher {
-    /// Called when a sprite of the type with the bit `own` has come to cover a cell that types with the bits `partners`
-    /// cover. Rules pair these types with `own`.
+    /// Called when a sprite of the type with the bit `own` has started to cover a cell that types with the
+    /// bits `partners` cover. Rules pair these types with `own`.
     fn arrives(&mut self, _own: u64, _partners: u64) {}
 
     /// Called when a sprite of the type with the bit `own` has stopped covering a cell that types with the
     /// bits `partners` cover.
     fn departs(&mut self, _own: u64, _partners: u64) {}
 
-    /// Called when a type gets its first sprite that is larger than a cell.
+    /// Called when a type gets its first sprite larger than a cell.
     fn enlarged(&mut self, _stype: usize) {}
 
-    /// Called when a type no longer has any sprite that is larger than a cell.
+    /// Called when a type no longer has any sprite larger than a cell.
     fn reduced(&mut self, _stype: usize) {}
 }
 
@@ -66,7 +65,7 @@ pub(crate) trait Watcher {
 impl Watcher for () {}
 
 flat! {
-    /// The world of an episode.
+    /// An episode's world.
     pub(crate) struct World {
         copied {
             outcome: Outcome,
@@ -90,21 +89,21 @@ flat! {
             can_end: bool,
             /// The sum of `contributions`, without the growth of sprites in flight.
             sum: Sum,
-            /// The number of sprites that are larger than a cell.
+            /// The number of sprites larger than a cell.
             big: u32,
-            /// The number of sprites that are not completely on the screen.
+            /// The number of sprites not completely on the screen.
             off: u32,
             /// The bits of the types with sprites that cover more than one cell.
             multi_cell_bits: u64,
-            /// The bits of the types with sprites that are larger than a cell.
+            /// The bits of the types with sprites larger than a cell.
             big_bits: u64,
             /// `true` if the counts in `groups` have changed since terminations were last checked.
             census_changed: bool,
             /// The number of times that a sprite larger than a cell has left cells since `covered` was recomputed.
             left_behind: u32,
-            /// The bits of sprites that are so large that they count as being everywhere.
+            /// The bits of sprites so large that they count as being everywhere.
             vast: u64,
-            /// The hash of `memory` and `templates` as of the last settling.
+            /// The hash of `memory` and `templates` when last settled.
             memory_hash: u64,
             memory_is_dirty: bool,
             /// The second random stream, for WalkerJumper and for choices that the reference makes without a seed.
@@ -114,40 +113,40 @@ flat! {
             sprites: Sprite,
             /// For each slot, the hash contribution of its sprite when the hash was last settled.
             contributions: Contribution,
-            /// The linear hash classes of the sprites in flight, when the hash was last settled.
+            /// The linear hash classes of the sprites in flight when the hash was last settled.
             hash_classes: HashClass,
             groups: Group,
             cells: Slot,
-            /// For each cell, the bits of the types that cover it (`models.rs`).
+            /// For each cell, the bits of the types that cover the cell (`models.rs`).
             masks: u64,
-            /// For each cell, the bits of the types with several sprites in it. Empty until a cell has
-            /// several sprites.
+            /// For each cell, the bits of the types with several sprites in the cell. Empty until a cell
+            /// contains several sprites.
             crowds: u64,
-            /// For each cell, the bits of the large sprites that cover it or did so recently. Empty if there
-            /// are no large sprites.
+            /// For each cell, the bits of the large sprites that cover the cell or recently did so. Empty if
+            /// there are no large sprites.
             covered: u64,
             moved: Slot,
             /// The sprites in `moved` whose size has changed, sorted by slot.
             resized: Resized,
             dirty: Slot,
             killed: Slot,
-            /// The resources that sprites hold, sorted by holder and resource.
+            /// The resources held by sprites, sorted by holder and resource.
             held: Held,
             memory: u8,
-            /// For each type, a value other than 0 if one of its sprites has been made before. Later sprites
-            /// are copies (`spec/02` §1.3).
+            /// For each type, a value other than 0 if a sprite of the type has already been created. Later
+            /// sprites are copies (`spec/02` §1.3).
             templates: u8,
             /// The shields of the current tick, sorted by type, partner and effect keyword (`spec/03` §5.7).
             shields: (SpriteType, SpriteType, u16),
             /// The sprites that each pullWithIt effect has carried in this tick, sorted.
             pulled: (u16, Slot),
-            /// The overridable values of the types, and the overrides of sprites (`overrides.rs`).
+            /// The types' overridable values, and the sprites' overrides (`overrides.rs`).
             overrides: Overrides,
             extras: Extra,
             /// The scheduled timed effects, with the next effect last (`spec/03` §6.2).
             timers: Timer,
-            /// The entries of BomberRandomMissiles' lists that updateSpawnType has replaced, sorted by holder and
-            /// position.
+            /// The entries in BomberRandomMissiles' lists that updateSpawnType has replaced, sorted by holder
+            /// and position.
             replaced: Replaced,
             /// The game's counters.
             counters: i32,
@@ -165,7 +164,7 @@ flat! {
 }
 
 impl World {
-    /// Returns the world of a board of `columns` by `rows` cells before the first tick, without sprites.
+    /// Returns the world for a board of `columns` by `rows` cells before the first tick, without sprites.
     pub(crate) fn empty(
         rules: &Rules,
         models: &Models,
@@ -245,7 +244,7 @@ impl World {
         }
     }
 
-    /// Returns the sprite in a slot. The slot must not belong to a fixture, which saves a check.
+    /// Returns the sprite in a slot. The slot must not belong to a fixture, which avoids a check.
     #[inline(always)]
     pub(crate) fn own(&self, slot: Slot) -> &Sprite {
         &self.sprites[usize::from(slot)]
@@ -256,12 +255,12 @@ impl World {
         self.sprites.get(usize::from(slot))
     }
 
-    /// Returns the player's avatar, even if it is disabled.
+    /// Returns the player's avatar, even if the avatar is disabled.
     pub(crate) fn avatar_sprite(&self) -> Option<&Sprite> {
         self.get(self.avatar)
     }
 
-    /// Returns the number of slots, including free slots, but without the slots of fixtures.
+    /// Returns the number of slots, including free slots but excluding the slots of fixtures.
     pub(crate) fn slot_count(&self) -> usize {
         self.sprites.len()
     }
@@ -293,7 +292,7 @@ impl World {
         tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum()
     }
 
-    /// Does the same as [`World::count`], but without disabled sprites, as terminations count.
+    /// Counts sprites like [`World::count`], but excludes disabled sprites, as terminations do.
     pub(crate) fn count_live(&self, rules: &Rules, stype: SpriteType) -> i32 {
         let tree = &rules.types[stype.index()].tree;
         tree.iter().map(|&stype| i32::from(self.group(stype).count - self.group(stype).disabled)).sum()

@@ -1,11 +1,11 @@
-//! The numbers of a world that do not belong to a sprite: time, score, outcome, random number generators, timers and
-//! the memory of effects.
+//! A world's numbers that do not belong to a sprite: time, score, outcome, random number generators, timers
+//! and the effects' memory.
 
 use super::{NONE, Slot, Timer, World};
 use crate::numbers::chance::Chance;
 use crate::rules::{Action, Outcome, SpriteType};
 
-/// Declares getters of copied fields.
+/// Declares getters for copied fields.
 macro_rules! readers {
     ($($(#[$doc:meta])* $field:ident: $Field:ty,)*) => {
         impl World {
@@ -25,7 +25,7 @@ readers! {
     outcome: Outcome,
     /// Returns the slot of the player's avatar, even if the avatar is disabled.
     avatar: Slot,
-    /// Returns the size of a cell in pixels.
+    /// Returns the cell size in pixels.
     block: i32,
     columns: i32,
     rows: i32,
@@ -37,9 +37,9 @@ readers! {
     messages: u32,
     /// Returns `true` if counters can end the game.
     can_end: bool,
-    /// Returns the number of sprites that are not completely on the screen.
+    /// Returns the number of sprites not completely on the screen.
     off: u32,
-    /// Returns `true` if the counts of sprites have changed since terminations were last checked.
+    /// Returns `true` if the sprite counts have changed since terminations were last checked.
     census_changed: bool,
 }
 
@@ -55,7 +55,7 @@ impl World {
         self.outcome = outcome;
     }
 
-    /// Returns the action of the last tick.
+    /// Returns the last tick's action.
     pub(crate) fn last_action(&self) -> Action {
         self.last_action
     }
@@ -132,37 +132,36 @@ impl World {
         &self.timers
     }
 
-    /// Schedules a timer. The timer runs before all other timers that are due in the same tick (`spec/03`
-    /// §6.2).
+    /// Schedules a timer. The timer runs before all other timers due in the same tick (`spec/03` §6.2).
     pub(crate) fn plan(&mut self, timer: Timer) {
         let at = self.timers.partition_point(|other| other.due >= timer.due);
         self.timers.insert(at, timer);
     }
 
-    /// Removes and returns a timer that is due.
+    /// Removes and returns a due timer.
     pub(crate) fn take_due(&mut self) -> Option<Timer> {
         self.timers.pop_if(|timer| timer.due <= self.tick)
     }
 
-    /// Returns the memory of an effect. See [`crate::rules::memory`].
+    /// Returns an effect's memory. See [`crate::rules::memory`].
     #[inline(always)]
     pub(crate) fn memory(&self, effect: u16) -> u8 {
         self.memory[usize::from(effect)]
     }
 
-    /// Sets or clears a bit in the memory of an effect.
+    /// Sets or clears a bit in an effect's memory.
     pub(crate) fn remember(&mut self, effect: u16, bit: u8, on: bool) {
         let byte = &mut self.memory[usize::from(effect)];
         let before = std::mem::replace(byte, if on { *byte | bit } else { *byte & !bit });
         self.memory_is_dirty |= before != *byte;
     }
 
-    /// Returns `true` if a sprite of a type has been made before.
+    /// Returns `true` if a sprite of a type has already been created.
     pub(crate) fn has_had(&self, stype: SpriteType) -> bool {
         self.templates[stype.index()] != 0
     }
 
-    /// Records that a sprite of a type is made. Returns `true` if the sprite is the first of its type.
+    /// Records the creation of a sprite of a type. Returns `true` if the sprite is the first of its type.
     pub(crate) fn is_first_of(&mut self, stype: SpriteType) -> bool {
         let first = std::mem::replace(&mut self.templates[stype.index()], 1) == 0;
         self.memory_is_dirty |= first;
@@ -174,19 +173,19 @@ impl World {
         std::mem::replace(&mut self.avatar, slot)
     }
 
-    /// Returns `true` if there is an avatar, even if it is disabled.
+    /// Returns `true` if an avatar exists, even if the avatar is disabled.
     pub(crate) fn has_avatar(&self) -> bool {
         self.avatar != NONE
     }
 
-    /// Raises a shield for this tick.
+    /// Adds a shield for this tick.
     pub(crate) fn shield(&mut self, shield: (SpriteType, SpriteType, u16)) {
         if let Err(at) = self.shields.binary_search(&shield) {
             self.shields.insert(at, shield);
         }
     }
 
-    /// Returns `true` if a shield has been raised in this tick.
+    /// Returns `true` if a shield has been added in this tick.
     #[inline]
     pub(crate) fn is_shielded(&self, shield: (SpriteType, SpriteType, u16)) -> bool {
         !self.shields.is_empty() && self.shields.binary_search(&shield).is_ok()
@@ -200,7 +199,7 @@ impl World {
         Some(self.pulled.len() - 1)
     }
 
-    /// Clears everything that holds for one tick only.
+    /// Clears all data that is valid for one tick only.
     pub(crate) fn end_tick(&mut self) {
         self.shields.clear();
         self.pulled.clear();

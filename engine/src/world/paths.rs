@@ -5,9 +5,9 @@ use crate::numbers::geometry::Direction;
 use crate::rules::Rules;
 use std::sync::{Arc, OnceLock};
 
-/// A cell that paths may lead through. Cells, including the ring around the board, have one of these marks.
+/// A cell that paths may cross. Each cell, including the ring around the board, has one of these marks.
 const OPEN: u8 = 0;
-/// A cell that has an obstacle or is off the board.
+/// A cell that contains an obstacle or is off the board.
 const CLOSED: u8 = u8::MAX;
 /// The cell where a path starts.
 const START: u8 = u8::MAX - 1;
@@ -56,21 +56,21 @@ impl Heap {
     }
 }
 
-/// The paths of one level: the cells that paths avoid, which do not change during an episode, and the paths
+/// The paths in one level: the cells that paths avoid, which do not change during an episode, and the paths
 /// requested so far. All states of the level share these paths. The results do not depend on the order of
 /// requests.
 #[derive(Debug)]
 pub(crate) struct Paths {
     /// For each cell, [`OPEN`] or [`CLOSED`].
     cells: Vec<u8>,
-    /// For each direction, its number and the wrapping offset that a step adds to a cell.
+    /// For each direction, its index and the wrapping offset that a step adds to a cell.
     ahead: Vec<(u8, usize)>,
     /// For each start cell, the first steps of its paths, once requested. Empty for boards with too many
     /// cells.
     known: Vec<OnceLock<Box<[u8]>>>,
 }
 
-/// The maximum number of cells of a board whose paths are kept, at one byte per pair of cells.
+/// The maximum number of cells on a board whose paths are stored, at one byte per pair of cells.
 const MAX_KEPT: usize = 1 << 11;
 
 const DIRECTIONS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
@@ -84,7 +84,8 @@ impl Paths {
         DIRECTIONS.get(usize::from(step).wrapping_sub(1)).copied()
     }
 
-    /// Returns the first step to each cell, as a number above [`OPEN`]. The search stops when it reaches the goal.
+    /// Returns the first step to each cell, as a number above [`OPEN`]. The search stops when it reaches the
+    /// goal.
     fn search(&self, start: usize, goal: Option<usize>) -> Box<[u8]> {
         let mut first = self.cells.clone();
         first[start] = START;
@@ -110,9 +111,9 @@ impl Paths {
 }
 
 impl World {
-    /// Records the cells that contain an obstacle at the start. These cells stay obstacles, and hidden
-    /// sprites do not count. If the avatar has three actions, all paths of the episode go left and right
-    /// only, even if the avatar changes.
+    /// Records the cells that contain an obstacle at the start. These cells remain obstacles, and hidden
+    /// sprites do not count. If the avatar has three actions, all paths in the episode lead only left and
+    /// right, even if the avatar changes.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
         let mut cells = vec![CLOSED; World::cell_count(self.columns, self.rows)];
         for row in 0..self.rows {
@@ -138,7 +139,7 @@ impl World {
     }
 
     /// Returns the first step of the path between two pixels, or `None` if there is no path or no step to
-    /// make. Also returns the work of finding the path.
+    /// take. Also returns the amount of work for finding the path.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
         let Some(paths) = self.paths.as_deref() else { return (None, 1) };
@@ -150,8 +151,8 @@ impl World {
         (paths.first(start, goal), paths.cells.len() / share)
     }
 
-    /// Returns the cell of a pixel. The reference multiplies by the reciprocal of the block size, which for some sizes
-    /// gives a lower cell.
+    /// Returns the cell that contains a pixel. The reference multiplies by the reciprocal of the block size,
+    /// which yields a lower cell for some sizes.
     fn path_cell(&self, (x, y): (i32, i32)) -> Option<usize> {
         let reciprocal = 1.0 / f64::from(self.block);
         let column = (f64::from(x) * reciprocal) as i32;
@@ -160,7 +161,7 @@ impl World {
         inside.then(|| self.cell(column + 1, row + 1))
     }
 
-    /// Returns the number of the avatar's actions, not counting doing nothing.
+    /// Returns the number of the avatar's actions, excluding [`Action::Nil`](crate::Action::Nil).
     fn avatar_actions(&self, rules: &Rules) -> usize {
         let avatar: Slot = self.avatar;
         let Some(sprite) = self.sprites.get(usize::from(avatar)) else { return 0 };

@@ -1,4 +1,4 @@
-//! Recounts everything that a world maintains incrementally (chains, cells, counts and lists), for tests and
+//! Recounts all incrementally maintained parts of a world (chains, cells, counts and lists), for tests and
 //! fuzzing.
 
 use super::fixtures::mirrored;
@@ -8,8 +8,8 @@ use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType};
 
 impl World {
-    /// Compares everything that is maintained incrementally with a count from scratch. Returns the number of sprites of
-    /// each type. Cost: O(sprites + cells).
+    /// Compares all incrementally maintained values with a count from scratch. Returns the number of sprites
+    /// of each type. Cost: O(sprites + cells).
     ///
     /// # Errors
     /// Returns a message that describes the first difference.
@@ -78,7 +78,7 @@ impl World {
         }
     }
 
-    /// Walks the chain of a type.
+    /// Walks a type's chain.
     fn recount_group(&self, rules: &Rules, stype: SpriteType, alive: &mut [bool]) -> Result<Group, String> {
         let kept = self.group(stype);
         let scenery = self.scenery_of(stype).len() as u16;
@@ -115,7 +115,7 @@ impl World {
         Ok(counted)
     }
 
-    /// Walks the chain of every cell. Each sprite of a type that takes part in rules must be in its corner's cell
+    /// Walks every cell's chain. Each sprite of a type that takes part in rules must be in its corner's cell
     /// exactly once.
     fn recount_cells(&self, models: &Models, alive: &[bool]) -> Result<(), String> {
         let mut seen = vec![false; alive.len()];

@@ -1,5 +1,5 @@
-//! Scenery: sprites of types that no rule, no other sprite and no termination refers to, and that do nothing
-//! by themselves.
+//! Scenery: sprites that do nothing by themselves, and to whose types no rule, other sprite or termination
+//! refers.
 //!
 //! Scenery stays where the level placed it for the whole episode. In a typical game, half of all sprites are
 //! the floor, which is scenery. All states of a level share its scenery. Scenery has no slots, a copy of a
@@ -21,7 +21,7 @@ impl Scenery {
 }
 
 impl World {
-    /// Makes a scenery sprite. If other states share the scenery, this state gets its own copy first.
+    /// Creates a scenery sprite. If other states share the scenery, this state gets its own copy first.
     pub(crate) fn add_scenery(&mut self, sprite: Sprite) {
         self.groups[sprite.stype.index()].count += 1;
         self.next_id += 1;
@@ -35,14 +35,13 @@ impl World {
         }
     }
 
-    /// Returns the scenery sprites of a type. Either all sprites of a type are scenery, or none of its
-    /// sprites is.
+    /// Returns a type's scenery sprites. Either all or none of a type's sprites are scenery.
     pub(crate) fn scenery_of(&self, stype: SpriteType) -> &[Sprite] {
         self.scenery.as_ref().map_or(&[], |scenery| scenery.of(stype))
     }
 
-    /// Returns the current sprites of a type, in order of creation, whether they have slots or are scenery. For use
-    /// between steps.
+    /// Returns a type's current sprites, in order of creation, whether they have slots or are scenery. For
+    /// use between steps.
     pub(crate) fn sprites_of(&self, stype: SpriteType) -> impl Iterator<Item = Sprite> + '_ {
         self.scenery_of(stype).iter().copied().chain(self.slots(stype).map(|slot| self.present(slot)))
     }

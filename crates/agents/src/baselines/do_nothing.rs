@@ -1,4 +1,4 @@
-//! The player that never presses a key.
+//! A player that never presses a key.
 
 use crate::planner::{Budget, Planner};
 use engine::{Action, Game, State};

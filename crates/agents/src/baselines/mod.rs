@@ -1,4 +1,4 @@
-//! Baseline players, to which the planners are compared.
+//! Baseline players, for comparison with the planners.
 
 pub(crate) mod do_nothing;
 pub(crate) mod nearest_goal;

@@ -1,4 +1,4 @@
-//! The nearest-goal player, which walks straight to the nearest useful thing.
+//! The nearest-goal player, which walks straight to the nearest useful sprite.
 
 use crate::guides::goal_guide::{Distances, GoalGuide};
 use crate::planner::{Budget, Planner, Streams};
@@ -6,12 +6,12 @@ use base::Seed;
 use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
-/// A greedy player that takes the action with the most progress towards a win. Among equal actions, it takes
-/// the action that brings the avatar closest to something that a win needs. The player looks one tick ahead,
-/// so it neither plans nor waits, and it notices a danger only in a neighbouring cell. A level that the
-/// player wins demands nothing but walking.
+/// A greedy player that chooses the action with the most progress towards a win. Among equally good actions,
+/// it chooses the action that brings the avatar closest to a sprite that a win needs. The player looks one
+/// tick ahead, so it neither plans nor waits, and it notices a danger only in a neighbouring cell. A level
+/// that the player wins requires nothing but walking.
 ///
-/// With `slips`, the player is careless: it presses a random key in that fraction of the ticks.
+/// With `slips`, the player is careless: it presses a random key in a fraction `slips` of the ticks.
 ///
 /// Cost: one forward-model call per available action, regardless of the budget.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -7,23 +7,24 @@ use base::Seed;
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// The scale of the tie-breaking noise, which is the reference's value.
+/// The scale of the tie-breaking noise, as in the reference.
 const EPSILON: f64 = 1e-6;
 
 base::with_defaults! {
-    /// The parameters of [`OneStep`]. The defaults are the reference's.
+    /// The parameters of [`OneStep`]. The default values are those of the reference.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct OneStepConfig {
         /// The evaluation of the next states.
         pub heuristic: Heuristic = Heuristic::Simple,
-        /// The number of times to try each action, at least 1. The values of all tries are averaged. The
+        /// The number of times to try each action, at least 1. The results of all tries are averaged. The
         /// reference tries each action once, so a single random draw decides.
         pub samples: u32 = 1,
     }
 }
 
-/// A player that looks one tick ahead. It costs one call per action and sample, regardless of the budget.
+/// A player that looks one tick ahead. A decision costs one call per action and sample, regardless of the
+/// budget.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct OneStep {
     config: OneStepConfig,

@@ -5,8 +5,8 @@ use base::{Sampler, Seed};
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// A player that draws uniformly among the avatar's actions: the reference's `simpleRandom`. Doing nothing is
-/// included only in players created by [`Random::with_nil`].
+/// A player that draws uniformly among the avatar's actions: the reference's `simpleRandom`. Only players
+/// created by [`Random::with_nil`] also draw [`Action::Nil`].
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Random {
     with_nil: bool,
@@ -14,12 +14,12 @@ pub struct Random {
 }
 
 impl Random {
-    /// Creates a player that never chooses to do nothing, with its own random stream of choices.
+    /// Creates a player that never draws [`Action::Nil`], with its own random stream of choices.
     pub fn new(seed: Seed) -> Random {
         Random { with_nil: false, choices: seed.child("choices", 0).sampler() }
     }
 
-    /// Creates a player that also chooses to do nothing, as one of its actions.
+    /// Creates a player that also draws [`Action::Nil`].
     pub fn with_nil(seed: Seed) -> Random {
         Random { with_nil: true, ..Random::new(seed) }
     }

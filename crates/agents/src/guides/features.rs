@@ -1,14 +1,14 @@
-//! The features on which novelty is measured: the sprites' positions and the avatar's resources.
+//! The features by which novelty is measured: the sprites' positions and the avatar's resources.
 
 use engine::analysis::{Analysis, Motion, StateAbstraction};
 use engine::{Direction, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// The number of amounts of a resource that are distinguished, and of sprite counts.
+/// The number of distinguished amounts of a resource, and of distinguished sprite counts.
 const AMOUNTS: usize = 16;
 
 /// The atoms of all states reachable from a start state. An atom is a fact such as "a sprite of this type is
-/// in this cell" or "the avatar has this amount of this resource". Types that never change are left out.
+/// in this cell" or "the avatar has this amount of this resource". Types that never change are omitted.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Features {
     columns: i32,
@@ -41,9 +41,9 @@ impl Features {
         Features { columns, rows, types, avatars, numbers: Vec::new(), resources }
     }
 
-    /// Returns the features of [`Features::of`], but without the positions of types that move by themselves
-    /// or soon vanish. Their positions change all the time, and not because of the player. Such types count
-    /// only by their number of sprites.
+    /// Returns the features from [`Features::of`], but without the positions of types that move by themselves
+    /// or soon vanish. Their positions change constantly, regardless of the player. Such types count only by
+    /// their number of sprites.
     pub(crate) fn without_moving_types(
         analysis: &Analysis,
         abstraction: &StateAbstraction,
@@ -73,7 +73,7 @@ impl Features {
         (self.columns * self.rows) as usize + 1
     }
 
-    /// Visits the atoms of a state, some possibly twice. Cost: O(sprites of types that change).
+    /// Visits a state's atoms, some of them possibly twice. Cost: O(sprites of types that change).
     pub(crate) fn each(&self, state: &State, mut atom: impl FnMut(usize)) {
         let block = state.block();
         let cells = self.cells();
@@ -129,7 +129,7 @@ impl Atoms {
         Atoms(vec![0; atoms.div_ceil(64)])
     }
 
-    /// Adds an atom, and returns `true` if it was new.
+    /// Adds an atom. Returns `true` if the atom is new.
     pub(crate) fn insert(&mut self, atom: usize) -> bool {
         let (word, bit) = (&mut self.0[atom / 64], 1 << (atom % 64));
         let is_new = *word & bit == 0;

@@ -1,4 +1,4 @@
-//! A measure of progress towards a win: a number per state, derived from the meaning of the rules.
+//! A measure of a state's progress towards a win, derived from the meaning of the rules.
 //!
 //! The measure has two parts. *Progress* counts the sprites that must still disappear or appear for a winning
 //! termination, and the keys that the avatar holds. *Closeness* is the proximity of the next useful target,
@@ -14,20 +14,20 @@ use std::collections::VecDeque;
 const HALF_WAY: f64 = 8.0;
 const UNREACHED: u16 = u16::MAX;
 
-/// The useful targets in one game, by avatar type.
+/// The useful targets in a game, by avatar type.
 #[derive(Clone, Debug)]
 pub(crate) struct GoalGuide {
     digest: Digest,
     analysis: Analysis,
-    /// The winning terminations that depend on numbers of sprites and that can be reached in play.
+    /// The winning terminations that depend on sprite counts and that play can satisfy.
     goals: Vec<Goal>,
     /// The targets for each avatar type, in the order of the analysis.
     targets: Vec<Targets>,
-    /// Pairs of a pushable type and the type to push it onto.
+    /// Pairs of a pushable type and the type onto which to push it.
     pushes: Vec<(SpriteType, SpriteType)>,
 }
 
-/// The roles of types for an avatar of one type.
+/// The roles of types for avatars of one type.
 #[derive(Clone, Debug)]
 struct Targets {
     avatar: SpriteType,
@@ -38,7 +38,7 @@ struct Targets {
 #[derive(Clone, Debug)]
 struct Target {
     stype: SpriteType,
-    /// The resource that the target requires, with its amount.
+    /// The resource that the target requires, with the required amount.
     needs: Option<(SpriteType, i32)>,
 }
 
@@ -77,12 +77,12 @@ impl GoalGuide {
         GoalGuide { digest: game.digest(), analysis, goals, targets, pushes }
     }
 
-    /// Returns `true` if the guide was made for this game.
+    /// Returns `true` if the guide was created for this game.
     pub(crate) fn fits(&self, game: &Game) -> bool {
         self.digest == game.digest()
     }
 
-    /// Returns the progress of a state: minus one for each missing sprite, plus up to one for the keys held.
+    /// Returns a state's progress: minus one for each missing sprite, plus up to one for the held keys.
     pub(crate) fn progress(&self, state: &State) -> f64 {
         let missing = self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min();
         let avatar = state.avatar_type();
@@ -232,7 +232,8 @@ mod tests {
     use base::Seed;
     use engine::Action;
 
-    /// A key turns the bear into a different avatar, and only that avatar can open the hive.
+    /// A test game in which a key turns the bear into a different avatar, and only that avatar can open the
+    /// hive.
     const GAME: &str = "BasicGame\n  SpriteSet\n    hive > Door\n    key > Immovable\n    trap > Immovable\n    avatar >\n      bear > MovingAvatar\n      smith > MovingAvatar\n  LevelMapping\n    h > hive\n    k > key\n    t > trap\n    b > bear\n  InteractionSet\n    avatar wall > stepBack\n    bear hive > stepBack\n    bear trap > killSprite\n    smith trap > killSprite\n    hive smith > killSprite scoreChange=1\n    bear key > transformTo stype=smith\n    key smith > killSprite\n  TerminationSet\n    SpriteCounter stype=hive win=True\n    SpriteCounter stype=avatar win=False\n";
 
     #[track_caller]

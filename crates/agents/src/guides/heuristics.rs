@@ -1,9 +1,10 @@
-//! Evaluations of a state by its observable features: the reference's two heuristics (`spec/04` §9), including their quirks.
+//! Evaluations of a state by its observable features: the reference's two heuristics (`spec/04` §9),
+//! including their quirks.
 
 use engine::{Category, Game, Outcome, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// An evaluation of states for players with a short look-ahead.
+/// An evaluation of states, for players with a short look-ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Heuristic {
@@ -17,7 +18,7 @@ pub enum Heuristic {
 }
 
 impl Heuristic {
-    /// Returns the value of a state that was reached from `root`. Cost: O(1), or O(NPCs and portals).
+    /// Returns the value of a state reached from `root`. Cost: O(1), or O(NPCs and portals).
     pub fn value(self, game: &Game, root: &State, state: &State) -> f64 {
         match (self, state.outcome()) {
             (Heuristic::WinScore, Outcome::Won) => 1000.0,
@@ -46,15 +47,15 @@ fn simple(game: &Game, root: &State, state: &State) -> f64 {
     }
 }
 
-/// The observations of one category.
+/// Summarises the observed sprites of one category.
 struct Sighting {
-    /// `true` if a type of the category existed at the root or exists now. The reference's copies remember
-    /// the types of the original.
+    /// `true` if a type in the category existed at the root or exists now. The reference's copies remember
+    /// the original's types.
     known: bool,
     count: usize,
     /// The squared distance in pixels from the avatar to the nearest sprite of the last type that has any
     /// sprites. A sprite of a different type may be nearer, because the reference iterates over the types and
-    /// keeps the last answer.
+    /// keeps only the last result.
     nearest: Option<f64>,
 }
 

@@ -1,9 +1,9 @@
-//! The distance of a state from a win.
+//! A state's distance from a win.
 
 use engine::State;
 use engine::analysis::{Analysis, Attainable, Condition, Goal};
 
-/// The winning goals, by which the distance from a win is measured.
+/// The winning goals that measure the distance from a win.
 #[derive(Clone, Debug)]
 pub(crate) struct Progress<'a> {
     analysis: &'a Analysis,
@@ -16,14 +16,15 @@ impl<'a> Progress<'a> {
         Progress { analysis, goals: winning.collect() }
     }
 
-    /// Returns the number of sprites that must disappear or appear for the nearest goal about sprites, or 0 if there is no such
-    /// goal.
+    /// Returns the number of sprites that must still disappear or appear for the nearest sprite-counting
+    /// goal, or 0 if there is no such goal.
     pub(crate) fn sprites_missing(&self, state: &State) -> u32 {
         let counted = self.goals.iter().filter(|goal| !matches!(goal.condition, Condition::Tick(_)));
         counted.map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(0)
     }
 
-    /// Returns the number of sprites that must disappear or appear, or of ticks that must pass, for the nearest goal.
+    /// Returns the number of sprites that must still disappear or appear, or of ticks that must pass, for the
+    /// nearest goal.
     pub(crate) fn missing(&self, state: &State) -> u32 {
         self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(u32::MAX)
     }

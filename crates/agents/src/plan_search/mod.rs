@@ -1,4 +1,4 @@
-//! Planners that search among sequences of actions.
+//! Planners that search among action sequences.
 
 pub(crate) mod random_search;
 pub(crate) mod rhea;

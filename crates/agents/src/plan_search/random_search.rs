@@ -1,5 +1,5 @@
-//! Random search: the reference's `sampleRS` (`spec/04` §4), which is a baseline for evolution at an equal
-//! number of calls.
+//! Random search: the reference's `sampleRS` (`spec/04` §4), a baseline for evolution with an equal number
+//! of calls.
 
 use super::sequences::Sequences;
 use crate::guides::heuristics::Heuristic;
@@ -9,18 +9,18 @@ use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The parameters of [`RandomSearch`]. The defaults are the reference's.
+    /// The parameters of [`RandomSearch`]. The default values are those of the reference.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct RandomSearchConfig {
         /// The length of a sequence in ticks.
         pub horizon: usize = 10,
-        /// The evaluation of the state after a sequence.
+        /// The evaluation of the final state of a sequence.
         pub heuristic: Heuristic = Heuristic::WinScore,
     }
 }
 
-/// A planner that tries random sequences of actions, which may include doing nothing, and plays the first
+/// A planner that tries random action sequences, which may contain [`Action::Nil`], and plays the first
 /// action of the best sequence.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RandomSearch {

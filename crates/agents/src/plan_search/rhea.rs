@@ -1,4 +1,5 @@
-//! Rolling-horizon evolution: the reference's `sampleRHEA` with its budget in calls (`spec/04` §3).
+//! Rolling-horizon evolution: the reference's `sampleRHEA`, with a budget in forward-model calls (`spec/04`
+//! §3).
 //!
 //! See Perez Liebana et al. 2013, "Rolling horizon evolution versus tree search for navigation in
 //! single-player real-time games".
@@ -11,21 +12,21 @@ use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The parameters of [`Rhea`]. The defaults are the reference's.
+    /// The parameters of [`Rhea`]. The default values are those of the reference.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct RheaConfig {
-        /// The number of plans in the population. The population is smaller if the budget does not suffice to
-        /// try all plans.
+        /// The number of plans in the population. The population is smaller if the budget is too small to try
+        /// all plans.
         pub population: usize = 10,
         /// The length of a plan in ticks.
         pub horizon: usize = 10,
-        /// The number of genes of a child to redraw, possibly with the same value.
+        /// The number of genes to redraw in each child, possibly with the same value.
         pub mutations: usize = 1,
-        /// The evaluation of the state after a plan.
+        /// The evaluation of the final state of a plan.
         pub heuristic: Heuristic = Heuristic::WinScore,
-        /// `true` to keep the plans of the previous decision, shifted by one tick and with a random last action. The reference
-        /// begins each decision with random plans instead. Off by default.
+        /// `true` to keep the previous decision's plans, shifted by one tick and with a random last action.
+        /// The reference begins each decision with random plans instead. Off by default.
         pub shift: bool = false,
     }
 }
@@ -35,7 +36,7 @@ base::with_defaults! {
 pub struct Rhea {
     config: RheaConfig,
     streams: Streams,
-    /// The plans of the last decision, best first. They are kept only if `shift` is set.
+    /// The last decision's plans, best first. The plans are stored only if `shift` is set.
     plans: Vec<Vec<Gene>>,
     #[serde(skip)]
     scratch: Option<State>,
@@ -52,7 +53,7 @@ impl Rhea {
         Rhea { config, streams: Streams::new(seed), plans: Vec::new(), scratch: None }
     }
 
-    /// Creates the first generation, as large as the budget allows but with at least one plan.
+    /// Creates the first generation. Its size is limited by the budget, but it contains at least one plan.
     fn first(
         &mut self,
         sequences: &mut Sequences<'_>,
@@ -83,9 +84,9 @@ impl Rhea {
         population
     }
 
-    /// Creates a child of two different plans. The child takes each gene from either plan, and then a few
-    /// genes are redrawn. If there is a single plan, creates a mutant of it. The reference's tournament is as
-    /// large as the set of parents, so it does not select.
+    /// Creates a child of two different plans. The child inherits each gene from either plan, and then a few
+    /// genes are redrawn. If there is only one plan, creates a mutant of that plan. The reference's
+    /// tournament is as large as the set of parents, so it does not select.
     fn child(
         &self,
         population: &[Individual],
@@ -109,8 +110,8 @@ impl Rhea {
     }
 }
 
-/// Sorts the plans by value, best first. The sort is stable, so among plans of equal value the oldest comes
-/// first.
+/// Sorts the plans by value, best first. The sort is stable, so among plans of equal value the oldest plan
+/// comes first.
 fn best_first(population: &mut [Individual]) {
     population.sort_by(|a, b| b.value.total_cmp(&a.value));
 }

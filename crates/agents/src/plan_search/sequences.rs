@@ -1,10 +1,10 @@
-//! Plans as sequences of actions, for the planners that search among them: random search and evolution.
+//! Plans as action sequences, for the planners that search among such sequences: random search and evolution.
 
 use crate::guides::heuristics::Heuristic;
 use crate::planner::{Budget, Decision};
 use engine::{Action, Game, State};
 
-/// A gene: an index into the alphabet of actions.
+/// A gene: an index into the action alphabet.
 pub(crate) type Gene = u8;
 
 /// Evaluates sequences in one decision and counts the forward-model calls.
@@ -12,7 +12,7 @@ pub(crate) struct Sequences<'a> {
     game: &'a Game,
     state: &'a State,
     heuristic: Heuristic,
-    /// The avatar's actions, including doing nothing.
+    /// The avatar's actions, including [`Action::Nil`].
     alphabet: Vec<Action>,
     copy: State,
     budget: u64,
@@ -54,8 +54,8 @@ impl<'a> Sequences<'a> {
         self.alphabet[usize::from(gene)]
     }
 
-    /// Returns the value of the state after a sequence, or at the end of the episode. If the budget runs out on the way, returns
-    /// the value of the state at that point, as the reference does.
+    /// Returns the value of the state after a sequence, or at the end of the episode. If the budget runs out
+    /// earlier, returns the value of the state at that point, like the reference.
     pub(crate) fn value(&mut self, genes: &[Gene], decision: &mut Decision) -> f64 {
         decision.fork_with_random_future(&mut self.copy, self.state);
         for &gene in genes {

@@ -1,4 +1,4 @@
-//! A* with transpositions, which finds the shortest win or proves that there is no win.
+//! A* with transpositions, which finds the shortest win or proves that no win exists.
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
@@ -7,8 +7,9 @@ use engine::State;
 use engine::analysis::Analysis;
 
 /// Searches for the shortest win (Hart, Nilsson and Raphael 1968). Expands states in ascending order of a
-/// lower bound on the number of ticks of a win through the state. The bound is the number of ticks to reach
-/// the state plus the [`Pushes`] that the state needs. If nothing is pushed, this is breadth-first search.
+/// lower bound on the length, in ticks, of a win through the state. The bound is the number of ticks to
+/// reach the state plus the [`Pushes`] that the state needs. Without pushes, the search is a breadth-first
+/// search.
 ///
 /// A proof requires a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost: at
 /// most the number of states times the number of actions, in calls. Each call costs O(size of a state).

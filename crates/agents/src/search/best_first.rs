@@ -1,4 +1,4 @@
-//! Best-first width search, which finds some win soon, but not the shortest win.
+//! Best-first width search, which finds some win quickly, but not the shortest win.
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
@@ -9,16 +9,16 @@ use engine::State;
 use engine::analysis::Analysis;
 use std::collections::BTreeMap;
 
-/// Searches for any win. Among states equally far from the goal, the search prefers novel states: states with
-/// a sprite where there was none of its type yet, or with more of a resource. Ties go to states closer to the
-/// goal, then to states that need fewer [`Pushes`].
+/// Searches for any win. Among states equally far from the goal, the search prefers novel states: states in
+/// which a type has a sprite in a new cell, or in which the avatar holds a new amount of a resource. Ties go
+/// to states closer to the goal, then to states that need fewer [`Pushes`].
 ///
 /// The search is described in Lipovetzky and Geffner 2017, "Best-first width search: exploration and
-/// exploitation in classical planning". Its goal counter is the number of sprites that must disappear or
-/// appear, and the score.
+/// exploitation in classical planning". Its goal counter consists of the number of sprites that must
+/// disappear or appear, and the score.
 ///
 /// Unlike in the paper, states that are not novel are not pruned. The search is therefore complete: if it
-/// finds no win, there is no win. Conditions and costs are the same as for [`a_star`](super::a_star).
+/// finds no win, no win exists. Conditions and costs are the same as for [`a_star`](super::a_star).
 pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     best_first_until(analysis, pushes, start, limits, &|| false)
 }
@@ -44,12 +44,12 @@ struct Queue<'a> {
     features: Features,
     /// The atoms seen so far, by distance from the goal and score.
     seen: BTreeMap<(u32, i64), Atoms>,
-    /// The open states by rank. Nodes of equal rank are expanded in the order of their discovery.
+    /// The open states by rank. Nodes with equal ranks are expanded in the order of their discovery.
     open: BTreeMap<(Rank, NodeId), StoredState>,
 }
 
-/// The rank of a state. Novel states come first. The other criteria are the distance from the goal plus the
-/// pushes needed, the score, and the depth.
+/// A state's rank. Novel states come first. The remaining criteria are the distance from the goal plus the
+/// required pushes, the score, and the depth.
 type Rank = (u32, u32, i64, u32);
 
 impl Frontier for Queue<'_> {

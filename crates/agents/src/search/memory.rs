@@ -1,8 +1,8 @@
-//! A limit on the memory of all systematic searches of the process together.
+//! A limit on the total memory for all systematic searches in the process.
 //!
-//! The limit is useful if many searches run at once. A search that outgrows [`FREE`] then waits until there
-//! is room for all the memory that its own limit allows. The answers, and everything derived from the
-//! answers, are therefore the same as without the process-wide limit.
+//! The limit is useful if many searches run at the same time. A search that outgrows [`FREE`] then waits
+//! until enough memory is available for its own limit. The results, and everything derived from the results,
+//! are therefore the same as without the process-wide limit.
 
 use crate::play::Stopped;
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -12,22 +12,22 @@ use std::time::Duration;
 const FREE: usize = 64 << 20;
 /// The number of bytes that a process uses in addition to its searches: for rules, levels, episodes and results.
 const REST: usize = 256 << 20;
-/// The number of bytes of the largest usual search. See [`SearchLimits::calls`](super::SearchLimits::calls).
+/// The memory in bytes for the largest usual search. See [`SearchLimits::calls`](super::SearchLimits::calls).
 const LARGEST: usize = 1 << 30;
 
-/// The memory for searches that outgrow [`FREE`].
+/// The memory available to searches that outgrow [`FREE`].
 #[derive(Clone, Copy)]
 struct Room {
     all: usize,
     left: usize,
 }
 
-/// The process-wide room, which is initially unlimited.
+/// The process-wide memory for searches, which is initially unlimited.
 static ROOM: Mutex<Option<Room>> = Mutex::new(None);
 /// Notified when a search returns its memory.
 static GIVEN_BACK: Condvar = Condvar::new();
 
-/// The error for a memory limit that is too small for one search.
+/// The error for a memory limit too small for one search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{threads} search threads need at least {} MiB", .least >> 20)]
 pub struct TooLittle {
@@ -37,12 +37,13 @@ pub struct TooLittle {
     pub least: usize,
 }
 
-/// Limits the memory of this process to about `bytes` bytes, if at most `threads` threads search at once. Searches wait for each
-/// other if they need to. No answer depends on the limit.
+/// Limits this process to about `bytes` bytes of memory, if at most `threads` threads search at the same
+/// time. Searches wait for each other if necessary. No result depends on the limit.
 ///
 /// # Errors
 ///
-/// Returns an error if the limit leaves no room for one search of a gibibyte beside small searches on all threads.
+/// Returns an error if the limit is too small for one search with a gibibyte and small searches on all
+/// threads.
 pub fn bound(bytes: usize, threads: usize) -> Result<(), TooLittle> {
     let small = FREE.saturating_mul(threads).saturating_add(REST);
     let least = small.saturating_add(LARGEST - FREE);
@@ -54,7 +55,7 @@ pub fn bound(bytes: usize, threads: usize) -> Result<(), TooLittle> {
     Ok(())
 }
 
-/// A reservation of memory for one search, which is released when it is dropped.
+/// A memory reservation for one search, which is released when it is dropped.
 #[derive(Default)]
 pub(super) struct Lease {
     bytes: usize,
@@ -62,8 +63,9 @@ pub(super) struct Lease {
 }
 
 impl Lease {
-    /// Reserves memory for a search that uses `bytes` and may use `limit`, and waits for it if necessary. Does not wait if the
-    /// search is small or there is no process-wide limit. Returns `false` if the search was stopped while it waited.
+    /// Reserves memory for a search that uses `bytes` and may use `limit`, and waits for the memory if
+    /// necessary. Does not wait if the search is small or there is no process-wide limit. Returns `false` if
+    /// the search was stopped while it waited.
     pub(super) fn grow(&mut self, bytes: usize, limit: usize, stopped: Stopped<'_>) -> bool {
         if self.is_held || bytes <= FREE {
             return true;
@@ -106,7 +108,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// No other test may limit the memory, because the limit applies to the whole process.
+    /// Must be the only test that limits the memory, because the limit applies to the whole process.
     #[test]
     fn large_searches_take_turns() {
         let never = || false;

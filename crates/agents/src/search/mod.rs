@@ -1,10 +1,10 @@
-//! Systematic search for wins. From a state with a deterministic future, the search proves in how many ticks
-//! a level can be won, or that the level cannot be won. In other games, the search explores one random
-//! future, as if the player foresaw all randomness, and proves nothing.
+//! Systematic search for wins. From a state with a deterministic future, the search proves the minimum
+//! number of ticks for a win, or that the level cannot be won. In other games, the search explores one
+//! random future, as if the player foresaw all randomness, and proves nothing.
 //!
-//! States are distinguished by [`engine::analysis::StateAbstraction`], stored as differences from the start
-//! ([`engine::Packed`]), and counted in forward-model calls. A search stops at the first win, after all
-//! reachable states, or at its limits. Only the second case proves that there is no win.
+//! States are distinguished by [`engine::analysis::StateAbstraction`] and stored as differences from the
+//! start ([`engine::Packed`]). The cost is counted in forward-model calls. A search stops at the first win,
+//! after all reachable states, or at its limits. Only the second case proves that no win exists.
 
 mod a_star;
 mod best_first;
@@ -22,7 +22,7 @@ pub use pushes::Pushes;
 use engine::Action;
 use serde::{Deserialize, Serialize};
 
-/// The limits of a search.
+/// A search's limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SearchLimits {
     /// The maximum number of forward-model calls.
@@ -38,34 +38,35 @@ impl SearchLimits {
     }
 }
 
-/// The result of a search.
+/// A search's result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Searched {
-    /// The answer to the question whether the level can be won.
+    /// Whether the level can be won, as far as known.
     pub answer: Answer,
     /// The cost of the search in forward-model calls.
     pub calls: u64,
     /// The number of distinct states found.
     pub states: u64,
-    /// The actions that lead to the state closest to a win: the state from which the fewest sprites must
-    /// still disappear or appear. If several states are equally close, the first of them counts.
+    /// The actions that lead to the state closest to a win: the state in which the minimum number of sprites
+    /// must still disappear or appear. If several states are equally close, the first of these states
+    /// counts.
     pub nearest: Vec<Action>,
 }
 
-/// The answer of a search.
+/// The outcome of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
     /// A sequence of actions wins.
     Won {
-        /// The actions from the initial state of the search.
+        /// The actions from the search's initial state.
         actions: Vec<Action>,
         /// `true` if no shorter sequence of actions wins.
         shortest: bool,
     },
-    /// There is no win, because all reachable states were searched.
+    /// No win exists, because the search has covered all reachable states.
     Impossible,
-    /// The answer is unknown, because the budget in calls was spent or all states of one random future were
-    /// searched.
+    /// The answer is unknown, because the search has spent its budget in calls or covered all states of one
+    /// random future.
     OutOfCalls,
     /// The answer is unknown, because the memory was full.
     OutOfMemory,

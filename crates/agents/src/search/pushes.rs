@@ -1,31 +1,33 @@
-//! A lower bound on the pushes that a state needs before it can be won. A box in a corner, for example, can never be pushed home.
+//! A lower bound on the pushes that a state needs for a win. A box in a corner, for example, can never be
+//! pushed to its goal.
 
 use base::Seed;
 use engine::analysis::{Analysis, Condition, EffectSummary, Encounter, Motion, Precondition, Reach, Side};
 use engine::{Level, SpriteClass, SpriteType, State};
 use smallvec::SmallVec;
 
-/// The pushes that pushable sprites need, in one level.
+/// The pushes that a level's pushable sprites need.
 ///
-/// Each bound is for one cell and one type that moves only by being pushed. It is the minimum number of
-/// pushes after which a rule may remove the sprite or turn it into a sprite that may stay. These are the
-/// distances and the "simple deadlocks" of Sokoban solvers (Junghanns and Schaeffer 2001, "Sokoban: enhancing
-/// general single-agent search methods using domain knowledge"), derived from the rules. Each sprite is
-/// treated as if it were alone on the board, and everything else as being as helpful as [`Reach`] allows. No
-/// state therefore needs fewer pushes than the bound, and a state reported as dead cannot be won.
+/// Each bound is for one cell and one type that moves only by being pushed. The bound is the minimum number
+/// of pushes after which a rule may remove the sprite or turn it into a sprite that may stay. The bounds
+/// generalise the distances and the "simple deadlocks" of Sokoban solvers (Junghanns and Schaeffer 2001,
+/// "Sokoban: enhancing general single-agent search methods using domain knowledge"), derived from the rules.
+/// Each sprite is treated as if it were alone on the board, and everything else is assumed to be as helpful
+/// as [`Reach`] allows. No state therefore needs fewer pushes than the bound, and a state reported as dead
+/// cannot be won.
 #[derive(Clone, Debug, Default)]
 pub struct Pushes {
     columns: i32,
-    /// The needs of each winning goal. Empty if anything other than pushes can bring about a win.
+    /// The needs of each winning goal. Empty if anything other than pushes can cause a win.
     needs: Vec<Need>,
 }
 
-/// A goal that requires sprites to disappear.
+/// A goal that requires the removal of sprites.
 #[derive(Clone, Debug)]
 struct Need {
     /// The number of sprites that may remain.
     limit: usize,
-    /// The counted types, each with the number of pushes that a sprite of the type needs, by cell.
+    /// The counted types, each with the number of pushes that its sprites need, by cell.
     pushes: Vec<(SpriteType, Vec<u16>)>,
 }
 
@@ -38,8 +40,8 @@ impl Pushes {
         find(analysis, level).unwrap_or_default()
     }
 
-    /// Returns the minimum number of pushes, and hence of ticks, that a state of the level needs. Returns 0
-    /// if nothing is known, and `None` if the state can no longer be won. Cost: O(sprites that must
+    /// Returns the minimum number of pushes, and hence of ticks, that a state in the level needs. Returns 0
+    /// if no bound is known, and `None` if the state can no longer be won. Cost: O(sprites that must
     /// disappear).
     pub fn least(&self, state: &State) -> Option<u32> {
         if self.needs.is_empty() {
@@ -71,7 +73,7 @@ impl Need {
     }
 }
 
-/// Computes the bounds. Returns `None` if the rules cannot be modelled, because nothing is certain then.
+/// Computes the bounds. Returns `None` if the rules cannot be modelled, because no bound is certain then.
 fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     let game = analysis.game();
     let is_modelled = !analysis.has_timed_effects() && steps_are_whole(analysis);
@@ -106,7 +108,8 @@ fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     Some(Pushes { columns: level.columns() as i32, needs: needs? })
 }
 
-/// Returns `true` if all avatars move by whole cells, face the direction in which they move, and are moved by nothing else.
+/// Returns `true` if all avatars move by whole cells, face the direction of their moves, and are moved by
+/// nothing else.
 fn steps_are_whole(analysis: &Analysis) -> bool {
     let displaces = |effect: &EffectSummary| {
         matches!(
@@ -128,8 +131,8 @@ fn steps_are_whole(analysis: &Analysis) -> bool {
         })
 }
 
-/// Returns `true` if the level places an avatar that the analysis of the game leaves out, with a character that the game does not
-/// use.
+/// Returns `true` if the level places an avatar that the game's analysis omits, with a character that the
+/// game does not use.
 fn has_other_avatar(analysis: &Analysis, level: &Level) -> bool {
     let game = analysis.game();
     let is_other = |stype: &SpriteType| {
@@ -150,7 +153,8 @@ struct Board<'a> {
 }
 
 impl Board<'_> {
-    /// Returns the rules in which a sprite of the type takes part, with the sprite's side and the rule's index in the tick.
+    /// Returns the rules that involve a sprite of the type, with the sprite's side and the rule's index in
+    /// the tick.
     fn rules_of(&self, stype: SpriteType) -> impl Iterator<Item = (usize, Side, &Encounter)> {
         let analysis = self.analysis;
         analysis.encounters().iter().enumerate().flat_map(move |(at, encounter)| {
@@ -160,8 +164,9 @@ impl Board<'_> {
         })
     }
 
-    /// Returns the index in the tick of the first rule by which a fixed sprite in the cell undoes the movement of a sprite of the
-    /// type. Returns `None` if a later rule of the tick may push the sprite there again.
+    /// Returns the index in the tick of the first rule by which a fixed sprite in the cell undoes the
+    /// movement of a sprite of the type. Returns `None` if a later rule in the tick may push the sprite there
+    /// again.
     fn thrown_back(&self, stype: SpriteType, cell: usize) -> Option<usize> {
         let here = self.analysis.game().places(self.level.cells()[cell]);
         let throws = |side: Side, rule: &Encounter| {
@@ -204,7 +209,7 @@ impl Board<'_> {
             && !self.rules_of(stype).any(|(_, side, rule)| side == Side::First && rule.does(moves))
     }
 
-    /// Returns `true` if anything but an avatar may push the type. Such a pusher could stand anywhere.
+    /// Returns `true` if anything other than an avatar may push the type. Such a pusher could be in any cell.
     fn is_pushed_by_others(&self, stype: SpriteType) -> bool {
         let avatars = self.analysis.avatars();
         self.rules_of(stype).any(|(_, side, rule)| {
@@ -221,7 +226,7 @@ impl Board<'_> {
         })
     }
 
-    /// Returns `true` if a sprite may meet, in the cell, the rule's partner on that side or the edge.
+    /// Returns `true` if a sprite may meet, in the cell, the edge or the rule's partner on that side.
     fn may_be_met(&self, rule: &Encounter, side: Side, cell: usize) -> bool {
         let partner = match side {
             Side::First => rule.first,
@@ -236,8 +241,8 @@ impl Board<'_> {
             .any(|other| self.reach.can_touch(other, cell))
     }
 
-    /// Returns the possible fates of a sprite of the type in a cell: removal (`None`) or a different type. If a rule undoes the
-    /// sprite's movement into the cell, only the rules before it apply.
+    /// Returns the possible fates for a sprite of the type in a cell: removal (`None`) or a different type.
+    /// If a rule undoes the sprite's movement into the cell, only the rules before that rule apply.
     fn fates(&self, stype: SpriteType, cell: usize) -> Vec<Option<SpriteType>> {
         let mut fates = Vec::new();
         let before = self.thrown_back(stype, cell).unwrap_or(usize::MAX);
@@ -285,8 +290,8 @@ impl Board<'_> {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Returns, by cell, the number of pushes after which a sprite of the type can stop having a counted
-    /// type. The result is a fixed point, computed backwards from the cells where the sprite may end.
+    /// Returns, by cell, the number of pushes after which a sprite of the type can cease to have a counted
+    /// type. The result is a fixed point, computed backwards from the possible final cells of the sprite.
     fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
         let cells = self.columns * self.rows;
         // The types that the sprite may turn into while it is still counted, by index.

@@ -1,5 +1,5 @@
-//! The tree that the systematic searches share: the states found so far, the actions that led to them, and the generation of
-//! their successors.
+//! The tree shared by the systematic searches: the states found so far, the actions that led to them, and the
+//! generation of their successors.
 
 use super::memory::Lease;
 use super::{Answer, Pushes, SearchLimits, Searched};
@@ -13,10 +13,10 @@ use std::rc::Rc;
 
 /// The index of a node.
 pub(super) type NodeId = u32;
-/// The node of the initial state.
+/// The initial state's node.
 const ROOT: NodeId = 0;
 
-/// A node: the step by which a state was reached.
+/// A node: the step that led to a state.
 #[derive(Clone, Copy)]
 struct Node {
     parent: NodeId,
@@ -25,7 +25,7 @@ struct Node {
     expanded: bool,
 }
 
-/// A hasher that returns its input, because keys are hashes already.
+/// A hasher that returns its input, because the keys are already hashes.
 #[derive(Default)]
 struct KeyHasher(u64);
 
@@ -45,7 +45,7 @@ impl Hasher for KeyHasher {
     }
 }
 
-/// The node of each state found so far.
+/// The node for each state found so far.
 #[expect(clippy::disallowed_types, reason = "the map is used for look-ups and never iterated")]
 type Met = std::collections::HashMap<SearchKey, NodeId, BuildHasherDefault<KeyHasher>>;
 
@@ -58,18 +58,19 @@ pub(super) struct StoredState {
     steps: ArrayVec<Action, MAX_REPLAYED>,
 }
 
-/// The open states of a search, in the order in which they are expanded.
+/// A search's open states, in order of expansion.
 pub(super) trait Frontier {
     /// `true` if the first win found in this order is a shortest win.
     const SHORTEST: bool;
 
-    /// Adds a state, with the number of ticks to reach it and a lower bound on the pushes that it needs.
+    /// Adds a state, with the number of ticks to reach the state and a lower bound on the pushes that it
+    /// needs.
     fn push(&mut self, state: &State, node: NodeId, depth: u32, least: u32, kept: StoredState);
 
     fn pop(&mut self) -> Option<(NodeId, StoredState)>;
 }
 
-/// The tree of a search.
+/// A search tree.
 pub(super) struct Tree<'a> {
     analysis: &'a Analysis,
     pub(super) abstraction: StateAbstraction,
@@ -84,13 +85,13 @@ pub(super) struct Tree<'a> {
     actions: Vec<Action>,
     limits: SearchLimits,
     calls: u64,
-    /// The number of bytes of the packed states in memory.
+    /// The total size in bytes of the packed states in memory.
     packed: usize,
     /// The reservation of memory for the search.
     lease: Lease,
     /// Buffers for a state and its successor.
     buffers: Option<(State, State)>,
-    /// A function that returns `true` once the answer is no longer needed.
+    /// A function that returns `true` once the result is no longer needed.
     stopped: Stopped<'a>,
 }
 
@@ -103,7 +104,7 @@ enum Expanded {
     On,
     /// A successor wins.
     Won(NodeId),
-    /// The calls are spent.
+    /// The budget in calls is spent.
     OutOfCalls,
     /// The memory is full.
     OutOfMemory,
@@ -146,14 +147,14 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Returns a tree whose search ends, as if its calls were spent, once `stopped` returns `true`.
+    /// Returns a tree whose search ends once `stopped` returns `true`, as if its calls were spent.
     pub(super) fn until(self, stopped: Stopped<'a>) -> Tree<'a> {
         Tree { stopped, ..self }
     }
 
     /// Expands states in the order of a frontier until one state wins, no state is open, or a limit is
     /// reached. In stochastic games, keys include the random state and nothing is proven, so exhausting all
-    /// states gives [`Answer::OutOfCalls`].
+    /// states yields [`Answer::OutOfCalls`].
     pub(super) fn search<F: Frontier>(mut self, frontier: impl FnOnce(&Tree<'_>, &State) -> F) -> Searched {
         let start = self.base.clone();
         if start.is_over() {
@@ -188,8 +189,8 @@ impl<'a> Tree<'a> {
         StoredState { whole: Rc::new(packed), steps: ArrayVec::new() }
     }
 
-    /// Generates all successors of a state, passes the new successors that are neither over nor dead ends to
-    /// `open`, and drops the state.
+    /// Generates all successors of a state, and passes the new successors that are neither finished nor dead
+    /// ends to `open`. Drops the state.
     fn expand(
         &mut self,
         node: NodeId,
@@ -288,12 +289,13 @@ impl<'a> Tree<'a> {
         is_shorter
     }
 
-    /// Returns the number of ticks of the shortest known path to a node.
+    /// Returns the length in ticks of the shortest known path to a node.
     fn depth(&self, node: NodeId) -> u32 {
         self.nodes[node as usize].depth
     }
 
-    /// Returns an estimate of the bytes in use, which is deterministic: it is independent of the clock and the allocator.
+    /// Returns an estimate of the bytes in use. The estimate is deterministic: it is independent of the clock
+    /// and the allocator.
     fn bytes(&self) -> usize {
         // A hash table is at least 7/16 full and needs one extra byte per slot. Queues hold the packed states.
         let keys = self.met.len() * (size_of::<(SearchKey, NodeId)>() + 1) * 16 / 7;

@@ -1,10 +1,10 @@
-//! The observed effects of touches, by kind of sprite.
+//! The observed effects of contact with each kind of sprite.
 
 use engine::Observation;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The circumstances of a touch: the avatar's type, and what the avatar holds. A lock, for example, is worth
-/// another try with a key.
+/// The context of a contact: the avatar's type, and the resources that the avatar holds. A lock, for example,
+/// is worth another try with a key.
 pub(super) type Circumstances = (String, Vec<String>);
 
 /// The experience with one kind of sprite.
@@ -12,19 +12,19 @@ pub(super) type Circumstances = (String, Vec<String>);
 pub struct Experience {
     /// The number of survived ticks in contact with this kind.
     pub survived: u32,
-    /// The number of ticks in which the avatar was lost while in contact with this kind.
+    /// The number of ticks in which the avatar was lost during contact with this kind.
     pub deaths: u32,
     /// The number of contacts after which the score had risen, minus the number of contacts after which the
     /// score or the avatar's health had fallen.
     pub gain: i32,
-    /// The number of contacts after which there was one sprite fewer of this kind, or after which the avatar held more or had
-    /// changed its type.
+    /// The number of contacts after which there was one sprite fewer of this kind, the avatar held more
+    /// resources, or the avatar had changed its type.
     pub taken: u32,
     /// The number of contacts that pushed a sprite of this kind.
     pub pushed: u32,
-    /// The circumstances in which this kind stopped the avatar.
+    /// The contexts in which this kind stopped the avatar.
     pub(super) blocked: BTreeSet<Circumstances>,
-    /// The circumstances in which this kind was touched.
+    /// The contexts of contacts with this kind.
     pub(super) touched: BTreeSet<Circumstances>,
     /// `true` if the avatar has entered a cell of this kind.
     pub entered: bool,
@@ -41,7 +41,7 @@ impl Experience {
         !self.is_deadly() && self.gain >= 0 && (self.gain > 0 || self.taken > 0)
     }
 
-    /// Returns `true` if the kind has stopped the avatar whenever it was touched.
+    /// Returns `true` if every contact with this kind has stopped the avatar.
     pub fn is_blocking(&self) -> bool {
         !self.blocked.is_empty() && !self.entered
     }
@@ -53,16 +53,16 @@ pub(super) struct Beliefs {
     kinds: BTreeMap<String, Experience>,
 }
 
-/// The observed changes of one or more ticks.
+/// The observed changes in one or more ticks.
 pub(super) struct Passed<'a> {
     pub(super) before: &'a Observation,
     pub(super) now: &'a Observation,
-    /// The kinds that were touched, and the kinds beside the avatar that may have come into contact.
+    /// The touched kinds, and the kinds beside the avatar that may have come into contact with it.
     pub(super) touched: &'a [String],
     pub(super) beside: &'a [String],
-    /// The kinds that stood in the way, if the avatar did not move although it faced them.
+    /// The kinds that blocked the avatar, if the avatar faced them but did not move.
     pub(super) in_the_way: &'a [String],
-    /// The kinds whose cell was entered, and the kinds that are now in the cell behind the entered cell.
+    /// The kinds in the entered cell, and the kinds that are now in the cell behind the entered cell.
     pub(super) entered: &'a [String],
     pub(super) pushed: &'a [String],
 }
@@ -76,7 +76,7 @@ impl Beliefs {
         self.of(kind).is_some_and(Experience::is_deadly)
     }
 
-    /// Records that a kind was touched without a visible effect.
+    /// Records that contact with a kind had no visible effect.
     pub(super) fn give_up(&mut self, kind: &str, circumstances: &Circumstances) {
         self.kinds.entry(kind.to_owned()).or_default().touched.insert(circumstances.clone());
     }
@@ -118,7 +118,8 @@ impl Beliefs {
         }
     }
 
-    /// Finds the likely killers: kinds that were touched and are not known to be harmless, or else the kinds beside the avatar.
+    /// Finds the likely killers: touched kinds that are not known to be harmless, or else the kinds beside
+    /// the avatar.
     fn blame(&mut self, passed: &Passed<'_>, circumstances: &Circumstances) {
         let is_suspect = |kind: &&String| self.of(kind).is_none_or(|known| known.deaths >= known.survived);
         let touched: Vec<String> = passed.touched.iter().filter(is_suspect).cloned().collect();
@@ -132,7 +133,7 @@ impl Beliefs {
     }
 }
 
-/// Returns the circumstances of touches in this observation.
+/// Returns the context of contacts in this observation.
 pub(super) fn circumstances(seen: &Observation) -> Circumstances {
     let held = seen.resources.iter().filter(|(_, amount)| *amount > 0).map(|(name, _)| name.clone());
     (seen.avatar.as_ref().map(|avatar| avatar.name.clone()).unwrap_or_default(), held.collect())

@@ -11,29 +11,29 @@ use beliefs::{Beliefs, Circumstances, Passed, circumstances};
 use engine::{Action, Game, Observation, State};
 use std::collections::BTreeMap;
 
-/// The number of presses towards a sprite after which it counts as touched, whatever their effect.
+/// The number of presses towards a sprite after which it counts as touched, regardless of their effect.
 const MOST_PRESSES: u32 = 4;
 
-/// One decision out of `RANDOM_STEP_ODDS` is a random step. Without random steps, the player could repeat a
-/// fruitless path for ever.
+/// The odds of a random step: one decision out of `RANDOM_STEP_ODDS`. Without random steps, the player could
+/// repeat a fruitless path forever.
 const RANDOM_STEP_ODDS: usize = 16;
 
-/// One decision out of `USE_ODDS` presses the use key, until the key has had no effect `MOST_IDLE_USES` times in the same
-/// circumstances.
+/// The odds of pressing the use key: one decision out of `USE_ODDS`, until the key has had no effect
+/// `MOST_IDLE_USES` times in the same context.
 const USE_ODDS: usize = 6;
 const MOST_IDLE_USES: u32 = 3;
 
-/// The extra costs, in steps, of a step next to a deadly kind and of pushing something.
+/// The extra costs, in steps, for a step next to a deadly kind and for a push.
 const DANGER_COST: u32 = 8;
 const PUSH_COST: u32 = 5;
 
-/// A player that does not know the rules. It goes to the nearest kind of sprite that it has not touched yet,
-/// preferring kinds that stand still. From its observations, the player learns which contacts end the game,
-/// bring a reward or block the avatar. The player takes rewarding kinds first and avoids deadly kinds. It
-/// retries a blocking kind when the avatar holds something different.
+/// A player that does not know the rules. The player walks to the nearest kind of sprite that it has not
+/// touched yet, preferring motionless kinds. From its observations, the player learns which contacts end the
+/// game, bring a reward or block the avatar. The player takes rewarding kinds first and avoids deadly kinds.
+/// It retries a blocking kind when the avatar holds something different.
 ///
-/// The player sees only observations, even when used as a [`Planner`]. It does not look at the game or the
-/// state otherwise, and makes no forward-model calls. Its knowledge lasts from level to level, until
+/// The player sees only observations, even when used as a [`Planner`]. It uses no other information about the
+/// game or the state, and makes no forward-model calls. Its knowledge persists from level to level, until
 /// [`forget`](TouchEverything::forget) is called.
 #[derive(Clone, Debug)]
 pub struct TouchEverything {
@@ -43,7 +43,7 @@ pub struct TouchEverything {
     last: Option<(Observation, Vec<Action>)>,
     /// The number of presses towards each kind since it was last touched.
     presses: BTreeMap<String, u32>,
-    /// The number of presses of the use key after which nothing appeared, disappeared or changed.
+    /// The number of presses of the use key after which nothing appeared, disappeared or changed, by context.
     idle_uses: BTreeMap<Circumstances, u32>,
 }
 
@@ -59,8 +59,8 @@ impl TouchEverything {
         }
     }
 
-    /// Chooses at least one and at most `due` actions. Several actions are chosen as if nothing but the
-    /// avatar moved. Cost: O(cells log cells) per target.
+    /// Chooses at least one and at most `due` actions. Several actions are chosen as if only the avatar
+    /// moved. Cost: O(cells log cells) per target.
     pub fn act(&mut self, seen: &Observation, actions: &[Action], due: usize) -> Vec<Action> {
         self.learn(seen);
         let mut imagined = seen.clone();
@@ -203,7 +203,7 @@ impl TouchEverything {
         if self.choices.below(RANDOM_STEP_ODDS) == 0 { self.random_step(&view, &keys) } else { first }
     }
 
-    /// Returns a random step that is not known to be bad.
+    /// Returns a random step without a known danger or obstacle.
     fn random_step(&mut self, view: &View<'_>, keys: &[Action]) -> Action {
         let is_safe = |action: &Action| match route::way(*action) {
             Some(way) => view
@@ -223,7 +223,7 @@ impl Planner for TouchEverything {
     }
 }
 
-/// A board with the player's beliefs about it.
+/// A board with the player's beliefs about its cells.
 struct View<'a> {
     seen: &'a Observation,
     beliefs: &'a Beliefs,
@@ -242,7 +242,7 @@ impl View<'_> {
         known.is_some_and(|known| known.blocked.contains(&self.circumstances) && !known.is_good())
     }
 
-    /// Returns `true` for a cell that is known to let the avatar pass.
+    /// Returns `true` for a cell that the avatar is known to be able to cross.
     fn passes(&self, cell: usize) -> bool {
         self.others(cell).all(|kind| self.beliefs.of(kind).is_some()) && self.cost(cell).is_some()
     }
@@ -264,13 +264,13 @@ impl View<'_> {
         Some(1 + if is_near_danger { DANGER_COST } else { 0 } + if is_pushed { PUSH_COST } else { 0 })
     }
 
-    /// Returns `true` for a kind that the avatar has never touched while holding what it holds now.
+    /// Returns `true` for a kind that the avatar has never touched with its current type and resources.
     fn is_worth_another_try(&self, kind: &str) -> bool {
         self.beliefs.of(kind).is_none_or(|known| !known.touched.contains(&self.circumstances))
             && !self.circumstances.1.is_empty()
     }
 
-    /// Returns the rank of a cell as a target. The best rank is 0.
+    /// Returns a cell's rank as a target. The best rank is 0.
     fn rank(&self, cell: usize) -> Option<u32> {
         let is_mover = |kind: &str| self.seen.movers.iter().any(|mover| mover.name == kind);
         let rank = |kind: &str| {
@@ -313,8 +313,8 @@ fn is_avatar(seen: &Observation, name: &str) -> bool {
     seen.avatar.as_ref().is_some_and(|avatar| avatar.name == name)
 }
 
-/// Moves the avatar of an observation as if nothing else moved, and removes what the avatar is likely to
-/// take.
+/// Moves the avatar in an observation as if nothing else moved, and removes the sprites that the avatar is
+/// likely to take.
 fn imagine(seen: &mut Observation, beliefs: &mut Beliefs, action: Action) {
     let Some(from) = cell(seen) else { return };
     let board = Board::of(seen);

@@ -1,4 +1,4 @@
-//! Operations on the branches of a node, one per action, which the tree searches share.
+//! Operations on a node's branches, one branch per action, shared by the tree searches.
 
 use base::Sampler;
 use engine::Action;
@@ -19,8 +19,8 @@ pub(crate) fn unexpanded(children: &[u32], choices: &mut Sampler) -> Option<usiz
     branches.nth(drawn).map(|(branch, _)| branch)
 }
 
-/// Applies the reference's tie-breaking noise for a draw in [0, 1). The noise is multiplicative, so it is zero at 0 and several
-/// units at a win.
+/// Applies the reference's tie-breaking noise, based on a draw in [0, 1). The noise is multiplicative, so it
+/// is zero at 0 and several units at a win.
 pub(crate) fn blurred(value: f64, epsilon: f64, noise: f64) -> f64 {
     (value + epsilon) * (1.0 + epsilon * (noise - 0.5))
 }

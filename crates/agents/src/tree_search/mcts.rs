@@ -1,10 +1,10 @@
-//! Open-loop Monte-Carlo tree search with UCT: the reference's `sampleMCTS` with its budget in calls
-//! (`spec/04` §1).
+//! Open-loop Monte-Carlo tree search with UCT: the reference's `sampleMCTS`, with a budget in forward-model
+//! calls (`spec/04` §1).
 //!
 //! In open-loop search, a node is a sequence of actions and not a state. Every iteration replays its sequence
-//! from a fresh copy of the root, with its own random seed, so the statistics of a node average over the
-//! possible outcomes. See Kocsis and Szepesvári 2006, "Bandit based Monte-Carlo planning", and Browne et al.
-//! 2012, "A survey of Monte Carlo tree search methods".
+//! from a fresh copy of the root, with its own random seed, so a node's statistics average over the possible
+//! outcomes. See Kocsis and Szepesvári 2006, "Bandit based Monte-Carlo planning", and Browne et al. 2012, "A
+//! survey of Monte Carlo tree search methods".
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, unexpanded};
 use crate::planner::{Budget, Planner, Streams};
@@ -12,17 +12,17 @@ use base::{Sampler, Seed};
 use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
-/// A constant that breaks ties and guards divisions. It has the reference's value.
+/// A constant that breaks ties and guards divisions, as in the reference.
 const EPSILON: f64 = 1e-6;
 
 base::with_defaults! {
-    /// The parameters of [`Mcts`]. The defaults are the reference's.
+    /// The parameters of [`Mcts`]. The default values are those of the reference.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MctsConfig {
         /// The number of ticks that the tree and the rollout together look ahead.
         pub depth: u32 = 10,
-        /// The weight of exploration in UCT.
+        /// The exploration weight in UCT.
         pub exploration: f64 = std::f64::consts::SQRT_2,
         /// The bonus that a win adds to the score.
         pub win: f64 = 1e7,
@@ -82,8 +82,8 @@ impl Mcts {
         Mcts { config, streams: Streams::new(seed), tree: Vec::new(), path: Vec::new(), scratch: None }
     }
 
-    /// Runs one iteration: goes down the tree, adds one node, plays a random rollout, and propagates the
-    /// result back up. Returns the number of calls of the iteration.
+    /// Runs one iteration: descends the tree, adds one node, plays a random rollout, and backpropagates the
+    /// result. Returns the number of calls that the iteration made.
     fn iterate(&mut self, game: &Game, state: &mut State, actions: &[Action], choices: &mut Sampler) -> u64 {
         let mut calls = 0;
         let mut depth = 0;

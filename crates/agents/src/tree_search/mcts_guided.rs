@@ -1,8 +1,8 @@
-//! Monte-Carlo tree search guided by the rules of the game. It is the reference's search with its known
-//! weaknesses fixed.
+//! Monte-Carlo tree search guided by the game's rules. This search fixes the known weaknesses of the
+//! reference's search.
 //!
-//! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off by
-//! itself. `docs/reference/planners.md` lists the gain from each field. The sources are:
+//! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off
+//! individually. `docs/reference/planners.md` lists the gain from each field. The sources are:
 //!
 //! - Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo tree search: long-term versus
 //!   short-term planning".
@@ -29,7 +29,7 @@ base::with_defaults! {
     pub struct GuidedMctsConfig {
         /// The number of ticks that the tree and the rollout together look ahead.
         pub depth: u32 = 20,
-        /// The weight of exploration in UCT.
+        /// The exploration weight in UCT.
         pub exploration: f64 = 0.7,
         /// The bonus that a win adds to a result, whose other parts are each between −1 and 1. The reference adds 10⁷ to the
         /// score.
@@ -42,10 +42,11 @@ base::with_defaults! {
         pub discount: f64 = 0.99,
         /// `true` if doing nothing is an action. The reference uses `false`.
         pub nil: bool = true,
-        /// `true` if the tree under the chosen action is kept for the next decision. The reference uses
+        /// `true` if the tree under the chosen action is reused for the next decision. The reference uses
         /// `false`.
         pub reuse: bool = true,
-        /// The maximum number of ticks for which rollouts repeat an action. The reference uses 1.
+        /// The maximum number of consecutive ticks in which a rollout repeats an action. The reference uses
+        /// 1.
         pub repeat: usize = 1,
         /// The weight of novelty: reaching a position that the avatar has not visited in this episode with
         /// the same progress. The reference uses 0.
@@ -63,7 +64,7 @@ base::with_defaults! {
 pub struct GuidedMcts {
     config: GuidedMctsConfig,
     streams: Streams,
-    /// The nodes of the tree, with the root first. Between decisions, only the kept nodes are stored.
+    /// The nodes of the tree, with the root first. Between decisions, only the retained nodes are stored.
     tree: Vec<Node>,
     /// The action of each branch of the tree.
     actions: Vec<Action>,
@@ -72,7 +73,7 @@ pub struct GuidedMcts {
     visits: BTreeMap<u64, u32>,
     /// The largest number of points gained or lost in a rollout.
     scale: f64,
-    /// The remaining actions of a certain win, in order.
+    /// The remaining actions of a guaranteed win, in order.
     plan: VecDeque<Action>,
     #[serde(skip)]
     guide: Option<Box<GoalGuide>>,
@@ -103,7 +104,7 @@ impl Node {
     }
 }
 
-/// Serialises a map as a list of pairs, because keys of JSON objects must be strings.
+/// Serialises a map as a list of pairs, because JSON object keys must be strings.
 mod pairs {
     use serde::{Deserialize, Deserializer, Serializer};
     use std::collections::BTreeMap;
@@ -117,7 +118,7 @@ mod pairs {
     }
 }
 
-/// The values of the root, with which results are compared.
+/// The root's values, for comparison with results.
 struct Root {
     score: f64,
     progress: f64,
@@ -143,7 +144,7 @@ impl GuidedMcts {
         }
     }
 
-    /// Prepares the tree. Reuses the part kept from the last decision, if it still fits.
+    /// Prepares the tree. Reuses the part retained from the last decision, if it still fits.
     fn begin(&mut self, game: &Game, state: &State) {
         let mut actions = game.actions(state).to_vec();
         if self.config.nil && !actions.contains(&Action::Nil) {
@@ -159,8 +160,8 @@ impl GuidedMcts {
         }
     }
 
-    /// Runs one iteration: goes down the tree, adds one node, plays a random rollout, and propagates the
-    /// result back up. Returns the number of calls of the iteration, and `true` if the rollout won.
+    /// Runs one iteration: descends the tree, adds one node, plays a random rollout, and backpropagates the
+    /// result. Returns the number of calls that the iteration made, and `true` if the rollout won.
     fn iterate(
         &mut self,
         game: &Game,
@@ -210,7 +211,7 @@ impl GuidedMcts {
         (self.played.len() as u64, state.outcome() == Outcome::Won)
     }
 
-    /// Returns the result of a rollout, from its points, progress, novelty and outcome.
+    /// Returns a rollout's result, from its points, progress, novelty and outcome.
     fn result(&mut self, state: &State, root: &Root, gained: &Gains) -> f64 {
         let config = &self.config;
         self.scale = self.scale.max(gained.value.abs());
@@ -254,7 +255,7 @@ impl GuidedMcts {
         })
     }
 
-    /// Keeps the subtree under a branch of the root, breadth first, or nothing if reuse is off.
+    /// Retains the subtree under a branch of the root, breadth first, or nothing if reuse is off.
     fn keep(&mut self, branch: usize) {
         let root = if self.config.reuse { self.tree[0].children[branch] } else { UNEXPANDED };
         self.tree = subtree(&self.tree, root, |node| &mut node.children);
@@ -278,8 +279,8 @@ impl Gains {
     }
 }
 
-/// Returns a hash of the avatar's position and type and of the game's progress. A hash seen before means that the state is not
-/// novel.
+/// Returns a hash of the avatar's position and type and of the game's progress. A state whose hash has been
+/// seen before is not novel.
 fn novelty_key(state: &State, guide: &GoalGuide) -> u64 {
     let (x, y) = state.avatar_place().unwrap_or((-1, -1));
     let block = state.block().max(1);

@@ -1,10 +1,10 @@
-//! Open-loop expectimax tree search: the reference's `olets` with its budget in calls (`spec/04` §2), the
-//! winner of the reference's competition.
+//! Open-loop expectimax tree search: the reference's `olets`, with a budget in forward-model calls (`spec/04`
+//! §2). OLETS won the reference's competition.
 //!
 //! A node is a sequence of actions, as in [`Mcts`](crate::Mcts), but there is no rollout. A new node is
 //! evaluated by its state. A node's value is a mixture of the results that ended there and the value of its
-//! best child. The tree under the chosen action is kept for the next decision. The method is by A. Couëtoux
-//! (2015). See Perez Liebana et al. 2016, "The 2014 general video game playing competition".
+//! best child. The tree under the chosen action is reused for the next decision. The method was developed by
+//! A. Couëtoux (2015). See Perez Liebana et al. 2016, "The 2014 general video game playing competition".
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::planner::{Budget, Decision, Planner, Streams};
@@ -13,41 +13,41 @@ use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// A constant that guards divisions and breaks ties between sums. It has the reference's value.
+/// A constant that guards divisions and breaks ties between sums, as in the reference.
 const EPSILON: f64 = 1e-4;
 
 base::with_defaults! {
-    /// The parameters of [`Olets`]. The defaults are the reference's.
+    /// The parameters of [`Olets`]. The default values are those of the reference.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct OletsConfig {
-        /// The weight of exploration, relative to scores that are not normalised.
+        /// The exploration weight, relative to unnormalised scores.
         pub exploration: f64 = std::f64::consts::SQRT_2,
-        /// The fraction of uniformly random choices on the way down.
+        /// The fraction of uniformly random choices during the descent.
         pub random: f64 = 0.05,
-        /// The number of past positions of the avatar to remember, one per decision.
+        /// The number of past avatar positions to remember, one per decision.
         pub memory: usize = 15,
         /// The penalty for a node that leads to a remembered position.
         pub penalty: f64 = 0.5,
-        /// `true` to correct how the reference counts nodes kept from the last decision (`spec/04` §2). Each
-        /// kept node should count as one visit with the mean of the results seen. The reference leaves the
-        /// sum of the results that ended at a node unchanged, and divides it by that one visit. If `true`,
-        /// the sum is divided by the number of these results.
+        /// `true` to correct how the reference counts nodes retained from the last decision (`spec/04` §2).
+        /// Each retained node should count as one visit with the mean of the results seen. The reference
+        /// leaves the sum of the results that ended at a node unchanged, and divides the sum by that one
+        /// visit. If `true`, the sum is divided by the number of these results.
         pub fixed_refresh: bool = false,
     }
 }
 
-/// A planner with open-loop expectimax tree search.
+/// A planner that uses open-loop expectimax tree search.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Olets {
     config: OletsConfig,
     streams: Streams,
-    /// The nodes of the tree, with the root first. Between decisions, only the kept nodes are stored, not yet
-    /// refreshed.
+    /// The nodes of the tree, with the root first. Between decisions, only the retained nodes are stored, not
+    /// yet refreshed.
     tree: Vec<Node>,
     /// The action of each branch of the tree.
     actions: Vec<Action>,
-    /// The avatar's positions at the last decisions, except at the very first decision. The current
+    /// The avatar's positions at the last decisions, excluding the very first decision. The current
     /// decision's position comes last.
     places: VecDeque<(i32, i32)>,
     /// `true` once a decision has been made.
@@ -64,10 +64,11 @@ struct Node {
     visits: f64,
     /// The sum of the results seen through this node.
     total: f64,
-    /// The number of iterations that ended here, and the sum of their results.
+    /// The number of iterations that ended at this node, and the sum of their results.
     exits: f64,
     exit_sum: f64,
-    /// The mean of the results that ended here, mixed with the value of the best child in proportion to their visits.
+    /// The mean of the results that ended at this node, mixed with the value of the best child in proportion
+    /// to their visits.
     value: f64,
     penalty: f64,
     /// `true` if the node was reached in this decision.
@@ -115,7 +116,8 @@ impl Olets {
         }
     }
 
-    /// Remembers the avatar's position and prepares the tree. Reuses the part kept from the last decision, if it still fits.
+    /// Remembers the avatar's position and prepares the tree. Reuses the part retained from the last
+    /// decision, if it still fits.
     fn begin(&mut self, actions: Vec<Action>, state: &State) {
         if std::mem::replace(&mut self.begun, true)
             && let Some(place) = state.avatar_place()
@@ -133,8 +135,8 @@ impl Olets {
         self.tree.iter_mut().for_each(|node| node.refresh(self.config.fixed_refresh));
     }
 
-    /// Runs one iteration: goes down the tree to a new node, and propagates the value of its state back up.
-    /// Returns the number of calls of the iteration.
+    /// Runs one iteration: descends the tree to a new node, and backpropagates the value of its state.
+    /// Returns the number of calls that the iteration made.
     fn iterate(&mut self, game: &Game, state: &mut State, decision: &mut Decision) -> u64 {
         let mut node = 0;
         self.path.clear();
@@ -183,14 +185,14 @@ impl Olets {
         }
     }
 
-    /// Returns the penalty of the avatar's current position.
+    /// Returns the penalty for the avatar's current position.
     fn penalty(&self, state: &State) -> f64 {
         let known = state.avatar_place().is_some_and(|place| self.places.contains(&place));
         if known { self.config.penalty } else { 0.0 }
     }
 
-    /// Chooses the branch to go down. Sometimes this is a random branch, and otherwise the branch with the
-    /// greatest value, including exploration and penalty.
+    /// Chooses the branch to descend: sometimes a random branch, and otherwise the branch with the greatest
+    /// value, including exploration and penalty.
     fn select(&self, node: usize, decision: &mut Decision) -> usize {
         let (choices, width) = (&mut decision.choices, self.actions.len());
         if choices.unit() < self.config.random {
@@ -219,16 +221,16 @@ impl Olets {
         })
     }
 
-    /// Keeps the subtree under a branch of the root, breadth first.
+    /// Retains the subtree under a branch of the root, breadth first.
     fn keep(&mut self, branch: usize) {
         let root = self.tree[0].children[branch];
         self.tree = subtree(&self.tree, root, |node| &mut node.children);
     }
 }
 
-/// Returns the actions in the order of the reference, which decides ties on the way down and between numbers
-/// of visits. If no branch is better and no other position can be reached at once, an avatar that shoots
-/// keeps shooting. It is not known where the reference adds noise against ties. See
+/// Returns the actions in the reference's order, which breaks ties during the descent and between equal
+/// numbers of visits. If no branch is better and no other position can be reached immediately, an avatar that
+/// shoots keeps shooting. It is unknown where the reference adds tie-breaking noise. See
 /// `docs/reference/planners.md` for the evidence from the recorded episodes.
 fn in_order(actions: &[Action]) -> Vec<Action> {
     use Action::{Down, Left, Nil, Right, Up, Use};
@@ -294,8 +296,8 @@ mod tests {
         assert_eq!(result(&ended("A g"), 5.0), 0.0);
     }
 
-    /// The expected values were calculated by hand for a kept node of four visits, three of which ended there
-    /// with a sum of 6.
+    /// Checks values calculated by hand for a retained node with four visits, three of which ended at the
+    /// node with a sum of 6.
     #[test]
     fn kept_subtrees_count_as_one_visit() {
         let node = Node { visits: 4.0, total: 10.0, exits: 3.0, exit_sum: 6.0, ..Node::new() };

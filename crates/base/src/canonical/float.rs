@@ -1,14 +1,14 @@
 //! The canonical text of floats.
 //!
-//! `serde_json` also prints shortest digits, but its layout has changed within version 1 (`1e21` became
-//! `1e+21`). Printers also differ if two shortest texts are equally close: 824108109772659.25 is `….2` to one
-//! printer and `….3` to another. This module fixes both the layout and the digits for snapshot format 1, as
-//! in `serde_json` 1.0.154.
+//! `serde_json` also prints the shortest digits, but its layout has changed within version 1 (`1e21` became
+//! `1e+21`). Printers also differ if two shortest texts are equally close: one printer writes
+//! 824108109772659.25 as `….2`, and another printer as `….3`. This module fixes both the layout and the
+//! digits for snapshot format 1, as in `serde_json` 1.0.154.
 
-/// Returns the shortest decimal text that reads back as the same bits. If there are several such texts,
-/// returns the closest. If two texts are equally close, returns the text whose last digit is even. The text
-/// is plain from 0.00001 up to 10^16, has an exponent outside that range, and always contains a `.` or an
-/// exponent. `value` must be finite.
+/// Returns the shortest decimal text that parses back to the same bits. If there are several such texts,
+/// returns the closest text. If two texts are equally close, returns the text whose last digit is even. The
+/// text is plain from 0.00001 up to 10^16, has an exponent outside that range, and always contains a `.` or
+/// an exponent. `value` must be finite.
 pub(super) fn shortest(value: f64) -> String {
     let text = shortest_scientific(value);
     let (mantissa, exponent) =
@@ -84,7 +84,7 @@ mod tests {
         }
     }
 
-    /// Checks texts with all exponents and many digits, which a small generator makes.
+    /// Checks texts with all exponents and many digits, created by a small generator.
     #[test]
     fn every_text_reads_back_as_the_same_bits() {
         let mut bits = 0x9e37_79b9_7f4a_7c15_u64;

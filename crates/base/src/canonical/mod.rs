@@ -1,15 +1,17 @@
 //! Canonical JSON: one text per value, so that digests and diffs are meaningful.
 //!
-//! - Object keys are sorted by their UTF-8 bytes, at every depth, in whatever order the type serialises them.
+//! - Object keys are sorted by their UTF-8 bytes, at every depth, regardless of the order in which the type
+//!   serialises them.
 //! - Indentation is two spaces, but an array without arrays or objects inside stays on one line.
 //! - Strings are escaped like in `serde_json`: only `"`, `\` and control characters.
-//! - Integers are plain (64 bits). Floats have the shortest form that reads back as the same bits, always with a `.` or
-//!   an exponent (`1.0`, not `1`; `1e+16`). An `f32` is first widened to `f64`.
+//! - Integers are plain (64 bits). Floats have the shortest form that parses back to the same bits, always
+//!   with a `.` or an exponent (`1.0`, not `1`; `1e+16`). An `f32` is first widened to `f64`.
 //! - The text ends in one line feed.
 //!
-//! A value that JSON cannot represent exactly is an error, and is never written as something else. Examples are NaN and
-//! infinities, a duplicate key, and nesting that the reader would reject. A `serde_json::Value` and the type that it
-//! came from give the same text, and reading a canonical text and writing it again gives the same bytes.
+//! A value that JSON cannot represent exactly is an error, and is never written as a different value.
+//! Examples are NaN and infinities, a duplicate key, and nesting that the parser would reject. A
+//! `serde_json::Value` and the type from which it was created yield the same text. Parsing a canonical text
+//! and writing it again yields the same bytes.
 
 mod float;
 mod node;
@@ -21,10 +23,10 @@ use serde::Serialize;
 
 pub use node::Node;
 
-/// The maximum nesting depth of arrays and objects, which is the maximum that `serde_json` reads.
+/// The maximum nesting depth of arrays and objects, which equals the maximum that `serde_json` parses.
 pub const MAX_DEPTH: usize = 127;
 
-/// The error for a value that has no canonical JSON.
+/// The error for a value without a canonical JSON text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{} has no canonical JSON: {fault}", match at.as_str() { "" => "the value".into(), at => format!("`{}`", at.escape_debug()) })]
 pub struct CanonicalError {
@@ -42,11 +44,11 @@ pub enum Fault {
     /// A float is NaN or infinite.
     #[error("the number is not finite")]
     NotFinite,
-    /// An object key has a type without a single spelling. Strings, integers, booleans and unit variants have
-    /// a single spelling.
+    /// The type of an object key does not have a single spelling. Strings, integers, booleans and unit
+    /// variants have a single spelling.
     #[error("the key is not a string")]
     Key,
-    /// An object has this key twice, for example through `#[serde(flatten)]`.
+    /// An object contains this key twice, for example through `#[serde(flatten)]`.
     #[error("the key `{}` occurs twice", .0.escape_debug())]
     DuplicateKey(String),
     /// Arrays and objects are nested deeper than [`MAX_DEPTH`].
@@ -88,7 +90,7 @@ pub fn canonical_digest<T: Serialize + ?Sized>(value: &T) -> Result<Digest, Cano
     Ok(Digest::from_bytes(*hashed.0.finalize().as_bytes()))
 }
 
-/// The remaining part of a text that another text is compared with.
+/// The remaining part of a text for comparison with another text.
 struct Rest<'a>(&'a [u8]);
 
 impl Write for Rest<'_> {
@@ -116,7 +118,7 @@ impl Node {
         text
     }
 
-    /// Writes the canonical JSON to `out`. Returns an error only if `out` does.
+    /// Writes the canonical JSON to `out`. Returns an error only if `out` returns an error.
     fn write(&self, out: &mut impl Write) -> fmt::Result {
         write_node(self, 0, out).and_then(|()| out.write_str("\n"))
     }
@@ -267,7 +269,7 @@ mod tests {
         numbered: BTreeMap<i32, u8>,
     }
 
-    /// Keys are sorted as text (`10` before `9`), as in a `Value`.
+    /// Checks that keys are sorted as text (`10` before `9`), as in a `Value`.
     #[test]
     fn every_serde_shape() {
         let everything = Everything {

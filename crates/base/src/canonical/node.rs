@@ -1,7 +1,7 @@
 //! Serialisable values as JSON trees with sorted, distinct keys.
 //!
-//! `serde_json::to_value` does not suffice: it turns NaN into `null`, silently keeps the last of two equal keys, and
-//! its maps are no longer sorted if any crate in the build enables `preserve_order`.
+//! `serde_json::to_value` does not suffice. It turns NaN into `null` and silently keeps the last of two equal
+//! keys. Its maps are not sorted if any crate in the build enables `preserve_order`.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -30,7 +30,7 @@ pub enum Node {
 }
 
 impl Node {
-    /// Returns the tree of a value.
+    /// Returns the tree for a value.
     ///
     /// # Errors
     /// Returns the same errors as [`to_canonical_json`](super::to_canonical_json).
@@ -43,7 +43,7 @@ impl Node {
     }
 }
 
-/// The serializer of a value inside `depth` arrays and objects.
+/// The serializer for a value inside `depth` arrays and objects.
 #[derive(Clone, Copy)]
 pub(super) struct ToNode {
     depth: usize,
@@ -298,7 +298,8 @@ impl ser::SerializeMap for Fields {
     type Ok = Node;
     type Error = CanonicalError;
 
-    /// Keys with a single spelling become text, as in `serde_json`. Floats have several spellings and are rejected.
+    /// Serialises a key as text. Keys with a single spelling become text, as in `serde_json`. Floats have
+    /// several spellings and are rejected.
     fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), CanonicalError> {
         self.key = Some(match key.serialize(self.inside)? {
             Node::Text(text) => text,

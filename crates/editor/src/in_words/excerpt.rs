@@ -3,16 +3,17 @@
 use engine::line_and_column;
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
-/// The maximum number of characters of a line that are shown.
+/// The maximum number of characters to show from a line.
 const MAX_WIDTH: usize = 160;
-/// The number of characters shown before the position of the problem if the line is cropped on the left.
+/// The number of characters to show before the position of the problem if the line is cropped on the left.
 const BEFORE: usize = 40;
 /// The replacement for omitted characters.
 const CUT: char = '…';
 /// The replacement for a tab, which counts as one column.
 const TAB: char = '→';
 
-/// The line of a problem and the lines above and below it, cropped around its position, with visible tabs.
+/// The line of a problem and the lines above and below it, cropped around the problem's position, with
+/// visible tabs.
 pub(super) struct Excerpt {
     name: String,
     text: String,
@@ -20,11 +21,11 @@ pub(super) struct Excerpt {
     first: usize,
     /// The number of lines in `text`.
     count: usize,
-    /// The line of the problem in the file, counted from 0.
+    /// The problem's line in the file, counted from 0.
     line: usize,
-    /// The column of the problem in the file, counted from 0.
+    /// The problem's column in the file, counted from 0.
     column: usize,
-    /// The start of the problem's position in `text`, and its length.
+    /// The start of the problem's position in `text`, and the length.
     span: (usize, usize),
 }
 
@@ -101,14 +102,14 @@ impl Excerpt {
         place
     }
 
-    /// Returns the position of the problem in the shown text.
+    /// Returns the problem's position in the shown text.
     pub(super) fn span(&self) -> SourceSpan {
         self.span.into()
     }
 }
 
 impl SourceCode for Excerpt {
-    /// Returns the whole excerpt, or the position of the problem if no context lines are requested.
+    /// Returns the whole excerpt, or the problem's position if no context lines are requested.
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,

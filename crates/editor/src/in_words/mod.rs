@@ -1,4 +1,4 @@
-//! Diagnostics as text: the messages of `arcade` and of the exceptions in Python.
+//! Diagnostics as text: the messages of `arcade` and of Python exceptions.
 
 mod excerpt;
 
@@ -6,10 +6,10 @@ use engine::{Diagnostic, Severity};
 use excerpt::Excerpt;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, Report};
 
-/// A text with problems, and the way to show it.
+/// A text with problems, and how to show the text.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
-    /// The name that messages use for the text, such as the path of a file.
+    /// The text's name in messages, such as a file path.
     pub name: &'a str,
     /// The text with the problems.
     pub text: &'a str,
@@ -17,7 +17,7 @@ pub struct Source<'a> {
     pub is_coloured: bool,
 }
 
-/// Returns a summary line and then every problem with its position.
+/// Returns a summary line, followed by every problem with its position.
 #[must_use]
 pub fn in_words(source: Source<'_>, problems: &[Diagnostic]) -> String {
     let errors = problems.iter().filter(|problem| problem.severity == Severity::Error).count();
@@ -57,8 +57,8 @@ pub fn one_in_words(source: Source<'_>, problem: &Diagnostic) -> String {
     }
 }
 
-/// Returns the help for a problem in the text with this name. The engine does not know the name, but a command in the help must
-/// work as printed.
+/// Returns the help for a problem in the text with this name. The name replaces the placeholder in the
+/// engine's help, so that commands work as printed.
 #[must_use]
 pub fn help(name: &str, problem: &Diagnostic) -> Option<String> {
     let help = problem.help.as_ref()?;
@@ -73,7 +73,7 @@ pub fn help(name: &str, problem: &Diagnostic) -> Option<String> {
     Some(help.replacen(" GAME`", &format!(" {name}`"), 1))
 }
 
-/// Returns the escape sequences that switch the colours of diagnostics on and off on a terminal.
+/// Returns the terminal escape sequences that switch the colours of diagnostics on and off.
 #[must_use]
 pub fn colours() -> Vec<String> {
     let styles = GraphicalTheme::unicode().styles;

@@ -10,23 +10,23 @@ use crate::{
 use serde_json::{Map, Value, json};
 use std::fmt;
 
-/// The reason why a request fails.
+/// The reason for rejecting a request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Refusal {
-    /// The request came before `initialize`.
+    /// The request arrived before `initialize`.
     TooEarly,
-    /// The request came after `shutdown`, or was repeated.
+    /// The request arrived after `shutdown`, or was repeated.
     TooLate,
     /// The method is unknown.
     Method(String),
     /// The parameters do not match the method, or refer to a document that is not open.
     Params,
-    /// The method cannot be performed.
+    /// The method failed, with this message.
     Failed(String),
 }
 
 impl Refusal {
-    /// Returns the error code of the protocol.
+    /// Returns the protocol's error code.
     pub(super) fn code(&self) -> i64 {
         match self {
             Refusal::TooEarly => -32002,
@@ -81,7 +81,7 @@ pub(super) fn answer(
     }
 }
 
-/// Returns a notification about the problems of a document.
+/// Returns a notification about a document's problems.
 pub(super) fn published(uri: &str, version: &Value, problems: &Value) -> Value {
     let mut params = json!({ "uri": uri, "diagnostics": problems });
     if version.is_i64() {
@@ -90,7 +90,7 @@ pub(super) fn published(uri: &str, version: &Value, problems: &Value) -> Value {
     json!({ "jsonrpc": "2.0", "method": "textDocument/publishDiagnostics", "params": params })
 }
 
-/// Returns the problems of an open document, as diagnostics of the protocol.
+/// Returns an open document's problems, as diagnostics in the protocol's format.
 pub(super) fn diagnostics(documents: &Documents, unit: Unit, uri: &str) -> Value {
     let Some(query) = Query::at_uri(documents, unit, uri) else { return json!([]) };
     query.problems().iter().map(|problem| diagnostic(problem, &query.document.text, unit)).collect()
@@ -319,7 +319,7 @@ fn text_edits(edits: &[Edit], text: &Text, unit: Unit) -> Value {
     edits.iter().map(edit).collect()
 }
 
-/// Returns a completion item. `place` determines its position among the other items.
+/// Returns a completion item. `place` determines its position among the completion items.
 fn completion_item(item: &Item, place: usize, range: &Value) -> Value {
     let kind = match item.kind {
         ItemKind::Class => 7,

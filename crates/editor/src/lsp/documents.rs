@@ -7,19 +7,20 @@ use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The kind of a document.
+/// A document's kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// The text of a game.
+    /// A game's text.
     Game,
-    /// The text of a level.
+    /// A level's text.
     Level,
     /// A document of any other kind.
     Other,
 }
 
 impl Kind {
-    /// Returns the kind of a document, by its name and, if the client specifies one, by its language.
+    /// Returns a document's kind, based on its name and, if the client specifies a language, on that
+    /// language.
     fn of(uri: &str, language: &str) -> Kind {
         let name = uri::path(uri).unwrap_or_else(|| PathBuf::from(uri));
         let name = name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -53,7 +54,7 @@ impl Text {
         Text { text, lines }
     }
 
-    /// Returns the byte at a position of the protocol.
+    /// Returns the byte offset for a position in the protocol's format.
     pub(super) fn byte(&self, position: &Value, unit: Unit) -> Option<usize> {
         let count = |name: &str| {
             position.get(name)?.as_u64().map(|count| usize::try_from(count).unwrap_or(usize::MAX))
@@ -62,7 +63,7 @@ impl Text {
         Some(self.lines.byte(&self.text, position, unit))
     }
 
-    /// Converts a span of bytes to a range of the protocol.
+    /// Converts a span of bytes to a range in the protocol's format.
     pub(super) fn range(&self, span: Span, unit: Unit) -> Value {
         let position = |at: usize| {
             let Position { line, column } = self.lines.position(&self.text, at, unit);
@@ -71,13 +72,13 @@ impl Text {
         json!({ "start": position(span.start), "end": position(span.end) })
     }
 
-    /// Converts a range of the protocol to a span of bytes.
+    /// Converts a range in the protocol's format to a span of bytes.
     pub(super) fn span(&self, range: &Value, unit: Unit) -> Option<Span> {
         let (start, end) = (self.byte(range.get("start")?, unit)?, self.byte(range.get("end")?, unit)?);
         Some(Span::new(start.min(end), start.max(end)))
     }
 
-    /// Applies a change of the protocol, which replaces a range or the whole text.
+    /// Applies a change in the protocol's format, which replaces a range or the whole text.
     fn change(&mut self, change: &Value, unit: Unit) -> Option<()> {
         let text = change.get("text")?.as_str()?;
         match change.get("range") {
@@ -130,7 +131,7 @@ impl Documents {
         Some(())
     }
 
-    /// Marks the levels of a game as changed.
+    /// Marks a game's levels as changed.
     pub(super) fn touch_levels(&mut self, game: &str) {
         let folder = uri::path(game).and_then(|path| path.parent().map(Path::to_owned));
         let levels = self.0.iter_mut().filter(|(_, document)| document.kind == Kind::Level);
@@ -140,7 +141,8 @@ impl Documents {
         }
     }
 
-    /// Returns a level's game with its URI. The game is the open document, or else the file on disk.
+    /// Returns a level's game with its URI. Uses the open document if there is one, and otherwise the
+    /// file on disk.
     pub(super) fn game_of(&self, level: &str) -> Option<(String, Text)> {
         let path = uri::path(level)?;
         let (folder, name) = (path.parent()?, path.file_name()?.to_str()?);
@@ -149,7 +151,7 @@ impl Documents {
         self.text_at(&folder.join(game), MAX_SOURCE)
     }
 
-    /// Returns a game's levels with their URIs. The levels are the open documents and the files on disk.
+    /// Returns a game's levels with their URIs, from the open documents and the files on disk.
     pub(super) fn levels_of(&self, game: &str) -> Vec<(String, Text)> {
         let Some(path) = uri::path(game) else { return Vec::new() };
         let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str()))
@@ -170,7 +172,7 @@ impl Documents {
         open.chain(files.filter_map(|entry| entry.file_name().into_string().ok())).collect()
     }
 
-    /// Returns the text of a file, which is the text of the open document, or else the content on disk.
+    /// Returns a file's text, from the open document if there is one, and otherwise from disk.
     fn text_at(&self, path: &Path, most: usize) -> Option<(String, Text)> {
         let open = self.0.iter().find(|(uri, _)| uri::path(uri).as_deref() == Some(path));
         if let Some((uri, document)) = open {

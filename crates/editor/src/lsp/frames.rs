@@ -1,8 +1,8 @@
-//! The frames of the protocol. A frame is a header with a length, followed by that number of bytes.
+//! The protocol's frames. A frame is a header with a length, followed by that number of bytes.
 
 use std::io::{self, BufRead, Read, Write};
 
-/// The maximum size of a message in bytes. No part of a larger message is kept.
+/// The maximum size of a message in bytes. Larger messages are discarded completely.
 const MAX_MESSAGE: u64 = 1 << 25;
 /// The maximum length of a header line.
 const MAX_LINE: u64 = 1 << 12;
@@ -18,7 +18,8 @@ pub(super) enum Frame {
     End,
 }
 
-/// Reads the next frame. The length in the header is never allocated before the bytes have arrived.
+/// Reads the next frame. Memory is allocated only as the bytes arrive, not according to the length in the
+/// header.
 pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
     let mut length = None;
     let mut is_empty = true;

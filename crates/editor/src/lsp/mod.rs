@@ -1,6 +1,6 @@
 //! A language server for games (`*.vgdl`, `game.txt`) and levels (`lvlN.txt` beside a game), over any pair of streams.
 //!
-//! Every malformed message is answered with an error, and no malformed message stops the server.
+//! The server responds to every malformed message with an error, and continues to run.
 
 mod answers;
 mod documents;
@@ -14,10 +14,10 @@ use std::io::{self, BufRead, Write};
 use std::sync::mpsc::{TryRecvError, sync_channel};
 use std::thread;
 
-/// The number of messages that are read ahead, so that only the last of several changes is checked.
+/// The number of messages to read ahead, so that only the last of several changes is checked.
 const AHEAD: usize = 8;
 
-/// Serves one client until the client leaves. Returns `true` if the client requested the shutdown first.
+/// Serves one client until the client leaves. Returns `true` if the client requested a shutdown first.
 ///
 /// # Errors
 ///

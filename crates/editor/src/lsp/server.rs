@@ -1,11 +1,11 @@
-//! The state of a session, and the handling of its messages.
+//! A session's state, and the handling of its messages.
 
 use super::answers::{self, Refusal};
 use super::documents::Documents;
 use crate::positions::Unit;
 use serde_json::{Value, json};
 
-/// The phases of a session.
+/// A session's phases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Phase {
     /// The phase before `initialize`.
@@ -43,7 +43,7 @@ fn failure(id: &Value, code: i64, message: &str) -> Value {
 }
 
 impl Server {
-    /// Returns `true` once the client has requested the shutdown.
+    /// Returns `true` once the client has requested a shutdown.
     pub(super) fn is_shut_down(&self) -> bool {
         self.phase == Phase::ShutDown
     }

@@ -1,4 +1,4 @@
-//! URIs of files.
+//! File URIs.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -1,8 +1,8 @@
 //! Episodes as animated GIFs.
 //!
-//! All frames share one palette, which is made before the first frame is written. The palette has the exact
-//! colours of all tiles, and then the blends of smooth edges. Blends without a similar colour come first,
-//! ordered by frequency. A frame contains only the rectangle that changed.
+//! All frames share one palette, which is created before the first frame is written. The palette contains the
+//! exact colours of all tiles, followed by the blended colours of smooth edges. Blends without a similar
+//! colour come first, ordered by frequency. A frame contains only the changed rectangle.
 
 use super::pixels::{Image, Painter};
 use crate::caption;
@@ -19,11 +19,11 @@ const UNCHANGED: u8 = 255;
 /// The duration of the last frame, in multiples of the other frames' duration.
 const LAST: u16 = 12;
 
-/// The minimum squared distance from a blend to every palette entry for the blend to be added, in successive
+/// The minimum squared distance from a blend to every palette entry for adding the blend, in successive
 /// passes.
 const APART: [u32; 3] = [1200, 300, 0];
 
-/// An encoder that writes pictures of one size as the frames of an endlessly repeating GIF.
+/// An encoder that writes equally sized images as the frames of an endlessly repeating GIF.
 pub struct Animation {
     painter: Painter,
     encoder: ::gif::Encoder<Vec<u8>>,
@@ -42,12 +42,13 @@ pub struct Animation {
 }
 
 impl Animation {
-    /// Starts an animation of pictures like `specimens`, the first of which sets the size. A frame lasts `delay` hundredths of a
-    /// second. Colours that no specimen contains are mapped to the nearest palette entry.
+    /// Starts an animation of images like `specimens`. The first specimen determines the size. A frame lasts
+    /// `delay` hundredths of a second. Colours not contained in any specimen are mapped to the nearest
+    /// palette entry.
     ///
     /// # Errors
     ///
-    /// Returns an error if the first picture is empty or larger than a GIF can be.
+    /// Returns an error if the first image is empty or too large for a GIF.
     pub fn new(specimens: &[Picture], delay: u16) -> Result<Animation, RenderError> {
         let mut painter = Painter::new();
         let (width, height) = specimens.first().map_or((0, 0), |first| (first.width(), first.height()));
@@ -67,7 +68,7 @@ impl Animation {
     ///
     /// # Errors
     ///
-    /// Returns an error if the size of the picture differs from the size of the first specimen.
+    /// Returns an error if the image's size differs from the first specimen's size.
     pub fn add(&mut self, picture: &Picture) -> Result<(), RenderError> {
         let image = self.painter.paint(picture)?;
         let (width, height) = (usize::from(self.size.0), usize::from(self.size.1));
@@ -111,7 +112,8 @@ impl Animation {
         Ok(self.encoder.into_inner()?)
     }
 
-    /// Returns the palette index of each pixel. Looks up only the pixels that changed, because most stay the same.
+    /// Returns the palette index of each pixel. Looks up only the changed pixels, because most pixels stay
+    /// the same.
     fn indices(&mut self, image: &Image) -> Vec<u8> {
         let Animation { palette, nearest, before, shown, .. } = self;
         let mut last = None;
@@ -135,8 +137,8 @@ impl Animation {
     }
 }
 
-/// Returns the palette: the exact colours of tiles first, then blends by their number of pixels in the
-/// specimens. Ties are broken by colour.
+/// Returns the palette: first the exact tile colours, then blends by their number of pixels in the specimens.
+/// Ties are broken by colour.
 fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, RenderError> {
     let shapes = specimens.iter().flat_map(Picture::tiles).flat_map(|tile| &tile.shapes);
     let mut palette: Vec<Colour> = shapes.map(|shape| shape.colour).collect();
@@ -166,8 +168,8 @@ fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, 
     Ok(palette)
 }
 
-/// Returns the smallest rectangle (left, top, right, bottom) that contains all differences. Returns one pixel
-/// if there are no differences, and the whole frame if the frame is the first.
+/// Returns the smallest rectangle (left, top, right, bottom) that contains all differences: a single pixel if
+/// there are none, and the whole frame for the first frame.
 fn changed(before: &[u8], now: &[u8], width: usize) -> [usize; 4] {
     if before.len() != now.len() {
         return [0, 0, width, now.len() / width.max(1)];

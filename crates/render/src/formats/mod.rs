@@ -1,4 +1,4 @@
-//! The output formats of pictures: text, PNG, SVG and GIF.
+//! Image output formats: text, PNG, SVG and GIF.
 
 pub(crate) mod gif;
 pub(crate) mod pixels;

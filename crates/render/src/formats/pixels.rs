@@ -1,4 +1,4 @@
-//! Rasterisation of pictures.
+//! Rasterisation of images.
 
 use crate::error::RenderError;
 use crate::looks::colour::{Colour, PAPER};
@@ -7,7 +7,7 @@ use crate::picture::{Key, Picture, Stamp, Tile};
 use std::collections::BTreeMap;
 use tiny_skia::{FillRule, IntSize, LineCap, LineJoin, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-/// The maximum number of pixels of a tile that is drawn in detail.
+/// The maximum number of pixels in a tile drawn in detail.
 const MAX_TILE: u64 = 1 << 22;
 
 /// An image without transparency.
@@ -21,8 +21,8 @@ pub struct Image {
     pub pixels: Vec<Colour>,
 }
 
-/// A rasteriser of pictures, which caches the pixels of tiles. The same picture gives the same pixels on every machine,
-/// regardless of what was drawn before.
+/// A rasteriser that caches the pixels of tiles. The same [`Picture`] yields the same pixels on every
+/// machine, regardless of earlier drawings.
 #[derive(Debug, Default)]
 pub struct Painter {
     /// The number assigned to each tile seen so far.
@@ -37,12 +37,12 @@ impl Painter {
         Painter::default()
     }
 
-    /// Draws a picture. Sprites are aligned to whole pixels. Cost: O(pixels of the stamps), plus the cost of
-    /// drawing tiles that are not yet cached.
+    /// Rasterises an image. Sprites are aligned to whole pixels. Cost: O(pixels of the stamps), plus the cost
+    /// of drawing uncached tiles.
     ///
     /// # Errors
     ///
-    /// Returns an error if the picture is empty.
+    /// Returns an error if the image is empty.
     pub fn paint(&mut self, picture: &Picture) -> Result<Image, RenderError> {
         let (width, height) = (picture.width(), picture.height());
         if width == 0 || height == 0 {
@@ -107,7 +107,7 @@ impl Image {
     }
 }
 
-/// Returns the whole pixels that a stamp covers, or `None` if it is outside the picture.
+/// Returns the whole pixels that a stamp covers, or `None` if the stamp is outside the image.
 fn snapped(stamp: &Stamp, width: u32, height: u32) -> Option<(i32, i32, u32, u32)> {
     let place = stamp.place;
     let span = |from: f32, size: f32, limit: u32| {

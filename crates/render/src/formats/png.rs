@@ -1,14 +1,14 @@
-//! Pictures as PNG.
+//! Images as PNG.
 
 use super::pixels::Painter;
 use crate::error::RenderError;
 use crate::picture::Picture;
 
-/// Returns the picture as a PNG file.
+/// Encodes an image as a PNG file.
 ///
 /// # Errors
 ///
-/// Returns an error if the picture is empty.
+/// Returns an error if the image is empty.
 pub fn png(picture: &Picture) -> Result<Vec<u8>, RenderError> {
     let image = Painter::new().paint(picture)?;
     let mut bytes = Vec::new();

@@ -1,10 +1,11 @@
-//! Pictures as SVG. Each tile is defined once, and used wherever it is stamped.
+//! Images as SVG. Each tile is defined once, and referenced wherever it is stamped.
 
 use crate::looks::shape::{Outline, Paint, Segment, Shape};
 use crate::picture::{Picture, Tile};
 use std::fmt::Write;
 
-/// Returns the picture as an SVG document. The same picture gives the same bytes. Hovering over a sprite shows its name.
+/// Returns an image as an SVG document. The same image yields the same bytes. Hovering over a sprite shows
+/// its name.
 pub fn svg(picture: &Picture) -> String {
     let (width, height) = (picture.width(), picture.height());
     let mut text = format!(

@@ -1,30 +1,30 @@
-//! One character for each sprite type of a game, for boards as text. The characters are ASCII as long as free
-//! ASCII characters remain.
+//! One character for each of a game's sprite types, for boards as text. The characters are ASCII as long as
+//! free ASCII characters remain.
 
 use crate::looks::glyph::Glyph;
 use crate::looks::look::Looks;
 use engine::{Analysis, SpriteType};
 
-/// The characters of a game's sprite types. The same game always gives the same characters.
+/// The characters for a game's sprite types. The same game always yields the same characters.
 #[derive(Clone, Debug)]
 pub struct Symbols(Vec<char>);
 
-/// The character of an empty cell, or of a cell with nothing but floor.
+/// The character for an empty cell, or for a cell that contains only floor.
 pub const EMPTY: char = '.';
 
-/// The spare characters, for types whose level character and whose name's letters are all taken. Letters of
-/// other alphabets follow the spare characters, so that no two types ever share a character.
+/// The spare characters, for types whose level character and name letters are all taken. Letters of other
+/// alphabets follow the spare characters, so that no two types ever share a character.
 const SPARE: &str =
     "+*%&$=~^?!:;|/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@<>()[]{}-_,`'\"\\";
 
 impl Symbols {
-    /// Chooses the character of each type. The first available one of these is chosen:
+    /// Chooses each type's character: the first available character in this list:
     ///
     /// 1. The level character that places the type on top of floor alone.
-    /// 2. A letter of the type's name.
+    /// 2. A letter in the type's name.
     /// 3. Any character.
     ///
-    /// Types that players never see, and floors that no rule concerns, get [`EMPTY`].
+    /// Types invisible to players, and floors without rules, get [`EMPTY`].
     pub fn of(analysis: &Analysis, looks: &Looks) -> Symbols {
         let game = analysis.game();
         let is_floor = |stype: SpriteType| {
@@ -61,7 +61,7 @@ impl Symbols {
         Symbols(symbols)
     }
 
-    /// Returns the character of a type.
+    /// Returns a type's character.
     pub fn symbol(&self, stype: SpriteType) -> char {
         self.0[stype.index()]
     }

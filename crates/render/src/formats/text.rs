@@ -11,8 +11,9 @@ use std::fmt::Write;
 /// The maximum number of cells with several sprites to list.
 const MAX_STACKS: usize = 20;
 
-/// Returns the board as lines of characters, where each cell shows the uppermost sprite in it. A sprite between cells appears in
-/// all cells that it overlaps. Each line ends with a newline. Cost: O(sprites + cells).
+/// Returns the board as lines of characters. Each cell shows the uppermost sprite in the cell. A sprite
+/// between cells appears in all cells that it overlaps. Each line ends with a newline. Cost: O(sprites +
+/// cells).
 pub fn rows(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     let columns = state.size().0.max(1) as usize;
     let cells = stacks(looks, symbols, state);
@@ -21,8 +22,8 @@ pub fn rows(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     cells.chunks(columns).map(row).collect()
 }
 
-/// Returns the whole text: the rows, the caption, a legend of the types on the board, and the cells with several
-/// sprites.
+/// Returns the whole text: the rows, the caption, a legend for the types on the board, and the cells with
+/// several sprites.
 pub fn text(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     let game = looks.game();
     let mut text = rows(looks, symbols, state);
@@ -63,7 +64,7 @@ pub fn text(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     text
 }
 
-/// Returns the types visible in each cell, row by row and in drawing order, without floors.
+/// Returns the types visible in each cell, row by row and in drawing order, excluding floors.
 fn stacks(looks: &Looks, symbols: &Symbols, state: &State) -> Vec<Vec<SpriteType>> {
     let game = looks.game();
     let by_name = |name: &String| {

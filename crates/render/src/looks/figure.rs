@@ -1,8 +1,9 @@
-//! The figures of named things: a table of drawings, with the words and roles that each drawing represents.
+//! Figures for named sprites: a table of drawings, with the words and roles that each drawing represents.
 //!
-//! A game specifies an image with `img=`. Composed games write `img=role/noun`, or `img=role/adjective/noun` for a type that is a
-//! different state of something. Other games write a path to a file, whose last part is a noun. The noun chooses the figure, or
-//! else the role does. If neither is known, the rules choose a [`Glyph`].
+//! A game specifies an image with `img=`. Composed games write `img=role/noun`, or `img=role/adjective/noun`
+//! for a type that represents a different state of a sprite. Other games write a file path, whose last part
+//! is a noun. The noun determines the figure. For an unknown noun, the role determines the figure. If the
+//! role is unknown, too, the rules determine a [`Glyph`].
 
 use super::colour::{Colour, GROUND, INK, PAPER};
 use super::glyph::Glyph;
@@ -10,14 +11,14 @@ use super::shape::{Outline, Paint, Segment};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// The table of figures, one per line: `name | words | drawing`.
+/// The table of figures, one figure per line: `name | words | drawing`.
 ///
 /// A name ends with one of these signs:
 ///
 /// - `#` if the figure fills its cell.
-/// - `=` if walls can be made of it.
-/// - `!` if it looks dangerous by itself.
-/// - `>` if it turns with the sprite.
+/// - `=` if walls can have this figure.
+/// - `!` if the figure looks dangerous by itself.
+/// - `>` if the figure turns with the sprite.
 ///
 /// A name that starts with `+` belongs to a mark, which is drawn over a figure to show its state.
 ///
@@ -34,14 +35,14 @@ const PEOPLE: [&str; 12] = [
     "mage",
 ];
 
-/// The figures that become the figure of an open door in the state `open`. Other things that open get a mark
-/// instead.
+/// The figures that turn into the figure of an open door in the state `open`. Other sprites that open get a
+/// mark instead.
 const DOORS: [&str; 6] = ["door", "gate", "grille", "fence", "house", "opendoor"];
 
-/// The minimum length of a word that is recognised as the end of a longer word.
+/// The minimum length of a word for recognising it as the end of a longer word.
 const SHORTEST_END: usize = 4;
 
-/// The drawing of a tile, without its colour and details.
+/// A tile's drawing, without its colour and details.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Form {
     /// The drawing of a glyph.
@@ -50,19 +51,19 @@ pub enum Form {
     Figure(u16),
 }
 
-/// The expression of a figure with a face.
+/// The expression on a figure with a face.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mood {
     /// The figure smiles.
     #[default]
     Calm,
-    /// The figure frowns and shows its teeth, because it does harm.
+    /// The figure frowns and shows its teeth, because the type is harmful.
     Angry,
     /// The figure's eyes are closed.
     Asleep,
 }
 
-/// The colour of a part of a figure.
+/// The colour of a figure part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Tint {
     Main,
@@ -84,7 +85,7 @@ pub(crate) enum Part {
     Mouth([f32; 2], f32),
 }
 
-/// An entry of the table.
+/// An entry in the table.
 #[derive(Clone, Debug)]
 pub(crate) struct Figure {
     pub(crate) name: &'static str,
@@ -94,7 +95,7 @@ pub(crate) struct Figure {
     pub(crate) is_dangerous: bool,
     pub(crate) turns: bool,
     is_mark: bool,
-    /// The glyph with which the figure shares its drawing.
+    /// The glyph whose drawing the figure shares.
     glyph: Option<Glyph>,
     pub(crate) parts: Vec<Part>,
 }
@@ -115,7 +116,7 @@ static WORDS: LazyLock<BTreeMap<&'static str, u16>> = LazyLock::new(|| {
 });
 
 impl Form {
-    /// Returns the figure, or `None` if the form is the drawing of a glyph.
+    /// Returns the figure, or `None` if the form is a glyph's drawing.
     pub(crate) fn figure(self) -> Option<&'static Figure> {
         match self {
             Form::Glyph(_) => None,
@@ -123,7 +124,7 @@ impl Form {
         }
     }
 
-    /// Returns all figures except marks, in the order of the table.
+    /// Returns all figures except marks, in table order.
     pub fn figures() -> impl Iterator<Item = Form> {
         let own = |(figure, at): (&Figure, u16)| {
             (!figure.is_mark && figure.glyph.is_none()).then_some(Form::Figure(at))
@@ -140,7 +141,7 @@ impl Form {
         self.figure().is_some_and(|figure| PEOPLE.contains(&figure.name))
     }
 
-    /// Returns the form's name, which is one word.
+    /// Returns the form's name, a single word.
     pub fn name(self) -> &'static str {
         match self {
             Form::Glyph(glyph) => glyph.form(),
@@ -185,7 +186,7 @@ pub(crate) fn mark(at: u16) -> &'static [Part] {
 pub(crate) struct Hint<'a> {
     /// The type's role, in composed games.
     pub(crate) role: Option<&'a str>,
-    /// The adjective, if the type is a different state of something.
+    /// The adjective, if the type represents a different state of a sprite.
     adjective: Option<&'a str>,
     noun: &'a str,
 }
@@ -206,7 +207,7 @@ impl<'a> Hint<'a> {
     }
 
     /// Returns the hint given by the name of a type without `img=`. Returns `None` if the glyph from the
-    /// rules shows a direction, as portals and signs do, because no noun expresses a direction.
+    /// rules shows a direction, as portals and signs do, because a noun cannot express a direction.
     pub(crate) fn of_name(name: &'a str, glyph: Glyph) -> Option<Hint<'a>> {
         use Glyph as G;
         let shows_way = matches!(glyph, G::Portal | G::PortalExit | G::Pointer | G::Sign | G::Conveyor);
@@ -221,7 +222,7 @@ impl<'a> Hint<'a> {
         (!shows_way && is_apt).then_some(hint)
     }
 
-    /// Returns the form of a type whose rules suggest `glyph`.
+    /// Returns the form for a type whose rules suggest `glyph`.
     pub(crate) fn form(self, glyph: Glyph) -> Form {
         let drawn = Form::Glyph(glyph);
         let noun = || noun(self.noun).map(Form::of_entry);
@@ -242,8 +243,8 @@ impl<'a> Hint<'a> {
         }
     }
 
-    /// Returns the figure of the type's state. A prize keeps its own figure and gets a mark instead, because
-    /// a fallen prize does not look like a fallen bridge. The same holds for an open thing that is not a
+    /// Returns the figure for the type's state. A prize keeps its own figure and gets a mark instead, because
+    /// a fallen prize does not look like a fallen bridge. The same applies to an open object that is not a
     /// door.
     fn state(self) -> Option<u16> {
         let is_door = || noun(self.noun).is_none_or(|at| DOORS.contains(&TABLE[usize::from(at)].name));
@@ -251,7 +252,7 @@ impl<'a> Hint<'a> {
         if adjective == "open" && !is_door() { None } else { named(".", adjective) }
     }
 
-    /// Returns the mark of the type's state.
+    /// Returns the mark for the type's state.
     pub(crate) fn mark(self) -> Option<u16> {
         let adjective = self.adjective?;
         if self.state().is_some() {
@@ -263,7 +264,7 @@ impl<'a> Hint<'a> {
         known.or_else(|| position(&|figure| figure.words.is_empty())).and_then(|at| u16::try_from(at).ok())
     }
 
-    /// Returns the expression of the type's face.
+    /// Returns the expression on the type's face.
     pub(crate) fn mood(self, glyph: Glyph) -> Mood {
         use Glyph as G;
         match (self.role, self.adjective) {
@@ -295,7 +296,7 @@ fn noun(noun: &str) -> Option<u16> {
     })
 }
 
-/// Parses a line of the table. A test finds faults in the table.
+/// Parses a line in the table. A test finds faults in the table.
 fn parsed(line: &'static str) -> Figure {
     let fields: Vec<&str> = line.splitn(3, '|').map(str::trim).collect();
     let &[head, words, drawing] = &fields[..] else { unreachable!("`{line}` has three fields") };
@@ -446,7 +447,7 @@ mod tests {
         check("", Glyph::Gem, "a gem");
     }
 
-    /// Checks that things that look different have different figures.
+    /// Checks that objects that look different have different figures.
     #[test]
     fn similar_words_do_not_share_a_figure() {
         let name = |word: &str| noun(word).map(|at| TABLE[usize::from(at)].name);

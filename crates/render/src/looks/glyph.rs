@@ -1,4 +1,4 @@
-//! The glyphs of tiles, one for each kind of thing that a player must be able to tell apart.
+//! Tile glyphs, one for each kind of sprite that a player must be able to distinguish.
 
 use super::art::Art;
 use super::colour;
@@ -10,12 +10,12 @@ use engine::{Analysis, SpriteClass, SpriteType};
 /// Declares the glyphs in one place: variant, form, meaning, colour, terminal symbols, drawing.
 macro_rules! glyphs {
     ($($name:ident, $form:literal, $meaning:literal, $colour:ident, $unicode:literal, $ascii:literal, $draw:path;)*) => {
-        /// The glyph of a tile.
+        /// A tile's glyph.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Glyph { $(#[doc = $meaning] $name),* }
 
         impl Glyph {
-            /// All glyphs, in the order of legends.
+            /// All glyphs, in legend order.
             pub const ALL: &[Glyph] = &[$(Glyph::$name),*];
 
             /// Returns a short description of the glyph's form.
@@ -96,7 +96,7 @@ glyphs! {
 }
 
 impl Glyph {
-    /// Chooses the glyph of a sprite type: by its role first, then by its movement and its purpose.
+    /// Chooses a sprite type's glyph: by its role first, then by its movement and its purpose.
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Glyph {
         let facts = analysis.facts(stype);
         let wanted = analysis.aims().remove.contains(&stype);
@@ -159,8 +159,8 @@ impl Glyph {
         }
     }
 
-    /// Returns the number of variants of the glyph. Variants distinguish types with the same glyph by more
-    /// than colour.
+    /// Returns the glyph's number of variants. Variants distinguish types with the same glyph by more than
+    /// colour.
     pub(crate) fn variants(self) -> usize {
         match self {
             Glyph::Enemy | Glyph::Gem | Glyph::Key | Glyph::Gate => 4,
@@ -186,8 +186,8 @@ impl Glyph {
     }
 }
 
-/// Returns `true` if a moving type makes sprites of the type, and the type itself makes nothing. A bomb that
-/// is dropped qualifies, but a cart that comes out of a shed does not.
+/// Returns `true` if a moving type creates sprites of the type, and the type itself creates nothing. A
+/// dropped bomb qualifies, but a cart that comes out of a shed does not.
 fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     let drops = |maker: SpriteType| {
         let facts = analysis.facts(maker);
@@ -196,8 +196,8 @@ fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.facts(stype).makes.is_empty() && analysis.game().sprite_types().any(drops)
 }
 
-/// Returns `true` if the type stays when it is touched, and several level characters place something over it.
-/// Such a type is the ground of a part of the board and not a thing on the board.
+/// Returns `true` if the type stays when touched, and several level characters place something over it. Such
+/// a type is the ground in a part of the board, not an object on the board.
 fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let stays = analysis.avatars().iter().all(|avatar| !analysis.touch(avatar.stype, stype).ends_other());
@@ -206,15 +206,15 @@ fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     stays && facts.motion == Motion::Still && facts.symbols.iter().filter(below).count() > 1
 }
 
-/// Returns `true` if rules concern the type, and no level character places anything over it. Nothing happens
-/// to an avatar on such a type, but the type is not ground either.
+/// Returns `true` if rules involve the type, and no level character places anything over it. Such a type does
+/// not affect an avatar on the same cell, but is not ground either.
 fn is_thing(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let above = |symbol: &u8| game.places(*symbol).last() == Some(&stype);
     !analysis.is_scenery(stype) && analysis.facts(stype).symbols.iter().all(above)
 }
 
-/// Returns `true` if the type gives a resource to every avatar that touches it, and stays.
+/// Returns `true` if the type gives a resource to every avatar that touches it, and stays on the board.
 fn is_source(analysis: &Analysis, stype: SpriteType) -> bool {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     touches.all(|touch| !touch.ends_other() && touch.gives.iter().any(|&(_, by)| by > 0))
@@ -238,7 +238,7 @@ pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<Sp
     })
 }
 
-/// Returns the glyph of a type that gives a key. The glyph is a button if touching the type is enough, or
+/// Returns the glyph for a type that gives a key. The glyph is a button if touching the type is enough, or
 /// coins if the avatar can hold many.
 fn key(analysis: &Analysis, stype: SpriteType) -> Glyph {
     let many = |resource: SpriteType| {
@@ -270,8 +270,8 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> Glyph {
     }
 }
 
-/// Returns `true` if a type is a friend that must be kept safe: it does no harm, but others turn it into a
-/// type that must not exist.
+/// Returns `true` if a type is a friend that must be kept safe: it is harmless, but others turn it into a
+/// forbidden type.
 pub(crate) fn is_spoilt(analysis: &Analysis, stype: SpriteType) -> bool {
     let prevented = |to: SpriteType| analysis.aims().prevent.contains(&to);
     analysis.harm(stype) == Harm::None && analysis.turns(stype).iter().any(|(to, _)| prevented(*to))

@@ -11,21 +11,21 @@ use engine::analysis::{EffectSummary, Key};
 use engine::{Analysis, Game, SpriteType};
 use std::collections::BTreeMap;
 
-/// The squared distance below which two colours are too similar to tell apart two types with one glyph.
+/// The squared distance below which two colours are too similar to distinguish two types with the same glyph.
 const ALIKE: u32 = 3000;
 /// The maximum number of dots on a tile.
 const MAX_PIPS: u8 = 4;
 
-/// The look of a sprite type: everything that determines its tile except orientation.
+/// The look of a sprite type: everything that determines its tile, except the orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Look {
-    /// The glyph according to the rules, which is the meaning of the type in legends.
+    /// The glyph according to the rules, which determines the type's meaning in legends.
     pub glyph: Glyph,
     /// The drawn shape: a figure if the game specifies an image, or else the glyph.
     pub form: Form,
-    /// The mark of the type's state, as an index into the table of figures.
+    /// The mark for the type's state, as an index into the table of figures.
     pub(crate) mark: Option<u16>,
-    /// The expression of the face, if the form has one.
+    /// The face's expression, if the form has a face.
     pub mood: Mood,
     /// The main colour: the colour that the game specifies, or the glyph's default.
     pub colour: Colour,
@@ -36,7 +36,7 @@ pub struct Look {
 }
 
 impl Look {
-    /// Returns the look of a glyph in a game that specifies no colour and has one type with this glyph.
+    /// Returns the look of a glyph in a game that specifies no colour and has only one type with this glyph.
     pub fn plain(glyph: Glyph) -> Look {
         Look {
             glyph,
@@ -51,8 +51,8 @@ impl Look {
 }
 
 impl Look {
-    /// Returns `true` if two types with these looks cannot be told apart. They have the same drawing and the
-    /// same number of dots, and their colours are similar or not shown by the drawing.
+    /// Returns `true` if players cannot distinguish two types with these looks. Such types have the same
+    /// drawing and the same number of dots, and their colours are similar or not shown by the drawing.
     pub fn is_like(self, other: Look) -> bool {
         let drawing = |look: Look| (look.form, look.mark, look.mood, look.variant, look.pips);
         // Figures show less of the type's colour than glyphs do.
@@ -62,12 +62,12 @@ impl Look {
     }
 }
 
-/// The looks of all types in one game. Looks are immutable, and the same game always gives the same looks.
+/// The looks of all types in one game. Looks are immutable, and the same game always yields the same looks.
 #[derive(Clone, Debug)]
 pub struct Looks {
     game: Game,
     looks: Vec<Look>,
-    /// For each type, `true` if players see its sprites.
+    /// For each type, `true` if its sprites are visible to players.
     visible: Vec<bool>,
     /// The types whose sprites can be seen in some episode.
     shown: Vec<SpriteType>,
@@ -78,13 +78,13 @@ pub struct Looks {
     prospects: Prospects,
     /// The floor of a composed game.
     floor: Option<SpriteType>,
-    /// The direction that a sign of each type shows according to the rules.
+    /// For each type, the direction of its signs according to the rules.
     fronts: Vec<Option<Point>>,
 }
 
 impl Looks {
-    /// Computes the looks of an analysed game, with the images that the game specifies or that the names of its types suggest.
-    /// Cost: O(types²).
+    /// Computes the looks for an analysed game, with the images that the game specifies or that the names of
+    /// its types suggest. Cost: O(types²).
     pub fn of(analysis: &Analysis) -> Looks {
         let named = pictures(analysis.game());
         let by_name = |stype: SpriteType, glyph: Glyph| match named.get(&stype) {
@@ -99,8 +99,8 @@ impl Looks {
         Looks { meanings, ..looks }
     }
 
-    /// Computes the looks that follow from the rules alone, with the meanings of the glyphs, and ignores the images that the game
-    /// specifies. Cost: O(types²).
+    /// Computes the looks that follow from the rules alone, with the meanings of the glyphs. Ignores the
+    /// images that the game specifies. Cost: O(types²).
     pub fn of_rules(analysis: &Analysis) -> Looks {
         Looks::with_hints(analysis, |_, _| None)
     }
@@ -158,17 +158,17 @@ impl Looks {
         }
     }
 
-    /// Returns the game that the looks belong to.
+    /// Returns the game to which the looks belong.
     pub fn game(&self) -> &Game {
         &self.game
     }
 
-    /// Returns the look of a type.
+    /// Returns a type's look.
     pub fn look(&self, stype: SpriteType) -> Look {
         self.looks[stype.index()]
     }
 
-    /// Returns a short description of a type: the meaning of its glyph, and how it moves.
+    /// Returns a short description of a type: its glyph's meaning, and how the type moves.
     pub fn meaning(&self, stype: SpriteType) -> &str {
         &self.meanings[stype.index()]
     }
@@ -178,7 +178,7 @@ impl Looks {
         self.floor
     }
 
-    /// Returns the direction of a sign according to the rules. The sign's sprites may be turned during play.
+    /// Returns a sign's direction according to the rules. The sign's sprites may be turned during play.
     pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
         self.fronts[stype.index()]
     }
@@ -187,7 +187,7 @@ impl Looks {
         &self.prospects
     }
 
-    /// Returns the types whose sprites players can ever see, in registry order.
+    /// Returns the types whose sprites can ever be visible to players, in registry order.
     pub fn shown(&self) -> impl Iterator<Item = SpriteType> + '_ {
         self.shown.iter().copied()
     }
@@ -197,13 +197,13 @@ impl Looks {
         self.holdings
     }
 
-    /// Returns `true` if players see sprites of the type.
+    /// Returns `true` if sprites of the type are visible to players.
     pub fn is_visible(&self, stype: SpriteType) -> bool {
         self.visible[stype.index()]
     }
 }
 
-/// Returns the images that a game specifies (`img=`), by type. A type without an image inherits its parent's
+/// Returns the images specified by a game (`img=`), by type. A type without an image inherits its parent's
 /// image.
 fn pictures(game: &Game) -> BTreeMap<SpriteType, String> {
     let mut pictures = BTreeMap::new();
@@ -233,7 +233,7 @@ fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize
     looks.get(key.index()).filter(|look| look.glyph == Glyph::Key).map(|look| usize::from(look.variant))
 }
 
-/// Returns the colour of the nth type with the same glyph, for types without a colour of their own. The hue
+/// Returns the colour for the nth type with the same glyph, for types without a colour of their own. The hue
 /// stays the same.
 fn shifted(colour: Colour, nth: usize) -> Colour {
     match nth % 3 {

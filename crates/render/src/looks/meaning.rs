@@ -6,7 +6,7 @@ use super::remarks;
 use engine::analysis::{Condition, EffectSummary, Encounter, Goal, Harm, Key, Motion, Role};
 use engine::{Analysis, SpriteType};
 
-/// Returns the types that sprites of a type open, and the types that use up the resource that the type is or
+/// Returns the types that a type's sprites open, and the types that use up the resource that the type is or
 /// gives.
 fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let gives = |givers: &[(SpriteType, i32)]| givers.iter().any(|(giver, _)| *giver == stype);
@@ -22,15 +22,15 @@ fn opened(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied()).collect()
 }
 
-/// Returns the types of [`opened`], the types that `stype` opens or pays for, and the type whose speed it
+/// Returns the types from [`opened`], the types that `stype` opens or pays for, and the type whose speed it
 /// changes.
 fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let opened = opened(analysis, stype).into_iter();
     opened.chain(uses(analysis, stype)).chain(changes_speed(analysis, stype)).collect()
 }
 
-/// Returns a description of how some number of the type's sprites ends the game, if any does: `2 win`, `one,
-/// and you lose`.
+/// Returns a description of how a certain number of the type's sprites ends the game, if this is possible:
+/// `2 win`, `one, and you lose`.
 fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut goals: Vec<&Goal> = analysis.goals().iter().collect();
     goals.sort_by_key(|goal| !goal.win);
@@ -56,14 +56,14 @@ fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// Returns the resource that a type gives to the avatar.
+/// Returns the resource that the avatar receives from a type.
 fn given(analysis: &Analysis, stype: SpriteType) -> Option<&str> {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let resource = touches.find_map(|touch| touch.gives.iter().find(|(_, by)| *by > 0))?.0;
     Some(analysis.game().name(resource))
 }
 
-/// Returns a description of what the avatar becomes when it touches a type.
+/// Returns a description of what the avatar turns into when it touches a type.
 fn becomes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let becomes = touches.find_map(|touch| touch.becomes)?;
@@ -79,7 +79,7 @@ fn health(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     changes.then(|| "changes your health".to_owned())
 }
 
-/// Returns a description of the avatar's benefit from a thing that no rule requires.
+/// Returns a description of the avatar's benefit from an item that no rule requires.
 fn gain(analysis: &Analysis, stype: SpriteType) -> String {
     if let Some(effect) = becomes(analysis, stype).or_else(|| health(analysis, stype)) {
         return effect;
@@ -95,8 +95,8 @@ fn gain(analysis: &Analysis, stype: SpriteType) -> String {
 }
 
 /// Returns the types whose contact with any sprite changes all sprites of `stype`. Avatars are excluded,
-/// because an avatar comes to the contact. Types that turn into `stype` by themselves and back again are
-/// excluded, too.
+/// because an avatar moves to the contact itself. Types that turn into `stype` by themselves and back again
+/// are excluded, too.
 fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let opens =
         |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
@@ -108,12 +108,13 @@ fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     things.filter(|&opener| !alternates(analysis, opener, stype)).collect()
 }
 
-/// Returns `true` if a switch turns into the type that it opens, like a portal that is shut for some ticks.
+/// Returns `true` if a switch turns into the type that it opens, like a portal that is closed for some
+/// ticks.
 fn alternates(analysis: &Analysis, switch: SpriteType, stype: SpriteType) -> bool {
     analysis.turns(switch).iter().any(|(becomes, _)| *becomes == stype)
 }
 
-/// Returns `true` if some encounter changes all sprites of a type at once.
+/// Returns `true` if some encounter changes all sprites of a type together.
 fn changes_as_a_whole(analysis: &Analysis, stype: SpriteType) -> bool {
     let changes =
         |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
@@ -133,9 +134,9 @@ fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     analysis.encounters().iter().filter_map(change).find(|&from| possible(from))
 }
 
-/// Returns a description of how a still thing affects other sprites that come to it. The thing takes what
-/// must disappear for the win, or changes all sprites of a type. Rules about sprites that neither move nor
-/// are shot are left out, because such sprites cannot come.
+/// Returns a description of how a motionless type affects other sprites that reach it. The type removes
+/// sprites that must disappear for the win, or changes all sprites of a type. Rules about sprites that
+/// neither move nor are shot are omitted, because such sprites cannot reach the type.
 fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let (game, wanted) = (analysis.game(), &analysis.aims().remove);
     if let Some(taken) = remarks::swallowed(analysis, stype).iter().find(|taken| wanted.contains(taken)) {
@@ -170,8 +171,8 @@ fn targets(analysis: &Analysis, stype: SpriteType, first: SpriteType) -> String 
     written.into_iter().map(|of| target(analysis, of)).collect::<Vec<_>>().join(" or ")
 }
 
-/// Returns the name of a type that others chase. The members of a group are listed if it contains the avatar
-/// and other types.
+/// Returns the name of a type that others chase. If the type is a group that contains the avatar and other
+/// types, its members are listed.
 fn target(analysis: &Analysis, of: SpriteType) -> String {
     let game = analysis.game();
     if !is_avatar(analysis, of) {
@@ -188,7 +189,7 @@ fn target(analysis: &Analysis, of: SpriteType) -> String {
     }
 }
 
-/// Returns a description of the way in which sprites of a type move, or an empty text if they stay.
+/// Returns a description of how sprites of a type move, or an empty text for motionless types.
 fn motion(analysis: &Analysis, stype: SpriteType) -> String {
     match analysis.facts(stype).motion {
         Motion::Chasing(other) => format!("chases {}", targets(analysis, stype, other)),
@@ -199,13 +200,13 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> String {
     }
 }
 
-/// Returns `true` if every avatar is stopped by a type.
+/// Returns `true` if a type stops every avatar.
 fn blocks(analysis: &Analysis, stype: SpriteType) -> bool {
     let avatars = analysis.avatars();
     !avatars.is_empty() && avatars.iter().all(|avatar| analysis.touch(avatar.stype, stype).blocks)
 }
 
-/// Returns the requirement of a lock: `needs 3 shell`, `opened by bell`, `only as laden`.
+/// Returns a lock's requirement: `needs 3 shell`, `opened by bell`, `only as laden`.
 fn requirement(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let game = analysis.game();
     let lock = analysis.locks().iter().find(|lock| lock.stype == stype)?;
@@ -222,12 +223,12 @@ fn requirement(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// Returns the types of [`openers`] that are not ground.
+/// Returns the types from [`openers`] that are not ground.
 fn opening_things(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     openers(analysis, stype).into_iter().filter(|&opener| analysis.role(opener) != Role::Floor).collect()
 }
 
-/// Returns the meaning of a solid type: the thing of which it is a state, or the means to open or remove it.
+/// Returns the meaning of a solid type: the type of which it is a state, or the means to open or remove it.
 fn solid(analysis: &Analysis, stype: SpriteType) -> String {
     let own = opened(analysis, stype);
     if let Some(names) = remarks::names(analysis, &own) {
@@ -293,7 +294,7 @@ fn ward(analysis: &Analysis, stype: SpriteType) -> String {
     }
 }
 
-/// Returns the meaning of something that the avatar holds.
+/// Returns the meaning of a resource that the avatar holds.
 fn held(analysis: &Analysis, stype: SpriteType, meaning: &str) -> String {
     let mut needed = uses(analysis, stype);
     if needed.is_empty() {
@@ -307,7 +308,7 @@ fn held(analysis: &Analysis, stype: SpriteType, meaning: &str) -> String {
         .unwrap_or_else(|| meaning.to_owned())
 }
 
-/// Returns the meaning of a still type without another role.
+/// Returns the meaning of a motionless type without another role.
 fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
     let state = || Some(format!("was {}", analysis.game().name(earlier(analysis, stype)?)));
     let changed = || {
@@ -347,7 +348,7 @@ fn mover(analysis: &Analysis, stype: SpriteType, glyph: Glyph, motion: &str) -> 
     [Some(format!("{motion}, {harm}")), win].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
-/// Returns the meaning of a type in legends: the meaning of its glyph, and the effects of the rules.
+/// Returns a type's meaning in legends: its glyph's meaning, and the effects of the rules.
 pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> String {
     let glyph = Glyph::of(analysis, stype);
     let own = own_meaning(analysis, stype, form, glyph);
@@ -365,14 +366,14 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
     [own].into_iter().chain(remarks).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns `true` if a resource or the form of the avatar protects from a type that harms.
+/// Returns `true` if a resource or the avatar's current type protects the avatar from a harmful type.
 fn is_guarded(analysis: &Analysis, stype: SpriteType) -> bool {
     let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     analysis.harm(stype) != Harm::None
         && touches().any(|touch| touch.safe_with.is_some() || touch.harm == Harm::None)
 }
 
-/// Returns the meaning of a type, without the harm that still types do.
+/// Returns a type's meaning, excluding the harm caused by motionless types.
 fn own_meaning(analysis: &Analysis, stype: SpriteType, form: Form, glyph: Glyph) -> String {
     let plain = || glyph.meaning().to_owned();
     let named = |verb: &str, types: &[SpriteType]| {

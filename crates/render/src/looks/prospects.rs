@@ -1,16 +1,17 @@
-//! Facts that players may know from the rules: the time left, what a win still needs, and countdowns.
+//! Facts that players may know from the rules: the remaining time, the remaining requirements for a win, and
+//! countdowns.
 
 use engine::analysis::{Condition, Goal};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
-/// The facts about a game that captions show.
+/// The facts about a game for display in captions.
 #[derive(Clone, Debug)]
 pub(crate) struct Prospects {
     /// The tick at which the game ends, and `true` if the game is won at that tick.
     deadline: Option<(i32, bool)>,
-    /// The numbers of sprites that win, with the names that the terminations use.
+    /// The sprite counts that win, with the names that the terminations use.
     goals: Vec<(String, Goal)>,
-    /// The resources that are required in amounts above 1, with the required amounts.
+    /// The resources required in amounts above 1, with the required amounts.
     needed: Vec<(SpriteType, i32)>,
     counts_down: bool,
 }
@@ -36,18 +37,18 @@ impl Prospects {
         Prospects { deadline, goals, needed, counts_down }
     }
 
-    /// Returns the amount of a resource that some rule requires, if it is more than 1.
+    /// Returns the amount of a resource that some rule requires, if the amount is more than 1.
     pub(crate) fn needed(&self, resource: &str, game: &Game) -> Option<i32> {
         let known = self.needed.iter().find(|(stype, _)| game.name(*stype) == resource);
         known.map(|(_, number)| *number)
     }
 
-    /// Returns the resources of which several are required.
+    /// Returns the resources that are required in amounts above 1.
     pub(crate) fn required(&self) -> impl Iterator<Item = (SpriteType, i32)> + '_ {
         self.needed.iter().copied()
     }
 
-    /// Returns a short description of the time left: `89 left`, or `survive 40`.
+    /// Returns a short description of the remaining time: `89 left`, or `survive 40`.
     pub(crate) fn time(&self, state: &State) -> Option<String> {
         let (limit, wins) = self.deadline?;
         let left = limit.saturating_sub(state.tick()).max(0);
@@ -58,7 +59,7 @@ impl Prospects {
         !self.goals.is_empty()
     }
 
-    /// Returns a description of what a win still needs: `friend 1 of 3`, `exit 1 to go`.
+    /// Returns a description of the remaining requirements for a win: `friend 1 of 3`, `exit 1 to go`.
     pub(crate) fn goals(&self, state: &State) -> String {
         let part = |(names, goal): &(String, Goal)| {
             let count = |stype| i32::try_from(state.alive(stype)).unwrap_or(i32::MAX);
@@ -76,8 +77,8 @@ impl Prospects {
         self.counts_down
     }
 
-    /// Returns the next event of each type that counts down, if it comes before the time is up: `molehill acts in 4 (2 left)`,
-    /// `fire ends in 3`.
+    /// Returns the next event for each type with a countdown, if the event occurs before the time limit:
+    /// `molehill acts in 4 (2 left)`, `fire ends in 3`.
     pub(crate) fn countdowns(&self, game: &Game, state: &State) -> String {
         let mut next: Vec<Countdown> = Vec::new();
         for found in game.countdowns(state) {
@@ -104,7 +105,7 @@ impl Prospects {
     }
 }
 
-/// Returns `true` if the line of a type specifies a probability and no total.
+/// Returns `true` if a type's line specifies a probability and no total.
 fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
     let lines = game.description().sprite_lines();
     let line = lines.iter().find(|(_, line)| line.name.text == game.name(stype));
@@ -112,7 +113,7 @@ fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
     has("prob") && !has("total")
 }
 
-/// Returns the names of the types that a termination counts, as written in the termination.
+/// Returns the names of the types counted by a termination, as written in the termination.
 fn names(game: &Game, goal: &Goal) -> String {
     let line = &game.description().terminations[goal.line];
     let given = line.params.iter().filter(|param| param.key.text.starts_with("stype"));

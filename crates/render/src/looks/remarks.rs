@@ -1,4 +1,4 @@
-//! Notes for legends: the harm of a type, what removes its sprites, and what its sprites are needed for.
+//! Notes for legends: a type's harm, what removes its sprites, and what its sprites are needed for.
 
 use super::glyph::is_avatar;
 use engine::analysis::{EffectSummary, Encounter, Harm, Motion, Precondition, Removal, Role, Side};
@@ -7,10 +7,10 @@ use engine::{Analysis, SpriteType};
 /// The maximum number of names in a note.
 const NAMED: usize = 3;
 
-/// The maximum number of ways to win in a note.
+/// The maximum number of win methods in a note.
 const WAYS: usize = 2;
 
-/// Returns the names of types in alphabetical order, or `None` if there are no types.
+/// Returns the names of types in alphabetical order, or `None` for an empty list.
 pub(super) fn names(analysis: &Analysis, types: &[SpriteType]) -> Option<String> {
     let mut names: Vec<&str> = types.iter().map(|&stype| analysis.game().name(stype)).collect();
     names.sort_unstable();
@@ -19,8 +19,8 @@ pub(super) fn names(analysis: &Analysis, types: &[SpriteType]) -> Option<String>
     (!names.is_empty()).then(|| names.join(", "))
 }
 
-/// Returns the harm that touching a type does to the player, including any protection against it: `deadly
-/// unless you are masked`.
+/// Returns the harm to a player who touches a type, including any protection against the harm: `deadly unless
+/// you are masked`.
 pub(super) fn harm(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let word = match analysis.harm(stype) {
         Harm::None => return None,
@@ -41,7 +41,7 @@ pub(super) fn harm(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// Returns the types that remove or change sprites of `stype` on contact. Avatars are left out.
+/// Returns the types that remove or change sprites of `stype` on contact, except avatars.
 pub(super) fn removers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let partner = |encounter: &Encounter| {
         let second = encounter.second?;
@@ -60,7 +60,7 @@ pub(super) fn removers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType
         .collect()
 }
 
-/// Returns the types that move by themselves or are pushed, and are removed by touching `stype`.
+/// Returns the moving or pushed types that are removed by contact with `stype`.
 pub(super) fn swallowed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let falls = |other: &SpriteType| {
         let goes = |side: Side| move |effect: &EffectSummary| *effect == EffectSummary::Kill(side);
@@ -71,7 +71,7 @@ pub(super) fn swallowed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteTyp
     game.sprite_types().filter(|&other| moves(analysis, other)).filter(falls).collect()
 }
 
-/// Returns the types that are removed or changed by touching `stype`, except avatars.
+/// Returns the types that are removed or changed by contact with `stype`, except avatars.
 pub(super) fn spoilt_by(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let spoils = |other: SpriteType| {
         let removers = removers(analysis, other);
@@ -90,8 +90,8 @@ pub(super) fn moves(analysis: &Analysis, stype: SpriteType) -> bool {
         && (facts.motion != Motion::Still || analysis.role(stype) == Role::Pushable)
 }
 
-/// Returns `true` if a meeting of the two types loses the game, or leaves a type that must also disappear for
-/// a win.
+/// Returns `true` if a collision of the two types loses the game, or leaves a type that must also disappear
+/// for a win.
 fn is_in_vain(analysis: &Analysis, stype: SpriteType, partner: SpriteType) -> bool {
     let aims = analysis.aims();
     let bad = |effect: &EffectSummary| match effect {
@@ -158,8 +158,8 @@ pub(super) fn ammunition_for(analysis: &Analysis, resource: SpriteType) -> Vec<S
     shots.filter(|(ammo, _)| **ammo == resource).map(|(_, shot)| *shot).collect()
 }
 
-/// Returns the types that stay in place and that a pushed sprite changes, fills or opens, or that remove the
-/// pushed sprite.
+/// Returns the motionless types that a pushed sprite changes, fills or opens, or that remove the pushed
+/// sprite.
 pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let pushables = analysis.pushables().iter().filter(|pushable| pushable.stype == stype);
     let partners = pushables.flat_map(|pushable| &pushable.sinks).map(|sink| sink.partner);
@@ -170,7 +170,8 @@ pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Vec<Sprite
     partners.filter(stays).collect()
 }
 
-/// Returns a description of where to push sprites that change or fill a type, and whether a win requires it.
+/// Returns a description of where to push sprites that change or fill a type, and whether a win requires the
+/// push.
 pub(super) fn socket(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let sunk =
         |pushable: &&engine::analysis::Pushable| pushable.sinks.iter().any(|sink| sink.partner == stype);

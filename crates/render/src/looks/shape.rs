@@ -1,15 +1,15 @@
-//! The vector shapes of tiles, which are the common input of both back-ends.
+//! The vector shapes of tiles: the common input of both back-ends.
 //!
-//! A tile is a unit square with x to the right and y down, both from 0 to 1. Nothing is transparent, so that a picture needs few
-//! colours and looks the same in any layering.
+//! A tile is a unit square with x to the right and y down, both from 0 to 1. Nothing is transparent, so that
+//! an image needs few colours and looks the same in any layering.
 
 use super::colour::Colour;
 
 /// A point in the unit square.
 pub type Point = [f32; 2];
 
-/// The distance of the control points of a cubic arc for a quarter circle. This is the usual approximation, with an error of at
-/// most 0.03%.
+/// The distance of the control points for a cubic arc that represents a quarter circle. The arc is the usual
+/// approximation, with an error of at most 0.03%.
 const QUARTER: f32 = 0.552_284_8;
 
 /// One step of an outline.
@@ -29,7 +29,7 @@ pub enum Segment {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline(pub Vec<Segment>);
 
-/// The painting mode of an outline.
+/// How an outline is painted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Paint {
     /// The outline is filled (non-zero winding rule).
@@ -43,15 +43,15 @@ pub enum Paint {
 pub struct Shape {
     /// The outline.
     pub outline: Outline,
-    /// The painting mode.
+    /// How the outline is painted.
     pub paint: Paint,
     /// The colour.
     pub colour: Colour,
 }
 
 impl Outline {
-    /// Parses the outline of one of our own SVG paths, such as `M.1,.2 L.3,.4 C.5,.6,.7,.8,.9,1 Z`, with absolute coordinates and
-    /// with spaces only between commands.
+    /// Parses the outline in one of this crate's own SVG paths, such as `M.1,.2 L.3,.4 C.5,.6,.7,.8,.9,1 Z`,
+    /// with absolute coordinates and with spaces only between commands.
     pub(crate) fn path(path: &str) -> Outline {
         let segment = |command: &str| {
             let numbers = command[1..].split(',').filter_map(|number| number.parse().ok());
@@ -158,7 +158,7 @@ impl Outline {
     }
 }
 
-/// Returns a direction as a unit vector, or `None` if it has zero length.
+/// Returns a direction as a unit vector, or `None` for a direction of length zero.
 pub(crate) fn unit((x, y): (f64, f64)) -> Option<Point> {
     let length = (x * x + y * y).sqrt();
     (length > 0.0).then(|| [(x / length) as f32, (y / length) as f32])

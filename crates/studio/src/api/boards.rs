@@ -10,7 +10,7 @@ use engine::{Diagnostics, Episode, Level, MAX_TICKS};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// A request for a level of a game.
+/// A request for a board: a level of a game.
 #[derive(Deserialize)]
 pub(crate) struct Board {
     source: String,
@@ -42,7 +42,7 @@ pub(crate) fn board(studio: &Studio, asked: Board) -> Result<Value, Refusal> {
     Ok(json!({ "tiles": tiles.fresh(), "frame": frame, "cells": cells, "problems": problems }))
 }
 
-/// A request for a recording on a level of a game.
+/// A request for a recorded episode on a level of a game.
 #[derive(Deserialize)]
 pub(crate) struct Replay {
     source: String,
@@ -53,13 +53,14 @@ pub(crate) struct Replay {
 /// The note about omitted frames.
 pub(crate) const CUT: &str = "the boards change too much to show the whole episode";
 
-/// A recording as frames. It is serialised directly, because JSON values would take many times as much memory.
+/// A recording as frames, which is serialised directly because JSON values would take many times as much
+/// memory.
 #[derive(Serialize)]
 pub(crate) struct Replayed {
     tiles: Vec<TileSvg>,
     frames: Vec<Frame>,
     actions: Vec<String>,
-    /// `true` if the recording replays as it was recorded.
+    /// `true` if the replay agrees with the recording.
     agrees: bool,
     note: Option<String>,
 }
@@ -73,7 +74,7 @@ pub(crate) fn replay(studio: &Studio, asked: Replay) -> Result<Replayed, Refusal
 }
 
 impl Replayed {
-    /// Plays the actions of an episode, and draws each tick.
+    /// Plays an episode's actions, and draws each tick.
     pub(crate) fn of(
         compiled: &Compiled,
         level: &Level,

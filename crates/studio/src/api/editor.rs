@@ -13,7 +13,7 @@ use engine::{Diagnostics, LevelMapping, MAX_LEVEL_TEXT, MAX_SOURCE, describe};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The maximum number of edits in a renaming. Each edit takes some hundred bytes of the response.
+/// The maximum number of edits in a renaming. Each edit takes some hundred bytes in the response.
 const MAX_EDITS: usize = 100_000;
 
 /// Rejects texts that are too large for a game or a level.
@@ -83,7 +83,7 @@ pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
     }
 }
 
-/// Returns the characters of levels, each with its tile and the types that it places.
+/// Returns the characters in levels, each with its tile and the types that it places.
 fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
     let Compiled { source, game, looks, analysis } = compiled;
     let order = game.drawing_order();
@@ -187,7 +187,7 @@ pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
     Ok(json!({ "edits": edits, "levels": levels.iter().map(of_level).collect::<Vec<_>>() }))
 }
 
-/// Returns `true` if the byte at this position is the character of a line in the game's LevelMapping.
+/// Returns `true` if the byte at this position is the character on a line in the game's LevelMapping.
 fn in_mapping(source: &str, byte: usize) -> bool {
     let (description, _) = engine::syntax::parse(source);
     description.mapping.iter().any(|line| line.span.start == byte)
@@ -208,7 +208,7 @@ pub(crate) fn format(_: &Studio, Source { source }: Source) -> Result<Value, Ref
     Ok(json!({ "text": editor::format(&source).map_err(refused)? }))
 }
 
-/// A request for a page of the manual, by name.
+/// A request for a manual page, by name.
 #[derive(Deserialize)]
 pub(crate) struct Page {
     name: String,

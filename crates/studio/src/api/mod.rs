@@ -1,4 +1,4 @@
-//! The API that the page uses.
+//! The API used by the page.
 
 mod boards;
 mod editor;
@@ -17,7 +17,7 @@ pub(crate) use boards::{CUT, Replayed};
 pub(crate) use release::release as release_of;
 pub(crate) use workspace::game as game_of;
 
-/// Returns the routes of the API.
+/// Returns the API routes.
 pub(crate) fn routes() -> Router<Serving> {
     let files = change_part(MethodFilter::PUT, workspace::save)
         .merge(change_part(MethodFilter::DELETE, workspace::remove));

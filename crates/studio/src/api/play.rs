@@ -1,4 +1,4 @@
-//! Requests for play by people and planners.
+//! Requests for playing games, by people and planners.
 
 use crate::frames;
 use crate::refusal::Refusal;
@@ -26,7 +26,7 @@ pub(crate) fn begin(studio: &Studio, asked: Begin) -> Result<Value, Refusal> {
     Ok(json!({ "session": studio.sessions.add(session), "tiles": tiles, "frame": frame }))
 }
 
-/// A request to play a tick, with an action or with a planner's choice.
+/// A request to play a tick, either with an action or with a planner's choice.
 #[derive(Deserialize)]
 pub(crate) struct Act {
     session: String,
@@ -48,7 +48,7 @@ pub(crate) fn act(studio: &Studio, asked: Act) -> Result<Value, Refusal> {
     })
 }
 
-/// A request to go to a tick.
+/// A request to jump to a tick.
 #[derive(Deserialize)]
 pub(crate) struct Seek {
     session: String,

@@ -125,8 +125,8 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     Ok(())
 }
 
-/// Follows the parents of the opened release as far as they are found, and sends each of them. Returns sentences about
-/// the parents, and the problems.
+/// Follows the parents of the opened release as far as they can be found, and sends each parent. Returns
+/// sentences about the parents, and the problems.
 fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, Vec<String>), Ended> {
     let mut child = start.name.clone();
     let tell = &mut |ancestor: &Ancestor| {
@@ -189,8 +189,8 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     Ok((said, problems))
 }
 
-/// Returns the places to search for the releases before the opened release. These are the places that the user
-/// specified, the release to compare with, and the parent folders of both releases.
+/// Returns the paths to search for the releases before the opened release: the user-specified paths, the
+/// release to compare with, and the parent folders of both releases.
 fn places(workspace: &Workspace) -> Vec<PathBuf> {
     let against = workspace.against.as_ref().map(|(place, _)| place.clone());
     let beside: Vec<PathBuf> =
@@ -206,7 +206,7 @@ fn folder_of(release: &Path) -> Option<PathBuf> {
     Some(if is_public { parent.parent().unwrap_or(parent) } else { parent }.to_owned())
 }
 
-/// Removes the paths of this machine's folders from a message.
+/// Removes the paths of local folders from a message.
 fn nameless(message: &str, workspace: &Workspace) -> String {
     let mut message = message.to_owned();
     for folder in places(workspace) {

@@ -1,4 +1,4 @@
-//! Requests for results of evaluations: the episodes of each player, replayed with the exchanged messages.
+//! Requests for evaluation results: the episodes of each player, replayed with the exchanged messages.
 
 use super::boards::CUT;
 use crate::frames::{Frame, Frames, TileSvg, Tiles, action_name, outcome};
@@ -14,7 +14,7 @@ use render::Looks;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// The maximum length of a prompt or an answer, in characters.
+/// The maximum length of a prompt or a response, in characters.
 const LONGEST: usize = 20_000;
 
 /// Opens the results, one evaluation per folder.
@@ -46,7 +46,7 @@ pub(crate) fn results(studio: &Studio) -> Result<Value, Refusal> {
     Ok(json!({ "players": players }))
 }
 
-/// Returns a summary of an episode; `None` if the episode has not begun.
+/// Returns an episode's summary, or `None` if the episode has not begun.
 fn summary(evaluation: &Evaluation, task: &Task<'_>, index: usize) -> Result<Option<Value>, Refusal> {
     let log = evaluation.events(task).map_err(Refusal::failed)?;
     let last = log.iter().rev().find_map(|event| match event {
@@ -67,18 +67,18 @@ fn summary(evaluation: &Evaluation, task: &Task<'_>, index: usize) -> Result<Opt
     })))
 }
 
-/// The messages at a decision.
+/// The messages exchanged at a decision.
 #[derive(Default, Serialize)]
 struct Talk {
-    /// The index of the frame that the player saw.
+    /// The index of the frame shown to the player.
     frame: usize,
     /// The messages that were new to the player.
     prompt: String,
-    /// The player's answers.
+    /// The player's responses.
     answer: String,
-    /// The reasoning that came with the answers.
+    /// The reasoning in the responses.
     reasoning: String,
-    /// The action parsed from the answers; `None` if there is no such action.
+    /// The action parsed from the responses, or `None` if there is no such action.
     parsed: Option<String>,
     /// The origin of the choice.
     validity: &'static str,
@@ -154,7 +154,7 @@ fn replayed(evaluation: &Evaluation, task: &Task<'_>) -> Result<Replayed, Refusa
     })
 }
 
-/// Returns the messages at each decision that has messages.
+/// Returns the messages for each decision with messages.
 fn talks(log: &[Event]) -> Vec<Talk> {
     let (mut talks, mut current, mut step) = (Vec::new(), Talk::default(), 0);
     let mut shown: Vec<(u32, String)> = Vec::new();

@@ -1,4 +1,5 @@
-//! Requests whose responses arrive line by line: the verdict on a level, the criteria of a game, and new levels.
+//! Requests with responses that are sent line by line: the verdict on a level, a game's criteria, and new
+//! levels.
 
 use crate::answers::Asked;
 use crate::compiled::Compiled;
@@ -62,15 +63,15 @@ pub(crate) fn verdict(studio: &Studio, asked: Asked<Judge>, lines: &Lines) -> Re
     Subject { compiled: &compiled, level: &checked, seed, budget }.judge(lines)
 }
 
-/// A request to judge a game over all its levels.
+/// A request to judge a game across all its levels.
 #[derive(Deserialize)]
 pub(crate) struct Necessity {
     source: String,
     levels: Vec<String>,
 }
 
-/// The number of forward-model calls for each level, and again for the game over all its levels. It is also the number
-/// of calls to win a new level.
+/// The number of forward-model calls for each level, for the game across all its levels, and for winning a
+/// new level.
 const CALLS: u64 = 300_000;
 
 pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines) -> Result<(), Ended> {
@@ -99,11 +100,11 @@ pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines)
     Ok(lines.check()?)
 }
 
-/// A request to make levels.
+/// A request to generate levels.
 #[derive(Deserialize)]
 pub(crate) struct More {
     source: String,
-    /// A level that the new levels should resemble.
+    /// A level for the new levels to resemble.
     level: Option<String>,
     method: String,
     width: Option<usize>,
@@ -117,7 +118,8 @@ pub(crate) struct More {
 
 /// The maximum number of levels per request.
 const MOST_LEVELS: u32 = 20;
-/// The maximum number of levels to make per requested level if a tier is requested, because generators do not aim at a tier.
+/// The maximum number of levels to generate per requested level if a tier is requested, because generators do
+/// not aim at a tier.
 const TRIES: u32 = 4;
 
 pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result<(), Ended> {
@@ -197,8 +199,8 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     Ok(())
 }
 
-/// Returns the winning episode of a new level. It comes from the level's judges, or from a search if the level was not
-/// judged. Also returns `true` if it is proved that no win takes fewer ticks.
+/// Returns a new level's winning episode. The episode comes from the level's judges, or from a search if the
+/// level was not judged. Also returns `true` if no win provably takes fewer ticks.
 fn known_win(compiled: &Compiled, made: &MadeLevel, seed: Seed, lines: &Lines) -> Option<(Episode, bool)> {
     if let Some(report) = &made.report {
         let win = report.witness.clone()?;

@@ -60,7 +60,7 @@ fn hardest(game: &GameEntry) -> Option<u64> {
     levels.iter().filter_map(|level| level.get("tier")?.as_u64()).max()
 }
 
-/// Draws the first level of a game, if the level exists and has no problems.
+/// Draws a game's first level, if the level exists and has no problems.
 pub(crate) fn first_board(studio: &Studio, game: &GameEntry) -> Option<(Vec<TileSvg>, Frame)> {
     let (source, levels) = game.read().ok()?;
     let compiled = studio.compiled.find(&source.text).ok()?;
@@ -107,7 +107,7 @@ pub(crate) fn witness(studio: &Studio, id: &str, name: &str) -> Result<Episode, 
     found.map(|witness| witness.episode.clone()).ok_or_else(|| Refusal::missing("there is no such recording"))
 }
 
-/// A request to save a text, with the digest of the file on which the text is based.
+/// A request to save a text, with the digest of the file version on which the text is based.
 #[derive(Deserialize)]
 pub(crate) struct Save {
     text: String,
@@ -133,7 +133,7 @@ pub(crate) fn save(studio: &Studio, id: &str, name: &str, asked: Save) -> Result
     Ok(json!({ "digest": Digest::of(asked.text.as_bytes()) }))
 }
 
-/// Rejects the request if a file differs from the version that the page has seen.
+/// Rejects the request if a file differs from the version that the page has loaded.
 fn unchanged(path: &Path, name: &str, base: Option<Digest>, help: &str) -> Result<(), Refusal> {
     let now = files::content(path)?;
     let digest = now.as_ref().map(|text| Digest::of(text.as_bytes()));
@@ -148,7 +148,7 @@ fn unchanged(path: &Path, name: &str, base: Option<Digest>, help: &str) -> Resul
     Err(refusal.with("text", now).with("digest", json!(digest)))
 }
 
-/// A request to remove a file, with the digest of the file that the page has seen.
+/// A request to remove a file, with the digest of the file version that the page has loaded.
 #[derive(Deserialize)]
 pub(crate) struct Remove {
     base: Digest,
@@ -184,7 +184,7 @@ pub(crate) struct Copy {
     title: String,
 }
 
-/// The maximum length of the name of a copy's folder.
+/// The maximum length of the folder name for a copy.
 const MAX_FOLDER: usize = 60;
 
 pub(crate) fn copy(studio: &Studio, asked: Copy) -> Result<Value, Refusal> {
@@ -214,7 +214,8 @@ pub(crate) fn begin(studio: &Studio, asked: Begin) -> Result<Value, Refusal> {
     add(studio, asked.title, template.about.to_owned(), |folder| template.begin(folder))
 }
 
-/// Writes a game into a new folder among the copies, named after the title, and adds the game to the workspace.
+/// Writes a game into a new folder among the copies, with a folder name based on the title, and adds the game
+/// to the workspace.
 fn add(
     studio: &Studio,
     title: String,
@@ -251,7 +252,7 @@ fn add(
     Err(Refusal::bad("there are too many games with this title").help("choose another title"))
 }
 
-/// Returns a folder name for a title, which consists of lower-case letters, digits and dashes.
+/// Returns a folder name for a title. The name consists of lower-case letters, digits and dashes.
 fn folder_name(title: &str) -> String {
     let words = title.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let name = words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-");

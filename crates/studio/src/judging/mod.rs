@@ -1,4 +1,4 @@
-//! Blind comparisons of games by people: pairs of games from several folders, whose origin is hidden.
+//! Blind comparisons of games by people: pairs of games from several folders, with hidden origins.
 
 mod measures;
 mod record;
@@ -27,12 +27,12 @@ use watch::{Hand, Play, Plays};
 
 pub(crate) use watch::Wanted;
 
-/// The games of one source, such as a folder.
+/// The games from one source, such as a folder.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// The source's name in the record, which the judge does not see.
+    /// The source's name in the record, which is hidden from the judge.
     pub name: String,
-    /// The games of the source.
+    /// The source's games.
     pub games: Vec<Candidate>,
 }
 
@@ -41,31 +41,31 @@ pub struct Source {
 pub struct Candidate {
     /// The game's name in its source.
     pub id: String,
-    /// The title that the judge sees.
+    /// The title shown to the judge.
     pub title: String,
-    /// The compiled game of the candidate.
+    /// The candidate's compiled game.
     pub game: Game,
-    /// The first levels of the game.
+    /// The game's first levels.
     pub levels: Vec<Level>,
 }
 
-/// A candidate with the facts found out about it during the session.
+/// A candidate, with facts collected during the session.
 struct Entry {
     source: usize,
     candidate: Candidate,
     measures: OnceLock<Measures>,
 }
 
-/// A session of judging.
+/// A judging session.
 pub struct Judging {
     sources: Vec<String>,
     entries: Vec<Arc<Entry>>,
     seed: String,
-    /// The indices of the left and the right entry of each pair.
+    /// The indices of each pair's left and right entries.
     pairs: Vec<[usize; 2]>,
     keeper: Mutex<Keeper>,
     plays: Plays,
-    /// `true` once the judge has requested the report before the end. Later answers are not blind.
+    /// `true` once the judge has requested the report before the end. Later judgements are not blind.
     ended: AtomicBool,
 }
 
@@ -73,20 +73,20 @@ pub struct Judging {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum JudgingError {
-    /// There is nothing to compare.
+    /// There are no games to compare.
     #[error("{0}")]
     Games(String),
     /// The record cannot be read or written.
     #[error("cannot {action} `{file}`")]
     Io {
-        /// The action that failed.
+        /// The failed action.
         action: &'static str,
-        /// The name of the file.
+        /// The file's name.
         file: String,
         /// The cause of the failure.
         source: std::io::Error,
     },
-    /// The record contains a line that is not a judgement.
+    /// A line in the record is not a judgement.
     #[error("{file}, line {line}: not a judgement: {why}; choose another file, or remove the line")]
     Line {
         /// The file with the faulty line.
@@ -107,14 +107,14 @@ impl JudgingError {
 
 /// The maximum number of pairs in a session.
 pub const MOST_PAIRS: usize = 10_000;
-/// The maximum number of levels per game that are shown and measured.
+/// The maximum number of levels per game to show and measure.
 const LEVELS: usize = 5;
 /// The maximum length of a comment on a pair, in characters.
 const MOST_WORDS: usize = 4000;
 
 impl Judging {
-    /// Draws `pairs` pairs with a seed, and opens the record. Each pair is drawn from two sources. Pairs that the
-    /// record contains are not shown again. Also returns warnings about a damaged record.
+    /// Draws `pairs` pairs with a seed, and opens the record. Each pair is drawn from two sources. Pairs that
+    /// are already in the record are not shown again. Also returns warnings about a damaged record.
     ///
     /// # Errors
     ///
@@ -167,14 +167,14 @@ impl Judging {
         self.keeper.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the indices of the pairs that have been judged.
+    /// Returns the indices of the judged pairs.
     fn judged(&self) -> BTreeSet<usize> {
         let keeper = self.keeper();
         let own = keeper.judgements.0.iter().filter(|judgement| judgement.seed == self.seed);
         own.map(|judgement| judgement.pair).collect()
     }
 
-    /// Returns the pair to judge next, without anything that reveals the sources.
+    /// Returns the pair to judge next, without any information that reveals the sources.
     pub(crate) fn next(&self) -> Value {
         let judged = self.judged();
         let next = (0..self.pairs.len()).find(|pair| !judged.contains(pair));
@@ -189,7 +189,7 @@ impl Judging {
         }
     }
 
-    /// Returns the games of a pair, and the number of levels to show of each.
+    /// Returns the two games in a pair, and the number of levels to show for each game.
     fn both(&self, pair: [usize; 2]) -> ([&Candidate; 2], usize) {
         let both = pair.map(|at| &self.entries[at].candidate);
         // Both games show the same number of levels, because different numbers could reveal the sources.
@@ -264,7 +264,8 @@ impl Judging {
         }
     }
 
-    /// Returns the results of the record. While there are pairs left to judge blindly, returns only the number of judged pairs.
+    /// Returns the results of the record. Until all pairs have been judged blindly, returns only the number
+    /// of judged pairs.
     pub(crate) fn report(&self) -> Value {
         let (judged, of) = (self.judged().len(), self.pairs.len());
         if judged < of && !self.ended.load(Ordering::Relaxed) {
@@ -288,7 +289,8 @@ impl Entry {
     }
 }
 
-/// Returns the text of a game as its judge sees it. The text is reprinted, because spelling and comments could reveal its source.
+/// Returns a game's text as shown to the judge. The text is reprinted, because spelling and comments could
+/// reveal its source.
 fn source_of(candidate: &Candidate) -> String {
     print_bare(candidate.game.description())
 }
@@ -304,7 +306,7 @@ fn shown(candidate: &Candidate, levels: usize) -> Value {
     })
 }
 
-/// A judgement in the form that the page sends.
+/// A judgement as sent by the page.
 #[derive(Deserialize)]
 pub(crate) struct Asked {
     pair: usize,
@@ -319,8 +321,8 @@ pub(crate) struct Asked {
     watched: Watched,
 }
 
-/// Draws pairs of games from different sources. All combinations of sources occur equally often, the games of a source about
-/// equally often, and the sides are random.
+/// Draws pairs of games from different sources. All combinations of sources occur equally often, the games in
+/// a source occur about equally often, and the sides are random.
 fn draw(counts: &[usize], seed: Seed, pairs: usize) -> Vec<[usize; 2]> {
     let first = |source: usize| counts[..source].iter().sum::<usize>();
     let mut draws = seed.child("pairs", 0).sampler();

@@ -1,4 +1,4 @@
-//! The record of judgements: one line of JSON per judgement, appended and flushed.
+//! The judgement record: one line of JSON per judgement, appended and flushed.
 
 use super::JudgingError;
 use base::Digest;
@@ -9,10 +9,10 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// The maximum size of a record that is read, in bytes.
+/// The maximum size of a record to read, in bytes.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// The better game of a pair.
+/// The better game in a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Better {
@@ -24,7 +24,7 @@ pub enum Better {
     Same,
 }
 
-/// The games of a pair to which a statement applies.
+/// The games in a pair to which a statement applies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Which {
@@ -39,8 +39,8 @@ pub enum Which {
 }
 
 impl Which {
-    /// Returns `true` first if the statement applies to the left game, and second if it applies to the right
-    /// game.
+    /// Returns two flags: whether the statement applies to the left game, and whether it applies to the
+    /// right game.
     pub fn sides(self) -> [bool; 2] {
         [matches!(self, Which::Left | Which::Both), matches!(self, Which::Right | Which::Both)]
     }
@@ -50,13 +50,13 @@ impl Which {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Played {
-    /// The number of ticks of the game on the left.
+    /// The number of ticks played in the game on the left.
     pub left: u64,
-    /// The number of ticks of the game on the right.
+    /// The number of ticks played in the game on the right.
     pub right: u64,
 }
 
-/// The games of which the judge has watched a program's episode.
+/// The games for which the judge has watched a program's episode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Watched {
@@ -69,7 +69,7 @@ pub struct Watched {
 /// A game in a pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Side {
-    /// The name of the source.
+    /// The source's name.
     pub source: String,
     /// The game's name in the source.
     pub game: String,
@@ -79,7 +79,7 @@ pub struct Side {
     pub measures: BTreeMap<String, f64>,
 }
 
-/// A person's answers about a pair.
+/// A person's judgement of a pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
     /// The text of the seed with which the pairs were drawn.
@@ -90,23 +90,23 @@ pub struct Judgement {
     pub left: Side,
     /// The game on the right.
     pub right: Side,
-    /// The answer about the better game.
+    /// The better game, according to the judge.
     pub better: Better,
     /// The games that the judge would play again.
     pub again: Which,
-    /// The games that the judge believes to be made by a machine; `None` if the judge was not asked.
+    /// The games that the judge believes to be made by a machine, or `None` if the judge was not asked.
     #[serde(default)]
     pub machine: Option<Which>,
     /// The judge's comment.
     #[serde(default)]
     pub words: String,
-    /// The number of ticks played.
+    /// The number of ticks played in each game.
     #[serde(default)]
     pub played: Played,
-    /// The games that were watched.
+    /// The games for which the judge has watched an episode.
     #[serde(default)]
     pub watched: Watched,
-    /// `true` if the judge had already requested the report, so that the answers are not blind.
+    /// `true` if the judge had already requested the report, so that the judgement is not blind.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub after_report: bool,
 }
@@ -116,7 +116,7 @@ pub struct Judgement {
 pub struct Judgements(pub Vec<Judgement>);
 
 impl Judgements {
-    /// Reads a record. A truncated last line is left out, with a warning.
+    /// Reads a record. A truncated last line is omitted, with a warning.
     ///
     /// # Errors
     ///
@@ -163,12 +163,12 @@ fn parse(bytes: &[u8], file: &Path) -> Result<(Judgements, usize, Vec<String>), 
     Ok((judgements, sound, Vec::new()))
 }
 
-/// A record to which judgements are added.
+/// A record to which judgements are appended.
 #[derive(Debug)]
 pub(super) struct Keeper {
     pub(super) judgements: Judgements,
     file: File,
-    /// `true` if the last line has no newline.
+    /// `true` if the last line does not end with a newline.
     open: bool,
 }
 
@@ -189,7 +189,7 @@ impl Keeper {
         Ok((Keeper { judgements, file, open }, remarks))
     }
 
-    /// Appends a judgement and waits until it is on the disk.
+    /// Appends a judgement, and waits until it is on disk.
     pub(super) fn add(&mut self, judgement: Judgement) -> io::Result<()> {
         let mut line = serde_json::to_string(&judgement)?;
         if self.open {

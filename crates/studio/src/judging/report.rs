@@ -1,5 +1,5 @@
-//! The results of judging: how often games of each source are preferred, and how well the measures agree with these
-//! preferences.
+//! The results of judging: how often games from each source are preferred, and how well the measures agree
+//! with these preferences.
 
 use super::record::{Better, Judgement, Judgements};
 use serde::Serialize;
@@ -13,7 +13,7 @@ pub struct Share {
     pub count: u64,
     /// The number of all cases.
     pub of: u64,
-    /// The fraction `count / of`; `None` if there are no cases.
+    /// The fraction `count / of`, or `None` if there are no cases.
     pub rate: Option<f64>,
     /// The lower end of Wilson's interval.
     pub low: f64,
@@ -29,10 +29,10 @@ impl Share {
     }
 }
 
-/// The results of a source.
+/// A source's results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SourceRow {
-    /// The name of the source.
+    /// The source's name.
     pub name: String,
     /// The number of pairs in which the source's game is better.
     pub wins: u64,
@@ -40,7 +40,7 @@ pub struct SourceRow {
     pub losses: u64,
     /// The number of pairs in which neither game is better.
     pub ties: u64,
-    /// The fraction of wins among wins and losses; `None` if there are neither wins nor losses.
+    /// The fraction of wins among wins and losses, or `None` if there are neither wins nor losses.
     pub rate: Option<f64>,
     /// The lower end of Wilson's 95% interval.
     pub low: f64,
@@ -53,17 +53,17 @@ pub struct SourceRow {
     pub machine: Share,
 }
 
-/// The agreement of a measure with the preferences.
+/// A measure's agreement with the preferences.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeasureRow {
-    /// The name of the measure.
+    /// The measure's name.
     pub name: String,
     /// The number of pairs in which the better game has the larger value.
     pub agrees: u64,
     /// The number of pairs in which one game is better and the values differ.
     pub pairs: u64,
-    /// The fraction `agrees / pairs`; `None` if `pairs` is 0. If the fraction is near 0, better games tend to have
-    /// smaller values.
+    /// The fraction `agrees / pairs`, or `None` if `pairs` is 0. If the fraction is near 0, better games tend
+    /// to have smaller values.
     pub rate: Option<f64>,
     /// The lower end of Wilson's 95% interval.
     pub low: f64,
@@ -71,7 +71,7 @@ pub struct MeasureRow {
     pub high: f64,
 }
 
-/// The results of a record.
+/// The results from a record.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// The number of judgements.
@@ -82,7 +82,7 @@ pub struct Report {
     pub measures: Vec<MeasureRow>,
 }
 
-/// The counts of a source.
+/// A source's counts.
 #[derive(Clone, Copy, Default)]
 struct Counts {
     wins: u64,

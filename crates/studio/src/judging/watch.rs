@@ -1,5 +1,5 @@
-//! Episodes to watch. They are made in the same way for both sides, so that they do not reveal the source of a game.
-//! Recorded wins, which only some sources have, are not shown.
+//! Episodes to watch. Both sides' episodes are produced in the same way, so that they do not reveal a game's
+//! source. Recorded wins, which only some sources have, are not shown.
 
 use crate::compiled::Compiled;
 use crate::verdict::look_for_win;
@@ -14,11 +14,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 const SEARCH: u64 = 400_000;
 /// The planner that plays if no win is found.
 const PLANNER: &str = "olets";
-/// The number of calls per decision of the planner.
+/// The planner's number of calls per decision.
 const DECISION: Budget = Budget(400);
 /// The maximum number of ticks that the planner plays.
 const TICKS: usize = 300;
-/// The maximum number of episodes that a session keeps.
+/// The maximum number of episodes to store in a session.
 const KEPT: usize = 256;
 
 /// A side of a pair.
@@ -29,7 +29,7 @@ pub(crate) enum Hand {
     Right,
 }
 
-/// A level of a pair to be watched.
+/// A level in a pair to watch.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 pub(crate) struct Wanted {
     pub(super) pair: usize,
@@ -43,8 +43,8 @@ pub(crate) struct Play {
     pub(crate) note: Option<&'static str>,
 }
 
-/// Plays a level. Returns the win that a search finds, or else an episode of a planner. Returns `None` once `gone`
-/// returns `true`. The same seed gives the same episode.
+/// Plays a level. Returns the win that a search finds, or else an episode played by a planner. Returns `None`
+/// once `gone` returns `true`. The same seed yields the same episode.
 pub(super) fn play(
     compiled: &Compiled,
     level: &Level,
@@ -79,7 +79,7 @@ pub(super) fn play(
 pub(super) struct Plays(Mutex<VecDeque<(Wanted, Arc<Play>)>>);
 
 impl Plays {
-    /// Returns an episode that is already known or is played now; `None` if the work was cancelled.
+    /// Returns an episode that is already stored or is played now, or `None` if the work was cancelled.
     pub(super) fn find(&self, wanted: Wanted, make: impl FnOnce() -> Option<Play>) -> Option<Arc<Play>> {
         let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let known = lock().iter().find(|(known, _)| *known == wanted).map(|(_, play)| play.clone());

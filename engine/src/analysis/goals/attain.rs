@@ -13,8 +13,8 @@ use crate::rules::terminations::can_be_held_up;
 use crate::rules::{Rules, SpriteType};
 use serde::Serialize;
 
-/// The conditions under which a termination can hold. All variants except [`Attainable::InPlay`] are proved. `InPlay`
-/// only means that the rules alone do not rule the termination out.
+/// The conditions under which a termination can hold. All variants except [`Attainable::InPlay`] are proved.
+/// `InPlay` only means that the rules alone do not exclude the termination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Attainable {
@@ -29,7 +29,7 @@ pub enum Attainable {
     Never,
 }
 
-/// The ways in which the numbers of sprites can change during an episode.
+/// Possible changes in the numbers of sprites during an episode.
 struct PopulationChanges {
     /// For each type, whether its sprites can exist.
     exists: Vec<bool>,
@@ -42,7 +42,7 @@ struct PopulationChanges {
 }
 
 /// Determines how each goal can be attained. Cost: one [`PossibleFutures`], and O(types × types) for each of
-/// the first [`MAX_GOALS`] goals. The other goals are assumed to be [`Attainable::InPlay`].
+/// the first [`MAX_GOALS`] goals. Further goals are assumed to be [`Attainable::InPlay`].
 pub(crate) fn find_attainable(
     rules: &Rules,
     facts: &[Facts],
@@ -95,7 +95,7 @@ impl PopulationChanges {
         changes
     }
 
-    /// Adds the changes that these effects make to sprites of both sides.
+    /// Records the population changes caused by these effects, for sprites on both sides.
     fn add(
         &mut self,
         rules: &Rules,
@@ -146,8 +146,8 @@ impl PopulationChanges {
         }
     }
 
-    /// Returns how a condition can be attained. `kinds` is the number of types that must be alive, if the
-    /// termination requires a number.
+    /// Returns how a condition can be attained. `kinds` is the required number of living types, if the
+    /// termination has such a requirement.
     fn attainability(&self, condition: &Condition, kinds: Option<i32>) -> Attainable {
         let mut weights = vec![0u32; self.exists.len()];
         for stype in condition.types().iter().filter(|stype| self.exists[stype.index()]) {
@@ -184,8 +184,9 @@ impl PopulationChanges {
     }
 }
 
-/// Returns `true` if effects that turn their sprite into another type also turn a dead avatar again in every tick. All
-/// such effects do, except `transformTo`, which has no condition and turns no other sprite.
+/// Returns `true` if the effects that turn their sprite into a different type also turn a dead avatar again
+/// in every tick. All such effects turn dead avatars again, except `transformTo`, which has no condition and
+/// turns no other sprite.
 pub(crate) fn turns_dead(effects: &[EffectSummary], precondition: Precondition) -> bool {
     precondition == Precondition::Movement
         || effects
@@ -206,20 +207,20 @@ impl Analysis {
     /// the following for each winning termination:
     ///
     /// - The termination never holds.
-    /// - It holds only from the start of a level.
-    /// - It comes after a termination that ends every game in its first tick.
+    /// - The termination holds only from the start of a level.
+    /// - The termination comes after a termination that ends every game in its first tick.
     pub fn can_win(&self) -> bool {
         self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Returns `false` only if it is proved that no level can be lost by playing it, apart from the
-    /// reference's own limit of ticks. See [`Analysis::can_win`].
+    /// Returns `false` only if it is proved that no level can be lost by playing it, apart from the reference
+    /// engine's own tick limit. See [`Analysis::can_win`].
     pub fn can_lose(&self) -> bool {
         self.can_end(false, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Returns `true` if a termination with this result can be the first to hold. `holds` returns whether a goal, given
-    /// with its index, can hold.
+    /// Returns `true` if a termination with this result can be the first to hold. `holds` returns whether a
+    /// goal, passed with its index, can hold.
     pub(crate) fn can_end(&self, win: bool, holds: impl Fn(usize, &Goal) -> bool) -> bool {
         for (at, goal) in self.goals.iter().enumerate() {
             let ends = if win { goal.win } else { goal.can_lose() };

@@ -1,4 +1,4 @@
-//! Goals: the winning and losing terminations, in terms of sprite counts.
+//! Goals: the winning and losing terminations, expressed as sprite counts.
 
 use super::attain::{Attainable, turns_dead};
 use crate::analysis::Analysis;
@@ -11,19 +11,19 @@ use crate::state::State;
 /// The condition under which a termination ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Condition {
-    /// At most this number of sprites of these types are alive.
+    /// At most this number of sprites of these types exist.
     AtMost(Vec<SpriteType>, i32),
     /// At least this number of sprites of these types are alive.
     AtLeast(Vec<SpriteType>, i32),
     /// Exactly this number of sprites of these types are alive.
     Exactly(Vec<SpriteType>, i32),
-    /// The tick with this number is reached.
+    /// This tick is reached.
     Tick(i32),
 }
 
 impl Condition {
-    /// Returns the counted types: all types that can have sprites, including relatives. A type that a
-    /// `MultiSpriteCounter` counts twice occurs twice.
+    /// Returns the counted types: all types that can have sprites, including relatives. A type counted twice
+    /// by a `MultiSpriteCounter` occurs twice.
     pub fn types(&self) -> &[SpriteType] {
         match self {
             Condition::AtMost(types, _) | Condition::AtLeast(types, _) | Condition::Exactly(types, _) => {
@@ -33,7 +33,8 @@ impl Condition {
         }
     }
 
-    /// Returns `true` if the condition holds at this tick with these counts. `count` returns the count of a type.
+    /// Returns `true` if the condition holds at this tick with these counts. `count` returns a type's sprite
+    /// count.
     pub fn holds(&self, count: impl Fn(SpriteType) -> i32, tick: i32) -> bool {
         let sum = || self.types().iter().map(|&stype| count(stype)).sum::<i32>();
         match self {
@@ -58,8 +59,8 @@ impl Condition {
     }
 }
 
-/// A termination. Terminations are in order of priority: the first termination that holds at the end of a
-/// tick ends the game.
+/// A termination. Terminations are ordered by priority: the first termination that holds at the end of a tick
+/// ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Goal {
     /// `true` if the termination wins the game, or may win it: see [`Goal::is_open`].
@@ -68,7 +69,8 @@ pub struct Goal {
     open: bool,
     /// The condition under which the termination holds.
     pub condition: Condition,
-    /// The number of distinct types that must have counted sprites, if the termination requires a number.
+    /// The number of distinct types that must have counted sprites, if the termination requires such a
+    /// number.
     pub kinds: Option<i32>,
     /// The index of the termination's line in [`Description::terminations`](crate::Description).
     pub line: usize,
@@ -88,10 +90,10 @@ impl Goal {
     }
 }
 
-/// The demands of the terminations on the player. Each list is sorted by type.
+/// The terminations' demands on the player. Each list is sorted by type.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Aims {
-    /// Types that must be removed, entirely or down to a few, for a win.
+    /// Types whose sprites must be removed for a win, either entirely or down to a small number.
     pub remove: Vec<SpriteType>,
     /// Types whose number of sprites must increase for a win.
     pub create: Vec<SpriteType>,
@@ -101,9 +103,10 @@ pub struct Aims {
     pub prevent: Vec<SpriteType>,
     /// The tick at which surviving wins.
     pub survive: Option<i32>,
-    /// The first tick at which a Timeout loses the game, or may lose it, apart from the reference's own limit.
+    /// The first tick at which a Timeout loses the game, or may lose it, apart from the reference engine's
+    /// own tick limit.
     pub deadline: Option<i32>,
-    /// `true` if the loss of the avatar loses the game.
+    /// `true` if losing the avatar loses the game.
     pub avatar_must_live: bool,
 }
 
@@ -177,18 +180,18 @@ pub(crate) fn aims(rules: &Rules, goals: &[Goal]) -> Aims {
 }
 
 impl Analysis {
-    /// Returns the terminations, in order of priority.
+    /// Returns the terminations in order of priority.
     pub fn goals(&self) -> &[Goal] {
         &self.goals
     }
 
-    /// Returns the demands of the terminations on the player.
+    /// Returns the terminations' demands on the player.
     pub fn aims(&self) -> &Aims {
         &self.aims
     }
 
-    /// Returns `true` if the total number of sprites of these types never exceeds the number that a level
-    /// starts with: every effect that makes such a sprite uses up another. Most effects turn a dead avatar
+    /// Returns `true` if the total number of sprites of these types never exceeds the number at the start of
+    /// a level: every effect that creates such a sprite uses up another. Most effects turn a dead avatar
     /// again and again. Cost: O(encounters × types).
     pub fn only_falls(&self, types: &[SpriteType]) -> bool {
         let game = &self.game;
@@ -222,13 +225,13 @@ impl Analysis {
             })
     }
 
-    /// Returns the termination that would end the game if this state were the end of a tick. Cost: O(goals × types).
+    /// Returns the termination that would end the game if a tick ended in this state. Cost: O(goals × types).
     pub fn goal_met(&self, state: &State) -> Option<&Goal> {
         let rules = &*self.game.0;
         self.goals.iter().find(|goal| rules.terminations[goal.line].holds(rules, &state.world))
     }
 
-    /// Returns the distance of a goal from holding in this state: see [`Condition::missing`]. Cost: O(types).
+    /// Returns how far a goal is from holding in this state: see [`Condition::missing`]. Cost: O(types).
     pub fn missing(&self, goal: &Goal, state: &State) -> u32 {
         let live = |stype: SpriteType| {
             let group = state.world.group(stype);

@@ -1,4 +1,5 @@
-//! Goals of a game: its winning and losing conditions, whether they can be met, and what they require of levels.
+//! A game's goals: its winning and losing conditions, whether they can be met, and their requirements on
+//! levels.
 
 pub(crate) mod attain;
 pub(crate) mod goal;

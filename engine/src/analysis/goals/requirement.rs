@@ -1,4 +1,4 @@
-//! Requirements on the sprites of a level, without which playing the level makes no sense.
+//! Requirements on a level's sprites, without which playing the level is pointless.
 
 use super::goal::Condition;
 use crate::analysis::Analysis;
@@ -14,7 +14,7 @@ pub enum Reason {
     Avatar,
     /// The termination at this index must not hold at the start.
     Goal(usize),
-    /// Without these sprites, the termination at this index could never hold.
+    /// Without the required sprites, the termination at this index could never hold.
     WinMethod(usize),
     /// Locks of this type need this amount of their key.
     Lock(SpriteType),
@@ -22,14 +22,15 @@ pub enum Reason {
     Portal(SpriteType),
 }
 
-/// The maximum number of terminations that requirements are derived from, in order. Real games have a handful.
+/// The maximum number of terminations from which requirements are derived, in order. Real games have only a
+/// few terminations.
 pub const MAX_GOALS: usize = 64;
 
-/// A requirement on the total number of sprites of some types in a level.
+/// A requirement on the total number of sprites of certain types in a level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Requirement {
-    /// The types that are counted, restricted to types that levels can place. If the list is empty, no level
-    /// can meet the requirement.
+    /// The counted types, restricted to types that levels can place. If the list is empty, no level can meet
+    /// the requirement.
     pub types: Vec<SpriteType>,
     /// The minimum total number of sprites.
     pub at_least: u32,
@@ -86,12 +87,12 @@ pub(crate) fn requirements(analysis: &Analysis) -> Vec<Requirement> {
     list
 }
 
-/// Returns a number of sprites. Negative numbers count as 0.
+/// Converts a parameter into a number of sprites. Negative values count as 0.
 fn count(number: i32) -> u32 {
     u32::try_from(number).unwrap_or(0)
 }
 
-/// Returns, for each type, the first interaction that makes its sprites.
+/// Returns, for each type, the first interaction that creates its sprites.
 fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
     let mut makers = vec![None; analysis.facts.len()];
     for encounter in &analysis.encounters {
@@ -104,8 +105,8 @@ fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
     makers
 }
 
-/// Returns the requirements for making the sprites that a win needs, or for removing unwanted sprites that the avatar
-/// cannot remove by touch.
+/// Returns the requirements for creating the sprites that a win needs, or for removing unwanted sprites that
+/// the avatar cannot remove by touch.
 fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<Requirement> {
     let condition = &analysis.goals[at].condition;
     let wants_more = match condition {
@@ -142,7 +143,7 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
     list
 }
 
-/// Requires enough of the key for one lock of each type.
+/// Returns the requirement of enough keys for one lock of each type.
 fn keys(analysis: &Analysis) -> Vec<Requirement> {
     let mut list = Vec::new();
     for lock in &analysis.locks {

@@ -1,4 +1,4 @@
-//! The ways in which a game can be won, by the player's own actions or by other sprites.
+//! The methods of winning a game: through the player's own actions or through other sprites.
 
 use super::goal::Condition;
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Side};
@@ -10,18 +10,18 @@ use crate::analysis::{Analysis, Attainable};
 use crate::rules::SpriteType;
 use std::collections::BTreeSet;
 
-/// A way in which a win can be achieved.
+/// A method of winning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WinMethod {
     /// The avatar touches an exit.
     Exit,
-    /// The avatar touches sprites that lie around.
+    /// The avatar touches sprites that do not move.
     Take,
     /// The avatar touches moving sprites.
     Catch,
     /// The avatar's shots remove moving sprites, or are themselves moving.
     Shoot,
-    /// A sprite that the avatar places somewhere, and that stays there, removes a sprite that stands still.
+    /// A sprite that the avatar places, and that stays in its cell, removes a sprite that does not move.
     Tool,
     /// A sprite that the avatar pushes reaches its destination.
     Push,
@@ -31,34 +31,34 @@ pub enum WinMethod {
     Wait,
 }
 
-/// The ways in which sprites of each type can be removed or made.
+/// The methods by which sprites of each type can be removed or created.
 pub(crate) struct WinMethods<'a> {
     analysis: &'a Analysis,
-    /// For each type, whether a shot removes it or turns it into something harmless.
+    /// For each type, whether a shot removes its sprites or turns them into something harmless.
     shot: Vec<bool>,
-    /// For each type, whether a moving shot removes it or turns it into something harmless.
+    /// For each type, whether a moving shot removes its sprites or turns them into something harmless.
     flown: Vec<bool>,
     /// For each type, whether touching some sprite removes all sprites of the type.
     opened: Vec<bool>,
-    /// For each type, whether it can be pushed onto something that removes or changes it, or is itself filled by a
-    /// pushed sprite.
+    /// For each type, whether its sprites can be pushed onto something that removes or changes them, or are
+    /// filled by a pushed sprite.
     pushed: Vec<bool>,
-    /// For each type, whether meeting another sprite removes it.
+    /// For each type, whether a collision with another sprite removes its sprites.
     met: Vec<bool>,
-    /// For each type, the ways in which the player can make its sprites.
+    /// For each type, the methods by which the player can create its sprites.
     made: Vec<BTreeSet<WinMethod>>,
 }
 
 impl Analysis {
-    /// Returns the ways in which players can win, in the order of [`WinMethod`]. The list is empty if there
-    /// is no way to win. Cost: O(types × avatars + interactions × relatives).
+    /// Returns the methods by which players can win, in the order of [`WinMethod`]. The list is empty if
+    /// there is no such method. Cost: O(types × avatars + interactions × relatives).
     pub fn win_methods(&self) -> Vec<WinMethod> {
         WinMethods::of(self).methods().into_iter().collect()
     }
 }
 
 impl WinMethods<'_> {
-    /// Computes the ways to win for every type. Cost: O(types × avatars + interactions × relatives).
+    /// Computes the win methods for every type. Cost: O(types × avatars + interactions × relatives).
     pub(crate) fn of(analysis: &Analysis) -> WinMethods<'_> {
         let none = vec![false; analysis.facts.len()];
         let shots = projectiles(analysis);
@@ -105,7 +105,7 @@ impl WinMethods<'_> {
         methods
     }
 
-    /// Returns the ways in which players can win.
+    /// Returns the methods by which players can win.
     pub(crate) fn methods(&self) -> BTreeSet<WinMethod> {
         let mut methods = BTreeSet::new();
         let goals = self.analysis.goals.iter();
@@ -147,8 +147,8 @@ impl WinMethods<'_> {
         methods
     }
 
-    /// Returns `true` if a still type that wins by touch is a destination, rather than a type of many items
-    /// to take.
+    /// Returns `true` if a motionless type that wins by touch is a destination, rather than a type of many
+    /// collectable items.
     fn is_like_an_exit(&self, stype: SpriteType) -> bool {
         let Analysis { game, aims, touches, .. } = self.analysis;
         let wanted = |stype: SpriteType| {
@@ -184,7 +184,7 @@ fn is_hostile(role: Role) -> bool {
     matches!(role, Role::Enemy | Role::Spawner)
 }
 
-/// Returns the avatars' shots, and all moving types that these shots turn into or make.
+/// Returns the avatars' shots, and all moving types that these shots turn into or create.
 fn projectiles(analysis: &Analysis) -> BTreeSet<SpriteType> {
     let shots = analysis.avatars.iter().flat_map(|avatar| avatar.shots.iter().copied());
     let mut found: BTreeSet<SpriteType> = shots.collect();

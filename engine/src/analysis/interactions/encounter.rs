@@ -1,4 +1,4 @@
-//! Interactions in summarised form: the two sprites, the effects and the condition.
+//! Summaries of interactions: the two sprites, the effects and the condition.
 
 pub use crate::rules::effects::{EffectSummary, Precondition, Side};
 use crate::rules::effects::{Ending, Target};
@@ -23,7 +23,7 @@ pub struct Encounter {
     pub line: usize,
     /// The index of the effect with all its parameters.
     pub(crate) effect: u16,
-    /// The index of the effect's keyword, for shields.
+    /// The keyword index of the effect, for matching shields.
     pub(crate) keyword: u16,
 }
 
@@ -38,7 +38,7 @@ impl Encounter {
         self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
     }
 
-    /// Returns `true` if a sprite of one of these types certainly appears, or if the first sprite turns into
+    /// Returns `true` if a sprite of one of these types definitely appears, or if the first sprite turns into
     /// such a sprite. `types` must be sorted.
     pub(crate) fn brings_one_of(&self, types: &[SpriteType]) -> bool {
         self.does(|effect| {
@@ -57,7 +57,7 @@ impl Encounter {
     }
 }
 
-/// Returns all interactions in the order of a tick, without repetitions. Interactions with the edge come
+/// Returns all interactions in the order of a tick, without duplicates. Interactions with the edge come
 /// first.
 pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let mut seen: Vec<(SpriteType, Option<SpriteType>, u16, u16)> = Vec::new();
@@ -92,8 +92,8 @@ pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     seen.into_iter().map(encounter).collect()
 }
 
-/// Returns the timed effects, each with its target type. The target is `None` if the effect has no particular
-/// sprite.
+/// Returns the timed effects, each with its target type. The target is `None` if the effect does not run on a
+/// particular sprite.
 pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[EffectSummary; 2]>)> {
     let effects = |effect: u16| {
         let mut effects = rules.effects[usize::from(effect)].summary.effects.clone();
@@ -103,7 +103,7 @@ pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<
     rules.timed.iter().map(|timed| (timed.target, effects(timed.effect))).collect()
 }
 
-/// Returns the part of a timed effect that concerns all sprites of a type. A timed effect that needs one
+/// Returns the part of a timed effect that applies to all sprites of a type. A timed effect that needs one
 /// particular sprite does nothing.
 fn global_part(rules: &Rules, timed: u16) -> impl Iterator<Item = EffectSummary> {
     let effect = rules.timed[usize::from(timed)].effect;

@@ -16,7 +16,7 @@ pub enum Key {
         resource: SpriteType,
         /// The amount needed at the same time.
         amount: i32,
-        /// `true` if opening uses the resource up.
+        /// `true` if opening consumes the resource.
         spent: bool,
     },
     /// The avatar must be of this type.
@@ -26,18 +26,19 @@ pub enum Key {
     Switch(SpriteType, Option<SpriteType>),
 }
 
-/// A type that the avatar cannot pass or remove at the start, but can later.
+/// A type that the avatar cannot pass or remove at first, but can later.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lock {
     /// The locked type.
     pub stype: SpriteType,
     /// The requirement for opening the lock.
     pub key: Key,
-    /// `true` if the sprite blocks the way or hurts until it is opened, so that it can guard the cells behind it.
+    /// `true` if the sprite blocks or harms the avatar until it is opened, so that it can guard the cells
+    /// behind it.
     pub guards: bool,
     /// `true` if opening removes the sprite. Otherwise, the avatar passes through the opened sprite.
     pub vanishes: bool,
-    /// The types that give the key on contact, each with its amount.
+    /// The types that give the key on contact, each with the given amount.
     pub givers: Vec<(SpriteType, i32)>,
 }
 
@@ -48,9 +49,10 @@ pub struct Resource {
     pub stype: SpriteType,
     /// The maximum amount that an avatar can hold.
     pub limit: i32,
-    /// The types that give the resource on contact, each with its amount.
+    /// The types that give the resource on contact, each with the given amount.
     pub givers: Vec<(SpriteType, i32)>,
-    /// The types that use the resource up on contact, each with the maximum amount that one sprite takes.
+    /// The types that consume the resource on contact, each with the maximum amount that one of its sprites
+    /// takes.
     pub takers: Vec<(SpriteType, i32)>,
     /// The maximum amount that an interaction requires at the same time, or 0 if no interaction requires the
     /// resource.
@@ -61,7 +63,7 @@ pub struct Resource {
     pub is_ammunition: bool,
 }
 
-/// The outcome for a sprite that is pushed onto a partner.
+/// The effect of a push onto a partner on the pushed sprite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
     /// The pushed sprite stays on the cell, unchanged.
@@ -72,13 +74,12 @@ pub enum Fate {
     Goes,
 }
 
-/// A collision of a pushed sprite with a partner in which the sprite or its partner is removed or changed, or
-/// something is opened.
+/// A collision of a pushed sprite with a partner that removes or changes either sprite, or opens something.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sink {
     /// The partner: a sprite on the cell, or another pushable sprite.
     pub partner: SpriteType,
-    /// The outcome for the pushed sprite.
+    /// The effect on the pushed sprite.
     pub fate: Fate,
     /// `true` if the partner is removed or changes.
     pub fills: bool,
@@ -91,13 +92,13 @@ pub struct Sink {
 pub struct Pushable {
     /// The pushable type.
     pub stype: SpriteType,
-    /// The types that a sprite of this type cannot be pushed onto.
+    /// The types onto which a sprite of this type cannot be pushed.
     pub blocked_by: Vec<SpriteType>,
-    /// The collisions with partner types in which the pushed sprite or its partner is removed or changed.
+    /// The collisions with partner types that remove or change either sprite, or open something.
     pub sinks: Vec<Sink>,
 }
 
-/// The touches of every avatar type with every type: one row per avatar, with one entry per type.
+/// The touch results for every avatar type and every type: one row per avatar, with one entry per type.
 pub(crate) type Touches = Vec<Vec<Touch>>;
 
 pub(crate) fn pushables(
@@ -125,7 +126,7 @@ pub(crate) fn pushables(
     list
 }
 
-/// The outcome of pushing a sprite onto a partner.
+/// The result of pushing a sprite onto a partner.
 enum Meeting {
     Blocked,
     Free(Sink),
@@ -137,7 +138,7 @@ impl Sink {
     }
 }
 
-/// Returns the outcome of pushing a sprite of `stype` onto a sprite of each type.
+/// Returns the result of pushing a sprite of `stype` onto a sprite of each type.
 fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> {
     let sink = |partner: u16| Sink {
         partner: SpriteType(partner),
@@ -207,7 +208,7 @@ pub(crate) fn resources(
         .collect()
 }
 
-/// The types whose touch gives each resource, with the maximum amount that one touch gives.
+/// For each resource, the types that give it on touch, with the maximum amount per touch.
 pub(crate) type Givers = Vec<Vec<(SpriteType, i32)>>;
 
 pub(crate) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
@@ -215,8 +216,7 @@ pub(crate) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
 }
 
 /// Returns, for each resource, the types whose touch changes its amount. `share` converts a change into a
-/// number, and each type is given with the maximum of its numbers. Types without a positive number are left
-/// out.
+/// number, and each type is listed with its maximum number. Types without a positive number are omitted.
 fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
     let mut givers: Givers = vec![Vec::new(); facts.len()];
     for (stype, _) in (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible) {
@@ -290,8 +290,8 @@ pub(crate) fn locks(
     locks
 }
 
-/// Returns, for each type, the switch that removes all its sprites. The switch is a sprite to touch, or a
-/// sprite to fill with a pushed sprite, which takes precedence.
+/// Returns, for each type, the switch that removes all its sprites. The switch is either a sprite to touch or
+/// a sprite to fill with a pushed sprite. Switches to fill take precedence.
 fn switches(
     types: usize,
     touches: &Touches,

@@ -4,11 +4,11 @@
 use super::encounter::{EffectSummary, Encounter, Side};
 use crate::rules::{Rules, SpriteType};
 
-/// The maximum number of interactions between two types that are considered. Later interactions, in the order
-/// of a tick, are assumed to be repetitions. Real games have a handful.
+/// The maximum number of interactions between two types to consider. Later interactions, in the order of a
+/// tick, are assumed to be repetitions. Real games have only a few interactions per pair.
 pub const MAX_RULES_PER_PAIR: u16 = 64;
 
-/// The interactions between sprites, grouped by the pair of types that they are written for.
+/// The interactions between sprites, grouped by their pair of types.
 pub(crate) struct Pairs<'a> {
     rules: &'a Rules,
     encounters: &'a [Encounter],
@@ -33,8 +33,8 @@ impl<'a> Pairs<'a> {
     }
 
     /// Visits the interactions of a type with every other type, in the order of a tick. Passes three values:
-    /// the other type, the side of the type itself, and the interaction. If both sides are possible, passes
-    /// the first side.
+    /// the other type, the side of `own`, and the interaction. If the type matches both sides, passes the
+    /// first side.
     pub(crate) fn with(&self, own: SpriteType, mut visit: impl FnMut(SpriteType, Side, &Encounter)) {
         let mut seen = vec![0u16; self.rules.types.len()];
         let mut visit = |group: &Group<'_>, other: SpriteType, side: Side| {

@@ -1,4 +1,5 @@
-//! The results of an avatar touching a sprite: all interactions between the two types, in either order, combined.
+//! The results of an avatar touching a sprite, combined from all interactions between the two types in either
+//! order.
 
 use super::encounter::{EffectSummary, Encounter, Precondition, Side};
 use super::pairs::Pairs;
@@ -33,18 +34,18 @@ pub enum Removal {
     Always,
 }
 
-/// The result of an avatar of one type touching a sprite of another type.
+/// The result when an avatar of one type touches a sprite of another type.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Touch {
     /// The harm to the avatar.
     pub harm: Harm,
-    /// The resource and amount that keep the avatar from harm.
+    /// The resource and amount that protect the avatar from harm.
     pub safe_with: Option<(SpriteType, i32)>,
     /// `true` if the avatar cannot enter the sprite's cell.
     pub blocks: bool,
-    /// `true` if the avatar pushes the sprite along.
+    /// `true` if the avatar pushes the sprite.
     pub pushes: bool,
-    /// `true` if the avatar is carried along or moved somewhere else.
+    /// `true` if the avatar is carried along or moved to a different position.
     pub carries: bool,
     /// The conditions under which the sprite is removed.
     pub removal: Removal,
@@ -54,7 +55,7 @@ pub struct Touch {
     pub changes: Option<SpriteType>,
     /// The resources that the avatar gains or loses, with their amounts.
     pub gives: Vec<(SpriteType, i32)>,
-    /// `true` if the avatar reappears at the sprite's exit.
+    /// `true` if the avatar reappears at the exit to which the sprite leads.
     pub teleports: bool,
     /// The types whose sprites are all removed or changed, wherever they are.
     pub opens: Vec<SpriteType>,
@@ -63,7 +64,7 @@ pub struct Touch {
     pub makes: Vec<SpriteType>,
     /// The sum of the score changes.
     pub score: i32,
-    /// `true` if the two types have any interaction.
+    /// `true` if any interaction between the two types exists.
     pub any: bool,
 }
 
@@ -73,13 +74,14 @@ impl Touch {
         self.removal != Removal::Never || self.changes.is_some()
     }
 
-    /// Returns `true` if contact neither hurts nor stops the avatar.
+    /// Returns `true` if contact neither harms nor stops the avatar.
     pub fn lets_pass(&self) -> bool {
         !self.blocks && self.harm == Harm::None
     }
 }
 
-/// Returns the touches of an avatar type with each type. Cost: O(interactions of the avatar × relatives).
+/// Returns the touch results of an avatar type with each type. Cost: O(interactions of the avatar ×
+/// relatives).
 pub(crate) fn touches(rules: &Rules, pairs: &Pairs<'_>, aims: &Aims, avatar: SpriteType) -> Vec<Touch> {
     let mut row = vec![Touch::default(); rules.types.len()];
     pairs.with(avatar, |other, side, encounter| {
@@ -95,7 +97,7 @@ pub(crate) fn touches(rules: &Rules, pairs: &Pairs<'_>, aims: &Aims, avatar: Spr
     row
 }
 
-/// Adds the effects of an interaction in which the avatar is on the side `own`.
+/// Adds the effects of an interaction that has the avatar on the side `own`.
 fn add(
     rules: &Rules,
     aims: &Aims,
@@ -194,7 +196,7 @@ fn add(
 }
 
 /// Returns the stronger of two removals. Unconditional removal outranks removal that costs a resource, which
-/// outranks removal that only happens sometimes.
+/// outranks removal that happens only sometimes.
 fn stronger(one: Removal, two: Removal) -> Removal {
     let rank = |removal: Removal| match removal {
         Removal::Never => 0,

@@ -1,11 +1,11 @@
-//! Sets of cells of a board and of the ring around it.
+//! Sets of cells on a board and on the ring around it.
 
 use crate::numbers::geometry::Direction;
 
 /// A board with a ring of one cell around it, which stands for everything outside.
 ///
-/// A position off the board counts as the nearest cell of the ring. A move by some number of cells is
-/// therefore at most that many steps between these cells. A sprite that leaves the board and returns
+/// A position off the board counts as the nearest ring cell. A move by some number of cells therefore takes
+/// at most that number of steps between the corresponding cells. A sprite that leaves the board and returns
 /// elsewhere has a path along the ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Board {
@@ -29,19 +29,19 @@ impl Board {
         y as usize * (self.columns as usize + 2) + x as usize
     }
 
-    /// Returns the column and the row of a cell. In the ring, a column or row is −1 or one past the last.
+    /// Returns a cell's column and row. In the ring, a column or row is −1 or one past the last.
     pub(super) fn place(self, cell: usize) -> (i32, i32) {
         let width = self.columns as usize + 2;
         ((cell % width) as i32 - 1, (cell / width) as i32 - 1)
     }
 
-    /// Returns the cell of the board at this index in [`Level::cells`](crate::Level::cells).
+    /// Returns the board cell for an index in [`Level::cells`](crate::Level::cells).
     pub(super) fn of_level(self, cell: usize) -> usize {
         let columns = self.columns as usize;
         self.at((cell % columns) as i32, (cell / columns) as i32)
     }
 
-    /// Returns the index of a cell of the board in [`Level::cells`](crate::Level::cells).
+    /// Returns a board cell's index in [`Level::cells`](crate::Level::cells).
     pub(super) fn on_level(self, cell: usize) -> usize {
         let (x, y) = self.place(cell);
         (y * self.columns + x) as usize
@@ -52,8 +52,8 @@ impl Board {
         self.at(x.saturating_add(dx.saturating_mul(times)), y.saturating_add(dy.saturating_mul(times)))
     }
 
-    /// Returns the cells that are one step away from `cells`. The ring stands for everything outside, so a step that
-    /// starts there may end in the same cell.
+    /// Returns the cells that are one step away from `cells`. The ring stands for everything outside, so a
+    /// step from a ring cell may end in the same cell.
     pub(super) fn beside(self, cells: &Cells, step: (i32, i32)) -> Cells {
         let outside = cells.iter().filter(|&cell| self.is_ring(cell));
         Cells::of(self, cells.iter().map(|cell| self.shifted(cell, step, 1)).chain(outside))
@@ -68,7 +68,8 @@ impl Board {
         Cells::of(self, (0..self.size()).filter(|&cell| self.is_ring(cell)))
     }
 
-    /// Returns all cells within this number of columns and rows of `cells`. Cost: O(cells), regardless of the distance.
+    /// Returns all cells within this number of columns and rows from `cells`. Cost: O(cells), regardless of
+    /// the distance.
     pub(super) fn around(self, cells: &Cells, distance: i32) -> Cells {
         if distance == 0 {
             return cells.clone();
@@ -125,7 +126,7 @@ impl Cells {
         self.0.iter().all(|&word| word == 0)
     }
 
-    /// Removes the cells of `others` that are in neither of the `kept` sets.
+    /// Removes the cells in `others` that are in neither of the `kept` sets.
     pub(super) fn drop_unless(&mut self, others: &Cells, kept: [&Cells; 2]) {
         for (at, word) in self.0.iter_mut().enumerate() {
             *word &= !others.0[at] | kept[0].0[at] | kept[1].0[at];
@@ -146,8 +147,8 @@ impl Cells {
         new
     }
 
-    /// Adds the cells of a line, from `start` in steps of `step`, whose distance from a cell of `from` along the line
-    /// is at most `distance`.
+    /// Adds the cells on a line, from `start` in steps of `step`, whose distance along the line from a cell
+    /// in `from` is at most `distance`.
     fn smear(&mut self, from: &Cells, (start, step): (usize, usize), length: usize, distance: i32) {
         for back in [false, true] {
             let mut left = 0;
@@ -184,9 +185,9 @@ impl Directions {
     pub(super) const LEFT: Directions = Directions(2);
     pub(super) const DOWN: Directions = Directions(4);
     pub(super) const RIGHT: Directions = Directions(8);
-    /// A direction off the grid's axes.
+    /// A direction off the grid axes.
     pub(super) const ASKEW: Directions = Directions(16);
-    /// No direction: for sprites that have no orientation, or have not moved.
+    /// No direction: for sprites without an orientation, and for sprites that have not moved.
     pub(super) const UNSET: Directions = Directions(32);
     pub(super) const FOUR: Directions = Directions(15);
     /// Every direction.
@@ -222,7 +223,7 @@ impl Directions {
         self.0 & other.0 != 0
     }
 
-    /// Returns the opposite directions.
+    /// Returns the opposites of the directions.
     pub(super) fn mirrored(self) -> Directions {
         let swap = |from: Directions, to: Directions| if self.meets(from) { to } else { Directions::NONE };
         let axes = swap(Directions::UP, Directions::DOWN)

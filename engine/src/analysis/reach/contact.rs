@@ -10,7 +10,7 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, SpeedChange, SpeedEffect, Spot, Turn};
 
 impl Model<'_> {
-    /// Applies the meeting's effect on speeds.
+    /// Applies the collision's effect on speeds.
     pub(super) fn speed_up(&mut self, meeting: &Meeting<'_>) {
         let rules = self.rules;
         match meeting.summary(rules).speed {
@@ -45,7 +45,7 @@ impl Model<'_> {
         }
     }
 
-    /// Passes on the orientations that sprites made by a type get from their maker.
+    /// Passes on the orientations that a type's sprites give to the sprites that they create.
     pub(super) fn pass_orientation(&mut self, stype: SpriteType) {
         use SpriteClass as C;
         let info = self.info(stype);
@@ -100,7 +100,7 @@ impl Model<'_> {
         }
     }
 
-    /// Applies the meeting's effect on orientations and on the ability to move.
+    /// Applies the collision's effect on orientation and on the ability to move.
     pub(super) fn meet(&mut self, meeting: &Meeting<'_>) {
         let summary = meeting.summary(self.rules);
         let all = summary.becomes_all();
@@ -157,7 +157,7 @@ impl Model<'_> {
         now.goes_back |= new.goes_back;
     }
 
-    /// Applies a turn of a sprite of type `one`. `two` is the type of the sprite that it meets, if any.
+    /// Applies a turn to a sprite of type `one`. `two` is the type of the colliding sprite, if any.
     fn face(&self, one: SpriteType, two: Option<SpriteType>, turn: Turn, new: &mut Mobility) {
         let own = self.of_type(one);
         let partner = two.map_or_else(Mobility::default, |two| *self.of_type(two));
@@ -182,7 +182,7 @@ impl Model<'_> {
         new.straight = false;
     }
 
-    /// Applies a displacement of a sprite of type `one`. `two` is the type of the sprite that it meets, if
+    /// Applies a displacement to a sprite of type `one`. `two` is the type of the colliding sprite, if
     /// any.
     fn displace(
         &mut self,
@@ -249,13 +249,13 @@ impl Model<'_> {
         }
     }
 
-    /// Returns the mobility of the exits that a type leads to.
+    /// Returns the mobility of the exits to which a type leads.
     fn exits_of(&self, two: Option<SpriteType>) -> impl Iterator<Item = &Mobility> {
         let exits = two.map_or(&[][..], |two| &self.exits[two.index()]);
         exits.iter().filter(|exit| self.exists[exit.index()]).map(|&exit| self.of_type(exit))
     }
 
-    /// Turns one type into another, which takes over its position and perhaps its orientation.
+    /// Turns one type into another, which inherits its position and optionally its orientation.
     fn turn(&mut self, from: SpriteType, to: SpriteType, force: bool) {
         // A sprite that is transformed again and then moved back returns to its original position.
         self.mobility[from.index()].goes_back |= self.mobility[to.index()].goes_back;
@@ -272,7 +272,7 @@ impl Model<'_> {
         (new.straight, new.moved_any_distance) = (false, true);
     }
 
-    /// Accounts for moving with another sprite's speed.
+    /// Accounts for movement at another sprite's speed.
     fn carry(&self, one: SpriteType, two: Option<SpriteType>, new: &mut Mobility) {
         let distance = two.map_or(1.0, |two| self.carried(one, two));
         new.boundless |= self.is_out_of_range(distance);

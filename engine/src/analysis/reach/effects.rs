@@ -8,8 +8,7 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, EffectSummary, Spot, Summary, Turn};
 
 impl Events<'_> {
-    /// Applies an effect to the positions of sprites. `cells` are the cells in which the affected sprites are
-    /// met.
+    /// Applies an effect to sprite positions. `cells` are the cells of the collision.
     pub(super) fn run(&mut self, meeting: &Meeting<'_>, one: SpriteType, cells: &Cells) {
         let at = meeting.order;
         let summary = meeting.summary(self.flood.model.rules);
@@ -68,7 +67,7 @@ impl Events<'_> {
         any
     }
 
-    /// Applies an effect to two sprites that meet.
+    /// Applies an effect to two colliding sprites.
     fn run_on_both(
         &mut self,
         at: Order,
@@ -145,7 +144,7 @@ impl Events<'_> {
         }
     }
 
-    /// Turns sprites that are met in these cells into sprites of a different type.
+    /// Turns colliding sprites in these cells into sprites of a different type.
     fn turn(&mut self, from: SpriteType, to: SpriteType, cells: &Cells, at: Order) {
         let model = self.flood.model;
         if !model.exists[to.index()] {

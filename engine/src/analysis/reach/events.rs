@@ -1,4 +1,5 @@
-//! The main fixed point: sprites move, make other sprites, obtain resources and meet, until nothing changes.
+//! The main fixed point: sprites move, create other sprites, obtain resources and collide, until nothing
+//! changes.
 
 use super::cells::{Board, Cells, Directions};
 use super::flood::Flood;
@@ -11,22 +12,22 @@ use std::collections::BTreeMap;
 /// An unlimited amount of a resource: more than any rule requires.
 const PLENTY: i64 = i64::MAX;
 
-/// The sprites of each type that a level places: each cell, with the number of such sprites in it.
+/// The sprites of each type placed by a level: each cell, with the number of such sprites in the cell.
 pub(super) type Placed = Vec<Vec<(usize, u32)>>;
 
-/// The effects of meetings, applied until nothing changes.
+/// The effects of collisions, applied until nothing changes.
 pub(super) struct Events<'a> {
     pub(super) flood: Flood<'a>,
     placed: &'a Placed,
     ring: Cells,
-    /// For each type, the total amount of it that can be obtained as a resource.
+    /// For each type, the total obtainable amount of the type as a resource.
     pub(super) have: Vec<i64>,
-    /// For each meeting, the versions of the two regions when it was last processed.
+    /// For each possible collision, the versions of the two regions when it was last processed.
     seen: Vec<(u32, u32)>,
 }
 
-/// A way to obtain a resource: the cells where it is met, the amount that each sprite gives, and whether giving uses
-/// the sprite up.
+/// A source of a resource: the cells of its sprites, the amount that each sprite gives, and whether giving
+/// uses the sprite up.
 pub(super) struct Gift {
     pub(super) cells: Cells,
     each: i64,
@@ -71,8 +72,8 @@ impl<'a> Events<'a> {
         self.flood.board
     }
 
-    /// Returns the cost of a pass over a set of cells, in units of single cells: such a pass processes many cells at
-    /// once.
+    /// Returns the cost of a pass over a set of cells, in units of single cells. A pass processes many cells
+    /// at a time.
     fn sweep(&self) -> u64 {
         1 + self.board().size() as u64 / 512
     }
@@ -89,7 +90,7 @@ impl<'a> Events<'a> {
         self.flood.model.exists[stype.index()] && !self.touch(stype).is_empty()
     }
 
-    /// Returns the cells that a sprite of the type can overlap if the sprite is met in `cells`.
+    /// Returns the cells that a sprite of the type can overlap during a collision in `cells`.
     pub(super) fn near(&mut self, stype: SpriteType, cells: &Cells) -> Cells {
         let spread = self.flood.model.spread(stype);
         self.flood.work += if spread == 0 { self.sweep() } else { self.board().size() as u64 };
@@ -105,24 +106,24 @@ impl<'a> Events<'a> {
         cells.iter().for_each(|cell| self.flood.appear(stype, cell, at, heading));
     }
 
-    /// Makes sprites appear by an effect that gives them no orientation.
+    /// Adds sprites that appear through an effect and get no orientation.
     pub(super) fn spawn_in(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
         let heading = self.flood.model.born(stype);
         self.appear_in(stype, cells, at, heading);
     }
 
-    /// Moves sprites to cells by an effect, facing any direction that they can have.
+    /// Moves sprites to cells through an effect. The sprites may face any of their possible directions.
     pub(super) fn come_to(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
         let heading = self.flood.model.of_type(stype).facing;
         cells.iter().for_each(|cell| self.flood.come(stype, cell, at, heading));
     }
 
-    /// Returns the sprites that the level places.
+    /// Returns the sprites placed by the level.
     pub(super) fn placed(&self) -> &'a Placed {
         self.placed
     }
 
-    /// Returns the ways to obtain resources, by the resource and by the type that gives it.
+    /// Returns the sources of resources, by the resource and by the type that gives it.
     pub(super) fn gifts(&mut self) -> BTreeMap<(SpriteType, SpriteType), Gift> {
         let mut gifts: BTreeMap<(SpriteType, SpriteType), Gift> = BTreeMap::new();
         for meeting in self.flood.model.meetings {
@@ -158,7 +159,7 @@ impl<'a> Events<'a> {
         gifts
     }
 
-    /// Returns the amount of each resource that can be obtained.
+    /// Returns the obtainable amount of each resource.
     fn resources(&mut self) -> Vec<i64> {
         let gifts = self.gifts();
         let unlimited = self.flood.model.unlimited.iter();
@@ -175,7 +176,7 @@ impl<'a> Events<'a> {
         have
     }
 
-    /// Returns `true` if the condition of an effect can hold.
+    /// Returns `true` if an effect's condition can hold.
     pub(super) fn can_be(&self, precondition: Precondition) -> bool {
         match precondition {
             Precondition::Holds(_, resource, amount) => {
@@ -188,13 +189,13 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Returns the cells that two sprites can share at this moment of a tick.
+    /// Returns the cells that two sprites can share at this point in a tick.
     fn met(&self, one: SpriteType, two: SpriteType, at: Order) -> Cells {
         self.flood.present(one, at, true).shared(&self.flood.present(two, at, false))
     }
 
-    /// Processes a meeting of two types if anything that it depends on has changed. Returns `true` if one of the two
-    /// regions has changed.
+    /// Processes a collision of two types if any of its inputs has changed. Returns `true` if either region
+    /// has changed.
     fn meet(&mut self, at: usize) -> bool {
         let meeting = self.flood.model.meetings[at];
         let version =
@@ -232,7 +233,7 @@ impl<'a> Events<'a> {
         again
     }
 
-    /// Applies an effect that runs on no particular sprite.
+    /// Applies an effect that does not run on a particular sprite.
     fn at_large(&mut self, meeting: &Meeting<'_>) {
         let summary = meeting.summary(self.flood.model.rules);
         if let Some((from, to)) = summary.becomes_all().filter(|_| !summary.needs_partner) {
@@ -241,7 +242,7 @@ impl<'a> Events<'a> {
         self.end(meeting, &Cells::default());
     }
 
-    /// Removes the sprites that a meeting in these cells can remove.
+    /// Removes the sprites that a collision in these cells can remove.
     fn end(&mut self, meeting: &Meeting<'_>, cells: &Cells) {
         for End { stype, scope, .. } in meeting.ends(self.flood.model.rules) {
             let at = match scope {

@@ -1,4 +1,4 @@
-//! A flood fill over the cells that sprites reach from their positions, until nothing new is reached.
+//! A flood fill over the cells that sprites can reach from their positions, until no new cell is reached.
 
 use super::cells::{Board, Cells, Directions};
 use super::meetings::{End, Meeting, Order, With};
@@ -7,40 +7,40 @@ use super::model::Model;
 use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, EffectSummary, Precondition, Side};
 
-/// The maximum number of cells to examine. If a level requires more, the result is coarse. Usual levels need
-/// tens of thousands.
+/// The maximum number of cells to examine. If a level requires more, the result is coarse. Typical levels
+/// require tens of thousands.
 const BUDGET: u64 = 1 << 23;
 
-/// The cells that sprites of one type reach.
+/// The cells that sprites of a type can reach.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Region {
-    /// The cells that a sprite can overlap at some moment of a tick.
+    /// The cells that a sprite can overlap at some point in a tick.
     pub(super) touch: Cells,
-    /// The cells of `touch` to which something other than a sprite's own update can bring the sprite.
+    /// The cells in `touch` to which something other than a sprite's own update can move the sprite.
     late: Cells,
     /// The cells that a sprite can overlap between two ticks.
     pub(super) rest: Cells,
-    /// The directions that are possible in each cell of `rest`, for types that keep their direction until something
+    /// The possible directions in each cell of `rest`, for types that keep their direction until something
     /// turns them.
     headings: Vec<Directions>,
-    /// The cells of `rest` from which all moves have been followed or queued.
+    /// The cells in `rest` whose outgoing moves have all been followed or queued.
     spread: Cells,
     queue: Vec<usize>,
     /// `true` if the type is assumed to be everywhere.
     flooded: bool,
     /// The number of rows that a sprite can still rise from each cell, for types that fall and jump.
     rises: Vec<i32>,
-    /// The version of the region, which changes whenever the region changes.
+    /// The region's version, which changes whenever the region changes.
     pub(super) version: u32,
 }
 
-/// A type that keeps sprites of another type out of its cells, or removes them there.
+/// A barrier: a type that keeps sprites of another type out of its cells, or removes them there.
 #[derive(Clone, Copy, Debug)]
 struct Barrier {
-    /// The barring type, or `None` for the edge of the board.
+    /// The type that acts as the barrier, or `None` for the edge of the board.
     by: Option<SpriteType>,
     kills: bool,
-    /// The first and last moments in a tick at which the barrier keeps sprites out.
+    /// The first and last points in a tick at which the barrier keeps sprites out.
     first: Order,
     last: Order,
 }
@@ -50,20 +50,20 @@ pub(super) struct Flood<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) board: Board,
     pub(super) regions: Vec<Region>,
-    /// For each type, the cells where a sprite stands from the start and, as far as is known, forever.
+    /// For each type, the cells that its sprites occupy from the start and, as far as is known, forever.
     pub(super) permanent: Vec<Cells>,
     /// For each type, the cells where a sprite can be removed.
     pub(super) removable: Vec<Cells>,
-    /// The number of times that a type has become removable in new cells.
+    /// The number of times that a type has become removable in additional cells.
     pub(super) ends: u64,
     /// For each type, whether its sprites can appear during an episode.
     pub(super) made: Vec<bool>,
-    /// For each type, the barriers that keep it out.
+    /// For each type, the barriers against its sprites.
     bars: Vec<Vec<Barrier>>,
-    /// For each type, the other types that it keeps out.
+    /// For each type, the other types for which its sprites are barriers.
     bars_to: Vec<Vec<SpriteType>>,
-    /// For each type, whether its sprites may be removed in the middle of a tick. Other sprites still meet
-    /// removed sprites until the end of the tick.
+    /// For each type, whether its sprites may be removed in the middle of a tick. Other sprites still collide
+    /// with removed sprites until the end of the tick.
     removed: Vec<bool>,
     /// The height of a jump in rows, for types that fall and jump.
     climbs: Vec<Option<i32>>,
@@ -114,7 +114,7 @@ impl<'a> Flood<'a> {
         flood
     }
 
-    /// Records the types that a meeting can remove. Avatars that are killed stay.
+    /// Records the types that a collision can remove. Killed avatars stay on the board.
     fn note_removals(&mut self, meeting: &Meeting<'_>) {
         for End { stype, for_good, .. } in meeting.ends(self.model.rules) {
             let avatar = self.model.info(stype).class.is_some_and(|class| class.is_avatar());
@@ -122,7 +122,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Records the barriers that a meeting creates.
+    /// Records the barriers that a collision creates.
     fn add_bars(&mut self, meeting: &Meeting<'_>, wraps: &[bool]) {
         let model = self.model;
         let (Some(one), summary) = (meeting.one, meeting.summary(model.rules)) else { return };
@@ -175,8 +175,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Returns, for each type, whether sprites that leave the board are always moved to the opposite edge, because they
-    /// only move ahead and by themselves.
+    /// Returns, for each type, whether its sprites always move to the opposite edge when they leave the
+    /// board, because they move only straight ahead and only by themselves.
     fn always_wraps(model: &Model<'_>) -> Vec<bool> {
         let goes_ahead = |stype: SpriteType| {
             let own = model.of_type(stype);
@@ -222,7 +222,7 @@ impl<'a> Flood<'a> {
         self.model.of_type(stype).fixed && whole && !singleton && !info.is_like_avatar() && !mortal
     }
 
-    /// Adds a sprite that the level places.
+    /// Adds a sprite placed by the level.
     pub(super) fn place(&mut self, stype: SpriteType, cell: usize) {
         if self.can_be_firm(stype) {
             self.permanent[stype.index()].insert(cell);
@@ -237,9 +237,9 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Returns the cells where a sprite can be at this moment of a tick. If `first` is `true`, the sprite has
-    /// not been removed in this tick. Otherwise, it may have been removed, and then nothing stops it any
-    /// longer.
+    /// Returns the cells where a sprite can be at this point in a tick. If `first` is `true`, the sprite has
+    /// not been removed in this tick. Otherwise, the sprite may have been removed, and then nothing stops it
+    /// any longer.
     pub(super) fn present(&self, stype: SpriteType, at: Order, first: bool) -> Cells {
         let Region { touch, late, rest, .. } = &self.regions[stype.index()];
         let mut cells = touch.clone();
@@ -252,8 +252,8 @@ impl<'a> Flood<'a> {
         cells
     }
 
-    /// Returns `true` if something keeps sprites of a type out of a cell after this moment of a tick, or removes them
-    /// there.
+    /// Returns `true` if something keeps sprites of a type out of a cell after this point in a tick, or
+    /// removes them there.
     fn is_barred(&self, stype: SpriteType, cell: usize, after: Order, kills_only: bool) -> bool {
         let bars = self.bars[stype.index()].iter();
         bars.filter(|bar| bar.last > after && (bar.kills || !kills_only)).any(|bar| match bar.by {
@@ -262,7 +262,8 @@ impl<'a> Flood<'a> {
         })
     }
 
-    /// Returns the types whose sprites keep sprites of a type out of a cell forever, or remove them there.
+    /// Returns the types whose sprites permanently keep sprites of a type out of a cell, or remove them
+    /// there.
     pub(super) fn barring(&self, stype: SpriteType, cell: usize) -> impl Iterator<Item = SpriteType> + '_ {
         let bars = self.bars[stype.index()].iter().filter_map(|bar| bar.by);
         bars.filter(move |by| self.permanent[by.index()].contains(cell))
@@ -282,8 +283,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that is in a cell between two ticks. `heading` gives the directions that the sprite can
-    /// have there, if it keeps its direction.
+    /// Adds a sprite that is in a cell between two ticks. `heading` contains the directions that the sprite
+    /// can have there, if the sprite keeps its direction.
     fn rest_at(&mut self, stype: SpriteType, cell: usize, heading: Directions) {
         let region = &mut self.regions[stype.index()];
         let mut new = region.touch.insert(cell);
@@ -315,7 +316,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that comes to a cell at this moment of a tick, in one of these directions.
+    /// Adds a sprite that enters a cell at this point in a tick, in one of these directions.
     pub(super) fn come(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Directions) {
         self.touch(stype, cell, at);
         if !self.is_barred(stype, cell, at, false) {
@@ -323,7 +324,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that appears in a cell at this moment of a tick, in one of these directions.
+    /// Adds a sprite that appears in a cell at this point in a tick, in one of these directions.
     pub(super) fn appear(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Directions) {
         if !self.model.exists[stype.index()] {
             return;
@@ -371,8 +372,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that falls and jumps and that comes to a cell by itself. `rise` is the number of rows
-    /// that the sprite can still rise from there, or `None` if the sprite only passes.
+    /// Adds a falling and jumping sprite that enters a cell by itself. `rise` is the number of rows that the
+    /// sprite can still rise from there, or `None` if the sprite only passes through.
     pub(super) fn rise_to(&mut self, stype: SpriteType, cell: usize, rise: Option<i32>, at: Order) {
         self.touch(stype, cell, Order::UPDATE);
         let Some(rise) = rise.filter(|_| !self.is_barred(stype, cell, at, false)) else { return };
@@ -384,7 +385,7 @@ impl<'a> Flood<'a> {
         self.rest_at(stype, cell, Directions::NONE);
     }
 
-    /// Lets sprites on solid ground jump.
+    /// Adds the jumps of sprites on solid ground.
     fn ground(&mut self) {
         for stype in self.model.types() {
             let Some(climb) = self.climbs[stype.index()] else { continue };
@@ -420,7 +421,7 @@ impl<'a> Flood<'a> {
         any
     }
 
-    /// Adds the cells that a sprite can reach from its cell by its next update.
+    /// Adds the cells that a sprite can reach from its cell in its next update.
     fn follow(&mut self, stype: SpriteType, from: usize) {
         let own = *self.model.of_type(stype);
         let heading = self.regions[stype.index()].headings.get(from).copied();
@@ -458,7 +459,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Moves a sprite by up to some number of cells in one direction, after which it has one of these headings.
+    /// Moves a sprite in one direction by up to some number of cells. The sprite then has one of these
+    /// headings.
     pub(super) fn go(
         &mut self,
         stype: SpriteType,

@@ -1,19 +1,19 @@
-//! Avatars that fall, walk and jump: the height that they can reach above the ground.
+//! The maximum height above the ground for avatars that fall, walk and jump.
 //!
-//! The following holds as long as nothing changes the avatar's velocity except its own update and the sprites
-//! that stop it. Otherwise, the avatar is assumed to fly. Its velocity is upwards only after a jump. A jump
-//! sets the upward speed to `strength / mass`, whatever the speed was before, and lifts the avatar by 5
-//! pixels at once. Gravity subtracts `gravity` in each tick. Friction and the speed limit can only reduce the
-//! speed further. A wall beside the avatar can restore the speed `gravity` once, when the avatar comes to
+//! The following bound holds as long as nothing changes the avatar's velocity except its own update and the
+//! sprites that stop it. Otherwise, the avatar is assumed to fly. The avatar moves upwards only after a jump.
+//! A jump sets the upward speed to `strength / mass`, whatever the speed was before, and lifts the avatar by
+//! 5 pixels at once. Gravity subtracts `gravity` in each tick. Friction and the speed limit can only reduce
+//! the speed further. A wall beside the avatar can restore the speed `gravity` once, when the avatar comes to
 //! rest. The avatar therefore rises above the position where it last stood on something solid by at most
 //!
 //! ```text
 //! u + u² / 2g + g + 6 pixels      with u = strength / mass, g = gravity
 //! ```
 //!
-//! The sideways distance in the meantime is not limited. The avatar notices the ground when it falls onto the
-//! ground, but is then moved back to the position it fell from. It therefore counts as standing anywhere that
-//! is no further above something solid than it can fall in a tick.
+//! The sideways distance in the meantime is unlimited. The avatar detects the ground when it falls onto the
+//! ground, but then moves back to the position from which it fell. It therefore counts as standing on the
+//! ground wherever it can fall onto something solid within one tick.
 
 use super::cells::Cells;
 use super::flood::Flood;
@@ -23,8 +23,8 @@ use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, EffectSummary, SpeedEffect};
 
-/// Returns the number of rows that one jump can lift a sprite of the type, or `None` if gravity does not
-/// limit it.
+/// Returns the number of rows by which one jump can lift a sprite of the type, or `None` if gravity does not
+/// limit the jump.
 pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     let info = model.info(stype);
     let (own, traits) = (model.of_type(stype), &info.traits);
@@ -48,7 +48,8 @@ pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     (rows < f64::from(model.board.rows)).then_some(rows as i32)
 }
 
-/// Returns `true` if an effect changes the velocity or the position of a sprite in a way that its own update would not.
+/// Returns `true` if an effect changes a sprite's velocity or position in a way that the sprite's own update
+/// would not.
 fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
     let summary = meeting.summary(model.rules);
     // A new sprite may take over an orientation.
@@ -83,7 +84,7 @@ fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<
 }
 
 impl Flood<'_> {
-    /// Returns the cells in which a sprite that has just noticed something solid below it can be.
+    /// Returns the possible cells of a sprite that has just detected something solid below it.
     pub(super) fn footholds(&self, stype: SpriteType) -> Cells {
         let (board, model) = (self.board, self.model);
         let mut solid = Cells::none(board);
@@ -99,7 +100,8 @@ impl Flood<'_> {
         Cells::of(board, near)
     }
 
-    /// Adds the cells that a sprite that falls and jumps can reach from a cell, if it can still rise by `rise` rows.
+    /// Adds the cells that a falling and jumping sprite can reach from a cell, if it can still rise by `rise`
+    /// rows.
     pub(super) fn leap(&mut self, stype: SpriteType, from: usize, rise: i32) {
         let stride = self.model.of_type(stype).stride;
         let (x, y) = self.board.place(from);

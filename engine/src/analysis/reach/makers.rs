@@ -1,4 +1,4 @@
-//! The sprites that types make by themselves, and the cells where these sprites appear.
+//! The sprites that types create by themselves, and the cells where these sprites appear.
 
 use super::cells::{Cells, Directions};
 use super::events::Events;
@@ -8,7 +8,7 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 
 impl Events<'_> {
-    /// Adds the sprites that types make by themselves.
+    /// Adds the sprites that types create by themselves.
     pub(super) fn make(&mut self) {
         for maker in self.flood.model.types() {
             if !self.can_occur(maker) || self.flood.is_over_budget() {
@@ -48,7 +48,8 @@ impl Events<'_> {
         }
     }
 
-    /// Returns the cells where the sprites made by a type appear, with the maker's orientation at that moment.
+    /// Returns the cells where the sprites created by a type appear, with the maker's orientation at that
+    /// point.
     fn spawn_cells(&self, maker: SpriteType) -> Vec<(Cells, Directions)> {
         use ClassFamily as Family;
         use SpriteClass as C;

@@ -1,4 +1,4 @@
-//! The possible meetings, one pair of types at a time, in the order of a tick.
+//! The possible collisions, one pair of types at a time, in the order of a tick.
 
 use super::super::futures::PossibleFutures;
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, Side};
@@ -7,16 +7,16 @@ use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum number of meetings considered. If there are more meetings, the reach is coarse.
+/// The maximum number of possible collisions to consider. Beyond this limit, the reach is coarse.
 const MAX_MEETINGS: usize = 1 << 15;
 
-/// A moment in a tick: a sprite's own update, the timed effects, the edge, or a pass with a number.
+/// A point in a tick: a sprite's own update, the timed effects, the edge, or a numbered pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Order(u32);
 
 impl Order {
     pub(super) const UPDATE: Order = Order(0);
-    /// The moment after everything else in a tick.
+    /// The point after everything else in a tick.
     pub(super) const LAST: Order = Order(u32::MAX);
     const CLOCK: Order = Order(1);
     const EDGE: Order = Order(2);
@@ -26,7 +26,7 @@ impl Order {
     }
 }
 
-/// The partner that a sprite meets.
+/// The sprite's partner in the collision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum With {
     Sprite(SpriteType),
@@ -38,7 +38,7 @@ pub(super) enum With {
 /// An effect that can run on sprites of one type.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting<'a> {
-    /// The type that the effect runs on, or `None` if it runs on no particular sprite.
+    /// The type on which the effect runs, or `None` if the effect does not run on a particular sprite.
     pub(super) one: Option<SpriteType>,
     pub(super) with: With,
     pub(super) effect: u16,
@@ -51,16 +51,16 @@ pub(super) struct Meeting<'a> {
     pub(super) certain: bool,
 }
 
-/// A sprite that a meeting can remove.
+/// A sprite that a collision can remove.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
     pub(super) stype: SpriteType,
     pub(super) scope: RemovalScope,
-    /// `true` if avatars are removed, too. Avatars that are only killed stay where they are.
+    /// `true` if avatars are removed, too. Avatars that are only killed stay in their cell.
     pub(super) for_good: bool,
 }
 
-/// The sprites that a meeting can remove, relative to its cells.
+/// The sprites that a collision can remove, relative to its cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RemovalScope {
     First,
@@ -70,7 +70,7 @@ pub(super) enum RemovalScope {
 }
 
 impl Meeting<'_> {
-    /// Returns the sprites that the meeting can remove.
+    /// Returns the sprites that the collision can remove.
     pub(super) fn ends(&self, rules: &Rules) -> SmallVec<[End; 4]> {
         let mut ends = SmallVec::new();
         let mut end = |stype: Option<SpriteType>, scope: RemovalScope, for_good: bool| {
@@ -109,7 +109,8 @@ impl Meeting<'_> {
     }
 }
 
-/// Returns all meetings of the possible futures, given the timed effects, or `None` if there are too many.
+/// Returns all collisions in the possible futures, given the timed effects, or `None` if there are too
+/// many.
 pub(super) fn meetings<'a>(
     rules: &Rules,
     futures: &PossibleFutures<'a>,

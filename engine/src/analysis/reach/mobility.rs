@@ -1,4 +1,4 @@
-//! The mobility of sprites: how the sprites of each type can move.
+//! Mobility: how the sprites of each type can move.
 
 use super::cells::Directions;
 use super::meetings::{Meeting, With};
@@ -8,11 +8,11 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::effects::{EffectSummary, Summary};
 
-/// The maximum number of cells that a sprite may cross per tick off the grid's axes. A faster sprite is assumed to be
-/// able to be anywhere.
+/// The maximum number of cells that a sprite may cross per tick off the grid axes. A faster sprite is assumed
+/// to reach any cell.
 const MAX_STRIDE: f64 = 4.0;
 
-/// The ways in which sprites of a type can move and be moved.
+/// How sprites of a type can move and be moved.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mobility {
     /// The directions in which a sprite's own update can move it.
@@ -27,21 +27,22 @@ pub(super) struct Mobility {
     pub(super) backwards: bool,
     /// The maximum number of cells that a sprite's own update can move it, rounded up.
     pub(super) stride: i32,
-    /// The number of barred cells in a row that a sprite's own update can skip.
+    /// The number of consecutive barred cells that a sprite's own update can skip.
     pub(super) leap: i32,
-    /// `true` if sprites may get anywhere that is not barred.
+    /// `true` if sprites may reach any cell that is not barred.
     pub(super) boundless: bool,
     /// `true` if sprites may stand between cells, or be larger or smaller than a cell.
     pub(super) off_grid: bool,
     /// `true` if nothing ever moves sprites of the type.
     pub(super) fixed: bool,
-    /// `true` if some effect moves sprites directly to a position, so that they may be moved again in the same tick.
+    /// `true` if some effect moves sprites directly to a position, so that another effect may move them again
+    /// in the same tick.
     pub(super) placed: bool,
-    /// `true` if some effect can move sprites by any distance.
+    /// `true` if some effect can move sprites an arbitrary distance.
     pub(super) moved_any_distance: bool,
     /// `true` if sprites do not move in their first update.
     pub(super) waits: bool,
-    /// `true` if sprites always face the direction in which they have moved.
+    /// `true` if sprites always face the direction of their last move.
     pub(super) straight: bool,
     /// `true` if sprites always move in the direction that they face.
     pub(super) goes_ahead: bool,
@@ -53,7 +54,7 @@ pub(super) struct Mobility {
 
 impl Mobility {
     /// Returns `true` if a sprite can skip cells in a tick, so that the sprite that stops it need not be the
-    /// first sprite on its way.
+    /// first sprite in its path.
     pub(super) fn comes_from_far(&self) -> bool {
         self.leap > 0 || self.placed || self.boundless
     }
@@ -65,7 +66,7 @@ impl Mobility {
 }
 
 impl Model<'_> {
-    /// Returns the mobility of a type without the influence of other types.
+    /// Returns a type's mobility without the influence of other types.
     pub(super) fn alone(&self, stype: SpriteType) -> Mobility {
         use ClassFamily as Family;
         use SpriteClass as C;
@@ -103,7 +104,7 @@ impl Model<'_> {
         }
     }
 
-    /// Returns the directions that a new sprite of the type can have, if nothing else determines them.
+    /// Returns the possible directions of a new sprite of the type, if nothing else determines them.
     pub(super) fn born(&self, stype: SpriteType) -> Directions {
         let info = self.info(stype);
         let draws =
@@ -199,8 +200,8 @@ impl Model<'_> {
     }
 }
 
-/// Returns `true` if a push goes in the direction of the pusher's move, which requires that the pusher faces
-/// that direction.
+/// Returns `true` if a push goes in the direction of the pusher's move, so that the pusher must face that
+/// direction.
 pub(super) fn pushes_straight(pusher: &Mobility) -> bool {
     !pusher.placed && (pusher.facing == Directions::UNSET || pusher.straight)
 }
@@ -217,7 +218,8 @@ fn is_driven(class: SpriteClass) -> bool {
     matches!(class, C::MissileAvatar | C::OngoingAvatar | C::OngoingShootAvatar | C::OngoingTurningAvatar)
 }
 
-/// Returns `true` if an effect, at the edge or with a partner, stops every sprite of the type, whatever it holds.
+/// Returns `true` if an effect, at the edge or with a partner, stops every sprite of the type, regardless of
+/// the sprite's resources.
 pub(super) fn is_stop(meeting: &Meeting<'_>, summary: &Summary) -> bool {
     let stops = |effect: &EffectSummary| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_));
     let runs = meeting.with != With::Edge || !summary.needs_partner;

@@ -8,19 +8,19 @@
 //! - obstacles, which last until a key, a shot or a push removes them
 //! - the resources that can be obtained
 //!
-//! The result is an over-approximation: it contains everything that can happen, and perhaps more. The result
+//! The result is an over-approximation: it contains everything that can happen, and possibly more. The result
 //! is exact in three respects:
 //!
-//! - Walls that nothing removes keep out the sprites that they stop, unless a later interaction in the same
-//!   tick moves a sprite in.
+//! - Permanent walls keep out the sprites that they stop, unless a later interaction in the same tick moves a
+//!   sprite in.
 //! - Pushed sprites move only away from cells where their pusher can be, if both sprites keep to whole cells
 //!   and the pusher faces the direction of its move.
-//! - Keys that are used up by taking are counted.
+//! - Keys that can be taken only once are counted.
 //!
-//! The result over-approximates in these respects:
+//! The result is an over-approximation in these respects:
 //!
 //! - Time is ignored. A sprite that can ever be removed leaves its cell open from the start. Two types that
-//!   can be in the same cell, each at some time, can meet there. A sprite can be in two places at the same
+//!   can be in the same cell, each at some time, can meet there. A sprite can be in two cells at the same
 //!   time.
 //! - Behaviour is ignored. NPCs go wherever they are not stopped, pushed sprites are never in the way, and
 //!   harm stops no sprite.
@@ -36,7 +36,7 @@
 //! 2. From the meetings, `model` derives how each type can move (`mobility` by itself, `contact` by others),
 //!    before any cell is examined.
 //! 3. `events` iterates until nothing is new. In each round, types spread over the cells (`flood`, `jump`),
-//!    make other types (`makers`), and meet (`effects`).
+//!    create other types (`makers`), and collide (`effects`).
 //! 4. `tally` determines the terminations that can no longer hold.
 //!
 //! A round costs O(types × cells + meetings × cells / 64), and there are about as many rounds as locks that
@@ -76,17 +76,17 @@ use reasons::chain::Chains;
 pub use reasons::chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable};
 use reasons::tally::Tally;
 
-/// The cells of one level where sprites of each type can ever be. The cells are an over-approximation: it is
-/// proved that sprites are never anywhere else. Time, harm and crowding are ignored: whatever can be opened
-/// is open, and nothing stays in the way.
+/// The cells in one level where sprites of each type can ever be. The cells are a proven over-approximation:
+/// sprites are never in any other cell. Time, harm and crowding are ignored: everything that can be opened is
+/// open, and nothing stays in the way.
 ///
 /// Cells are indices into [`Level::cells`], row-major. A sprite is in every cell that it overlaps.
 #[derive(Clone, Debug)]
 pub struct Reach {
     board: Board,
-    /// For each type, its cells between two ticks. Empty for types that cannot occur.
+    /// For each type, its cells between two ticks. Types that cannot occur have no cells.
     rest: Vec<Cells>,
-    /// For each type, its cells at any moment of a tick.
+    /// For each type, its cells at any point in a tick.
     touch: Vec<Cells>,
     avatars: Vec<SpriteType>,
     impossible_goals: Vec<ImpossibleGoal>,
@@ -115,8 +115,8 @@ impl Reach {
         self.on_board(&self.rest[stype.index()])
     }
 
-    /// Returns the cells in which a sprite of the type can be at some moment of a tick, in order. The result
-    /// includes cells from which the sprite is moved back and cells in which it is removed.
+    /// Returns the cells in which a sprite of the type can be at some point in a tick, in order. The result
+    /// includes cells from which the sprite is moved back, and cells in which the sprite is removed.
     pub fn touched(&self, stype: SpriteType) -> impl Iterator<Item = usize> + '_ {
         self.on_board(&self.touch[stype.index()])
     }
@@ -126,7 +126,7 @@ impl Reach {
         self.rest[stype.index()].contains(self.board.of_level(cell))
     }
 
-    /// Returns `true` if a sprite of the type can be in a cell at some moment of a tick.
+    /// Returns `true` if a sprite of the type can be in a cell at some point in a tick.
     pub fn can_touch(&self, stype: SpriteType, cell: usize) -> bool {
         self.touch[stype.index()].contains(self.board.of_level(cell))
     }
@@ -136,26 +136,26 @@ impl Reach {
         self.avatars.iter().any(|&stype| self.can_be(stype, cell))
     }
 
-    /// Returns `true` if an avatar of any type can be in a cell at some moment of a tick, so that it meets the sprites
-    /// there.
+    /// Returns `true` if an avatar of any type can be in a cell at some point in a tick, so that it touches
+    /// the sprites there.
     pub fn avatar_touches(&self, cell: usize) -> bool {
         self.avatars.iter().any(|&stype| self.can_touch(stype, cell))
     }
 
-    /// Returns the terminations that are proved never to hold in this level, given the cells that its sprites
-    /// can reach, in order. Terminations that never hold in any level, for other reasons, are marked by
+    /// Returns the terminations that provably never hold in this level, given the cells that its sprites can
+    /// reach, in order. Terminations that never hold in any level, for other reasons, are marked by
     /// [`Goal::attainable`](super::Goal::attainable).
     pub fn impossible_goals(&self) -> &[ImpossibleGoal] {
         &self.impossible_goals
     }
 
-    /// Returns `false` only if it is proved that this level cannot be won.
+    /// Returns `false` only if winning this level is provably impossible.
     pub fn can_win(&self) -> bool {
         self.can_win
     }
 
-    /// Returns `false` only if it is proved that this level cannot be lost, apart from the reference's own limit of
-    /// ticks.
+    /// Returns `false` only if losing this level is provably impossible, apart from the reference engine's
+    /// own tick limit.
     pub fn can_lose(&self) -> bool {
         self.can_lose
     }
@@ -173,11 +173,11 @@ impl Reach {
 }
 
 impl Analysis {
-    /// Computes the cells of a level where sprites of each type can be, from its start on.
+    /// Computes the cells in a level where sprites of each type can ever be.
     ///
     /// Cost: O(types × cells + meetings × cells / 64) for each round in which locks open one after the other.
-    /// Usual levels take below a millisecond, and the largest levels some hundredths of a second. Beyond a
-    /// fixed amount of work, a few tenths of a second, the result is [coarse](Reach::is_coarse).
+    /// Typical levels take less than a millisecond, and the largest levels some hundredths of a second.
+    /// Beyond a fixed amount of work, a few tenths of a second, the result is [coarse](Reach::is_coarse).
     pub fn reach(&self, level: &Level) -> Reach {
         let (placed, board) = self.placed(level);
         let futures = self.prospect_of(&placed);
@@ -185,9 +185,9 @@ impl Analysis {
         reached.unwrap_or_else(|| self.everything(&futures, board))
     }
 
-    /// Returns the reasons why winning terminations can never hold in a level, as one chain of causes for
-    /// each winning termination in [`Reach::impossible_goals`]. The result is empty if the [`Reach`] is
-    /// coarse. Costs as much as [`Analysis::reach`], plus O(interactions × cells) per link.
+    /// Returns the reasons why winning terminations can never hold in a level: one chain of causes for each
+    /// winning termination in [`Reach::impossible_goals`]. The result is empty if the [`Reach`] is coarse.
+    /// Costs as much as [`Analysis::reach`], plus O(interactions × cells) per link.
     pub fn causes(&self, level: &Level) -> Vec<Chain> {
         let (placed, board) = self.placed(level);
         let futures = self.prospect_of(&placed);
@@ -200,7 +200,7 @@ impl Analysis {
         chains.unwrap_or_default()
     }
 
-    /// Returns the sprites that the level places, and its board.
+    /// Returns the sprites placed by the level, and its board.
     fn placed(&self, level: &Level) -> (Placed, Board) {
         let board = Board { columns: level.columns() as i32, rows: level.rows() as i32 };
         let mut placed: Placed = vec![Vec::new(); self.game.0.types.len()];

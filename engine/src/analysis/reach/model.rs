@@ -9,7 +9,8 @@ use crate::rules::effects::{Displacement, EffectSummary, Redirection};
 use crate::rules::{Rules, SpriteType, TypeInfo};
 use std::collections::BTreeSet;
 
-/// The maximum number of meetings processed in all rounds of the fixed point. Usual games take some hundreds.
+/// The maximum number of collisions to process in all rounds of the fixed point. Typical games require some
+/// hundreds.
 const MAX_STEPS: usize = 1 << 21;
 
 /// The derived facts about all types.
@@ -21,11 +22,11 @@ pub(super) struct Model<'a> {
     /// For each type, whether its sprites can appear during an episode.
     pub(super) made: &'a [bool],
     pub(super) meetings: &'a [Meeting<'a>],
-    /// For each type, the types that it makes by itself, each with the ammunition that it costs.
+    /// For each type, the types that its sprites create by themselves, each with the required ammunition.
     pub(super) makes: Vec<Vec<(SpriteType, Option<SpriteType>)>>,
-    /// For each type, the types that touching it leads to.
+    /// For each type, the types to which touching its sprites leads.
     pub(super) exits: Vec<Vec<SpriteType>>,
-    /// For each type, whether more of it than its limit can be held as a resource.
+    /// For each type, whether the amount held as a resource can exceed its limit.
     pub(super) unlimited: Vec<bool>,
     pub(super) mobility: Vec<Mobility>,
     /// The size of the smallest sprite, in cells.
@@ -34,7 +35,7 @@ pub(super) struct Model<'a> {
     pub(super) scales: bool,
     /// For each type, the maximum number of cells that other sprites can move it in a tick.
     pub(super) pushed_far: Vec<i32>,
-    /// For each type, whether something other than itself accelerates it.
+    /// For each type, whether something other than its own sprites accelerates its sprites.
     pub(super) forced: Vec<bool>,
     /// For each type, whether some effect gives it an orientation even if its class has no orientation.
     pub(super) takes_orientation: Vec<bool>,
@@ -114,7 +115,7 @@ impl<'a> Model<'a> {
         (0..exists.len()).filter(|&at| exists[at]).map(|at| SpriteType(at as u16))
     }
 
-    /// Returns the number of cells by which two sprites of the type that share a cell can extend beyond that
+    /// Returns the number of cells by which two sprites of the type in the same cell can extend beyond that
     /// cell.
     pub(super) fn spread(&self, stype: SpriteType) -> i32 {
         if self.of_type(stype).off_grid { self.rules.reach.max(1) } else { 0 }
@@ -164,7 +165,7 @@ impl<'a> Model<'a> {
         settled
     }
 
-    /// Returns the number of types that a meeting involves.
+    /// Returns the number of types involved in a collision.
     fn size(&self, meeting: &Meeting<'_>) -> usize {
         let summary = meeting.summary(self.rules);
         if summary.displacement == Some(Displacement::Exit) {
@@ -199,7 +200,7 @@ impl<'a> Model<'a> {
         ((distance.ceil() as i32).min(most), leap.min(most))
     }
 
-    /// Returns the distance in cells of a move with another sprite's speed.
+    /// Returns the distance, in cells, of a move at another sprite's speed.
     pub(super) fn carried(&self, one: SpriteType, by: SpriteType) -> f64 {
         let (one, by) = (self.of_type(one), self.of_type(by));
         // A speed of 0 stands for the sprite's own speed. If the sprite's own speed is 0 as well, it stands
@@ -207,22 +208,22 @@ impl<'a> Model<'a> {
         by.top.max(one.top).max(1.0)
     }
 
-    /// Returns `true` if sprites of the type are larger or smaller than a cell. The first sprite of such a type has a
-    /// different size until it moves, so it may seem to have come from elsewhere.
+    /// Returns `true` if sprites of the type are larger or smaller than a cell. The first sprite of such a
+    /// type has a different size until it moves, so it may appear to have come from elsewhere.
     pub(super) fn is_scaled(&self, stype: SpriteType) -> bool {
         let traits = &self.info(stype).traits;
         traits.width_factor != 1.0 || traits.height_factor != 1.0
     }
 
-    /// Returns `true` if a sprite that is stopped flush with another sprite stands where its own movement
-    /// would have taken it. In that case, the other sprite was there from the start and does not move.
+    /// Returns `true` if a sprite that stops flush against another sprite ends where its own movement would
+    /// have taken it. In that case, the other sprite was there from the start and does not move.
     pub(super) fn stops_in_order(&self, one: SpriteType, two: SpriteType) -> bool {
         let (own, partner) = (self.of_type(one), self.of_type(two));
         let stands = partner.fixed && !partner.off_grid && !self.made[two.index()];
         stands && !self.is_scaled(one) && !own.comes_from_far()
     }
 
-    /// Returns `true` if, as far as is known so far, sprites with this mobility never move.
+    /// Returns `true` if, according to the facts derived so far, sprites with this mobility never move.
     pub(super) fn is_fixed_now(&self, mobility: &Mobility) -> bool {
         !mobility.placed && mobility.moved.without(Directions::UNSET) == Directions::NONE
     }

@@ -1,4 +1,5 @@
-//! Properties of single sprite types: how their sprites move, which sprites they make, and whether they can occur.
+//! Properties of single sprite types: how their sprites move, which sprites they create, and whether they can
+//! occur.
 
 use crate::analysis::futures::{PossibleFutures, Start};
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, timed_effects};
@@ -8,15 +9,16 @@ use crate::rules::traits::Traits;
 use crate::rules::{Rules, SpriteType};
 use std::collections::BTreeSet;
 
-/// The size of a cell in pixels on a board of the usual size.
+/// The cell size in pixels on a board of the usual size.
 const USUAL_BLOCK: i32 = 40;
 
-/// The way in which sprites of a type move by themselves.
+/// How sprites of a type move by themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// The sprites do not move.
     Still,
-    /// The sprites move straight ahead. [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that is set later.
+    /// The sprites move straight ahead. [`Direction::NIL`] and [`Direction::NONE`] stand for a direction that
+    /// is set later.
     Straight(Direction),
     /// The sprites move at random.
     Wandering,
@@ -28,7 +30,7 @@ pub enum Motion {
     Steered,
 }
 
-/// The ways in which the player can move an avatar.
+/// How the player can move an avatar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Steering {
     /// The player moves the avatar up, left, down and right.
@@ -41,7 +43,7 @@ pub enum Steering {
     Ongoing,
     /// The avatar always moves ahead, and the player cannot turn it.
     Unsteered,
-    /// The avatar stays where it is, and the player aims and shoots.
+    /// The avatar stays in its cell, and the player aims and shoots.
     Fixed,
     /// The avatar turns and accelerates, and keeps its velocity.
     Thrust,
@@ -50,20 +52,20 @@ pub enum Steering {
 }
 
 impl Steering {
-    /// Returns `true` if the avatar stays where it is unless a key moves it.
+    /// Returns `true` if the avatar stays in its cell unless a key moves it.
     pub(crate) fn waits_for_keys(self) -> bool {
         matches!(self, Steering::FourWay | Steering::Horizontal | Steering::Vertical | Steering::Fixed)
     }
 }
 
-/// A type that the player's avatar can have.
+/// A possible type of the player's avatar.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Avatar {
     /// The avatar's type.
     pub stype: SpriteType,
-    /// The way in which the player moves the avatar.
+    /// How the player moves the avatar.
     pub steering: Steering,
-    /// The types that the use key makes. A use makes the first type for which the avatar has ammunition.
+    /// The types created by the use key. The key creates the first type for which the avatar has ammunition.
     pub shots: Vec<SpriteType>,
     /// The resources that shots cost, one per type of shot.
     pub ammo: Vec<SpriteType>,
@@ -72,7 +74,7 @@ pub struct Avatar {
 }
 
 impl Avatar {
-    /// Returns `true` if the use key can do something.
+    /// Returns `true` if the use key can have an effect.
     pub fn has_use(&self) -> bool {
         !self.shots.is_empty() || self.steering == Steering::Jumping
     }
@@ -87,13 +89,14 @@ pub struct Facts {
     /// sprites. Levels are assumed not to use characters that the game leaves unused: see
     /// [`Analysis::can_exist`](crate::analysis::Analysis::can_exist).
     pub possible: bool,
-    /// The level characters that place the type, sorted by the number of sprites that they place, then by code.
+    /// The level characters that place the type, sorted by the number of sprites that they place, then by
+    /// character code.
     pub symbols: Vec<u8>,
-    /// The way in which sprites of the type move.
+    /// How sprites of the type move.
     pub motion: Motion,
     /// The initial speed in cells per tick, or 0 for types that do not move.
     pub pace: f64,
-    /// The types that sprites of the type make by themselves or, for avatars, with the use key.
+    /// The types that sprites of the type create by themselves or, for avatars, with the use key.
     pub makes: Vec<SpriteType>,
     /// The columns and rows of cells that a sprite covers, from its placement cell to the right and down.
     pub span: (usize, usize),
@@ -181,8 +184,8 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
 }
 
 /// Returns, for each type, whether the player's avatar can have the type in some level, whatever characters
-/// the level uses. The avatar is found when a level starts. From then on, the player controls whatever the
-/// avatar becomes.
+/// the level uses. The avatar is determined when a level starts. From then on, the player controls whatever
+/// the avatar turns into.
 fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool> {
     let is_avatar = |at: usize| rules.types[at].is_like_avatar() && exists[at];
     let mut played = vec![false; exists.len()];
@@ -210,7 +213,7 @@ fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool>
 }
 
 /// Returns `true` if the character has a meaning only because every game maps `w` and `A`, and this game does
-/// not use the character. Either the game has a different avatar, or it neither declares nor names a wall.
+/// not use the character. Either the game has a different avatar, or it neither declares nor mentions a wall.
 fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
     let stype = match symbol {
         b'w' => SpriteType(0),
@@ -269,7 +272,7 @@ fn pace(motion: Motion, traits: &Traits, block: f64) -> f64 {
     speed / f64::from(traits.cooldown.max(1))
 }
 
-/// Returns the types that sprites of a class make, if they are updated.
+/// Returns the types that sprites of a class create when they are updated.
 pub(crate) fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     use SpriteClass as C;
     let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
@@ -280,8 +283,8 @@ pub(crate) fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }
 
-/// Returns the types that the player's avatar can have, sorted by whether levels place them, then by type. The list is
-/// empty if the engine finds no avatar among the placed types.
+/// Returns the possible types of the player's avatar, sorted by whether levels place them, then by type. The
+/// list is empty if the engine finds no avatar among the placed types.
 pub(crate) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     use ClassFamily as Family;
     use SpriteClass as C;
@@ -320,7 +323,7 @@ pub(crate) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     avatars
 }
 
-/// Returns `true` if an interaction happens regardless of the avatar's resources and of how the sprites move.
+/// Returns `true` if an interaction happens regardless of the avatar's resources and the sprites' movements.
 pub(crate) fn is_certain(encounter: &Encounter) -> bool {
     matches!(encounter.precondition, Precondition::Always | Precondition::Chance(_))
 }

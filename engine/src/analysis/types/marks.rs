@@ -11,22 +11,23 @@ use crate::rules::{Rules, SpriteType};
 pub(crate) struct Marks {
     /// `true` if some interaction involves the type.
     pub(crate) takes_part: bool,
-    /// `true` if meeting the type removes a protected type or makes a forbidden one.
+    /// `true` if a collision with the type removes a protected type or creates a forbidden type.
     pub(crate) threat: bool,
     /// `true` if the type blocks something other than an avatar.
     pub(crate) holds_up: bool,
-    /// `true` if the type blocks a hostile type that moves.
+    /// `true` if the type blocks a moving hostile type.
     pub(crate) holds_up_enemies: bool,
-    /// `true` if a shot of the avatar, or something harmful, certainly removes the type.
+    /// `true` if a shot by the avatar, or something harmful, always removes the type.
     pub(crate) breakable: bool,
-    /// `true` if a moving sprite that meets the type makes a forbidden type.
+    /// `true` if a moving sprite that collides with the type creates a forbidden type.
     pub(crate) spoilt: bool,
-    /// `true` if the type removes shots, or shots remove it, whoever has fired them.
+    /// `true` if the type removes shots, or shots remove the type, regardless of the shooter.
     pub(crate) meets_shots: bool,
 }
 
-/// Returns, for each type, whether meeting it removes a protected type or makes a forbidden one. In each pair
-/// of types, the moving type is the threat. If both types move, the second type is the threat.
+/// Returns, for each type, whether a collision with the type removes a protected type or creates a forbidden
+/// type. In each pair of types, the moving type is the threat. If both types move, the second type is the
+/// threat.
 pub(crate) fn threats(rules: &Rules, encounters: &[Encounter], facts: &[Facts], aims: &Aims) -> Vec<bool> {
     let moving = by_family(rules, |stype| facts[stype.index()].motion != Motion::Still);
     let guarded = by_family(rules, |stype| aims.protect.binary_search(&stype).is_ok());
@@ -50,13 +51,13 @@ pub(crate) fn threats(rules: &Rules, encounters: &[Encounter], facts: &[Facts], 
     threat
 }
 
-/// The kinds of harm that types do, each with one entry per type.
+/// The kinds of harm that types cause, each with one entry per type.
 pub(crate) struct Harms<'a> {
     /// The harm to an avatar that touches the type.
     pub(crate) harm: &'a [Harm],
-    /// `true` if the type removes a protected type, or makes a forbidden one.
+    /// `true` if the type removes a protected type, or creates a forbidden type.
     pub(crate) threat: &'a [bool],
-    /// `true` if the type makes harmful sprites.
+    /// `true` if the type creates harmful sprites.
     pub(crate) source: &'a [bool],
 }
 
@@ -114,7 +115,8 @@ pub(crate) fn marks(
     marks
 }
 
-/// Returns, for each type, whether `holds` is true of it or of a relative, so that a rule on the type can refer to it.
+/// Returns, for each type, whether `holds` is true for the type or a relative, so that a rule on the type can
+/// refer to it.
 fn by_family(rules: &Rules, holds: impl Fn(SpriteType) -> bool) -> Vec<bool> {
     let own: Vec<bool> = (0..rules.types.len()).map(|at| holds(SpriteType(at as u16))).collect();
     rules.types.iter().map(|info| info.tree.iter().any(|stype| own[stype.index()])).collect()

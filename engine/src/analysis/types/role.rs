@@ -8,13 +8,13 @@ use crate::analysis::interactions::touch::{Harm, Removal, Touch};
 use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 
-/// The role of a sprite type in a level. If several roles fit, the first role in this order applies, with the
-/// exceptions stated at the variants.
+/// A sprite type's role in a level. If several roles fit, the first role in this order applies, with the
+/// exceptions documented on the variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
     /// A type that the player can control.
     Avatar,
-    /// A type that an avatar makes with the use key: a shot, a sword, a bomb.
+    /// A type that an avatar creates with the use key: a shot, a sword, a bomb.
     Shot,
     /// A type that takes the avatar to a [`Role::PortalExit`] on contact.
     Portal,
@@ -23,51 +23,53 @@ pub enum Role {
     /// A type that the avatar pushes.
     Pushable,
     /// A type that wins, or counts towards a win, on contact: a door, something locked, or something that
-    /// makes the winning sprite. Unlocked items that count towards a win are [`Role::Collectable`].
+    /// creates the winning sprite. Unlocked items that count towards a win are [`Role::Collectable`].
     Exit,
-    /// A still type that blocks the way or hurts until the avatar holds something, does something or changes its type.
+    /// A motionless type that blocks or harms the avatar until the avatar holds something, does something or
+    /// changes its type.
     Gate,
-    /// A type that moves by itself, blocks the avatar, and kills only in some ways of moving: for example, a falling
-    /// rock.
+    /// A type that moves by itself, blocks the avatar, and kills only in certain movements: for example, a
+    /// falling rock.
     Boulder,
     /// A type that moves by itself and harms the avatar or a protected type, takes the avatar's resources, or
-    /// makes sprites with any of these properties. However, a type that the avatar catches unharmed for a win
-    /// is [`Role::Prey`].
+    /// creates sprites with any of these properties. However, a type that the avatar catches unharmed for a
+    /// win is [`Role::Prey`].
     Enemy,
-    /// A still type that removes pushed sprites, if a goal requires the removal or the type is harmless. A
-    /// deadly type that no goal requires is [`Role::Hazard`].
+    /// A motionless type that removes pushed sprites, if a goal requires the removal or the type is harmless.
+    /// A deadly type that no goal requires is [`Role::Hazard`].
     Socket,
-    /// A still type that harms the avatar.
+    /// A motionless type that harms the avatar.
     Hazard,
-    /// A still type that makes other sprites by itself.
+    /// A motionless type that creates other sprites by itself.
     Spawner,
     /// A type whose loss loses the game, or that moving sprites must not reach.
     Ward,
-    /// A type that must be removed for a win: by a shot, by other sprites, or by being caught while it moves.
+    /// A type that must be removed for a win: by a shot, by other sprites, or by the avatar's touch while the
+    /// sprite moves.
     Prey,
-    /// A type that, on contact, gives the key of a gate or an exit.
+    /// A type that, on contact, gives the key to a gate or an exit.
     Key,
-    /// A still type that the avatar digs through without gain, and that blocks other sprites.
+    /// A motionless type that the avatar digs through without gain, and that blocks other sprites.
     Soil,
-    /// A type that the avatar takes or changes by touching it.
+    /// A type that the avatar takes or changes by touch.
     Collectable,
-    /// A still type that blocks the avatar until a shot or an enemy removes it.
+    /// A motionless type that blocks the avatar until a shot or an enemy removes it.
     Breakable,
-    /// A still type that always blocks the avatar and that nothing removes.
+    /// A permanent motionless type that always blocks the avatar.
     Wall,
-    /// A still type that stops shots or is removed by them, and does nothing to the avatar.
+    /// A motionless type that stops shots or is removed by shots, and has no effect on the avatar.
     Cover,
-    /// A still type that blocks enemies and lets the avatar pass.
+    /// A motionless type that blocks enemies and lets the avatar pass.
     Refuge,
-    /// A still type without interactions with any avatar: the background of other sprites. A floor takes part
-    /// in no interaction at all, or a character places it together with an avatar.
+    /// A motionless type without interactions with any avatar, drawn as a background. A floor takes part in
+    /// no interaction at all, or a character places it together with an avatar.
     Floor,
-    /// A type that no other role fits.
+    /// A type that fits no other role.
     Neutral,
 }
 
 impl Analysis {
-    /// Derives the role of a type with these marks from the other parts of the analysis. Cost: O(types × avatars).
+    /// Derives a type's role from its marks and the other parts of the analysis. Cost: O(types × avatars).
     pub(crate) fn role_with(&self, stype: SpriteType, marks: Marks) -> Role {
         let at = stype.index();
         let fact = &self.facts[at];
@@ -180,7 +182,7 @@ impl Analysis {
     }
 
     /// Returns `true` if the type removes pushed sprites, and the removal is required, uses the type up, or
-    /// hurts nobody.
+    /// is harmless.
     fn is_socket(&self, stype: SpriteType, harm: Harm) -> bool {
         self.pushables.iter().any(|pushable| {
             let Some(sink) = pushable.sinks.iter().find(|sink| sink.partner == stype) else { return false };

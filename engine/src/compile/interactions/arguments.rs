@@ -1,4 +1,4 @@
-//! Reads the parameters of an interaction line as its effect requires.
+//! Reads an interaction line's parameters as its effect requires.
 
 use super::super::Policy;
 use super::super::params::{Expected, Value, convert, missing_name, wrong_type};
@@ -9,16 +9,16 @@ use crate::rules::effects::{self, Arguments, Undeclared};
 use crate::rules::{EffectInfo, SpriteType};
 use crate::syntax::{Param, Word};
 
-/// The number of an unknown keyword. A shield against an unknown keyword has no effect.
+/// The index for unknown keywords. A shield against an unknown keyword has no effect.
 pub(in crate::compile) const NO_KEYWORD: u16 = u16::MAX;
 
-/// Returns the index of a keyword among the keywords of all effects.
+/// Returns a keyword's index among all effect keywords.
 pub(in crate::compile) fn number_of(keyword: &str) -> Option<u16> {
     keywords::EFFECTS.iter().position(|known| *known == keyword).map(|at| at as u16)
 }
 
 impl<'a> Reader<'a> {
-    /// Returns the parameter with this name. If several parameters have this name, returns the last of them.
+    /// Returns the parameter with this name. If several parameters have this name, returns the last one.
     pub(super) fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }
@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         (0..self.setting.counters).map(|at| *entries.get(at).unwrap_or(&entries[0])).collect()
     }
 
-    /// Reports that the effect lacks a parameter that specifies `thing`.
+    /// Reports that the effect lacks the parameter `key`, which specifies `thing`.
     pub(super) fn lacks(&mut self, key: &str, thing: &str) {
         let effect = &self.line.effect;
         self.problems.push(missing_name(&format!("`{}`", effect.text), effect.span, key, thing));

@@ -1,4 +1,4 @@
-//! Compiles a line of the InteractionSet into an effect, including the parameters that every line accepts.
+//! Compiles an InteractionSet line into an effect, including the parameters that every line accepts.
 
 use super::super::{Names, Policy, Setting};
 use super::arguments::number_of;
@@ -27,29 +27,29 @@ pub(in crate::compile) const COMMON: &[&str] = &[
     "sequential",
 ];
 
-/// The state of compiling one line.
+/// The state during the compilation of one line.
 pub(in crate::compile) struct Reader<'a> {
     pub(super) line: &'a InteractionLine,
     pub(super) names: Names<'a>,
     pub(super) setting: Setting,
     pub(super) used: Vec<&'a str>,
     pub(in crate::compile) problems: Vec<Diagnostic>,
-    /// The number of problems in earlier lines.
+    /// The number of problems on earlier lines.
     pub(super) reported: usize,
     /// `true` if the reference builds no effect from the line and stops reading.
     pub(in crate::compile) failed: bool,
     /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if the value is not a number.
     pub(super) score_faults: [bool; 2],
-    /// The index that a scheduled effect of this line will have among the timed effects.
+    /// The index among the timed effects for an effect scheduled by this line.
     pub(super) timed: u16,
-    /// The effect that addTimer schedules, and the number of its keyword.
+    /// The effect that addTimer schedules, and its keyword's index.
     pub(super) planned: Option<(EffectInfo, u16)>,
 }
 
 /// A line compiled into an effect.
 pub(in crate::compile) struct Built {
     pub(super) info: EffectInfo,
-    /// The number of the keyword.
+    /// The keyword's index.
     pub(super) keyword: u16,
     /// The number of times that the pass is repeated per tick.
     pub(super) repeat: usize,
@@ -108,13 +108,13 @@ impl<'a> Reader<'a> {
         self.problems.push(problem.mean_after(reported, Place::Effect, &name.text, effects));
     }
 
-    /// Returns `true` if the line is written with TIME: on the left, or first on the right.
+    /// Returns `true` if the line contains TIME on the left, or first on the right.
     fn has_clock(&self) -> bool {
         let mut words = std::iter::once(&self.line.first).chain(self.line.second.first());
         words.any(|word| word.text.eq_ignore_ascii_case("TIME"))
     }
 
-    /// Returns `true` if the reference overlooks unknown parameters, as it does on lines with TIME or addTimer.
+    /// Returns `true` if the reference ignores unknown parameters, as on lines with TIME or addTimer.
     pub(in crate::compile) fn is_silent(&self) -> bool {
         let line = self.line;
         let words = line.second.iter().chain([&line.first, &line.effect]);
@@ -122,7 +122,7 @@ impl<'a> Reader<'a> {
         self.has_clock() || words.any(|word| word.text.contains("addTimer"))
     }
 
-    /// Returns `counter` and `counterElse`, if the game has counters and the line changes them.
+    /// Returns `counter` and `counterElse`, if the game has counters and the line changes their values.
     fn counting(&mut self) -> Option<Box<Counting>> {
         if self.setting.counters == 0 {
             return None;
@@ -192,7 +192,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Returns `true` if the reference's effects have a field with this name that is not a parameter.
+    /// Returns `true` if effects in the reference have a field with this name that is not a parameter.
     fn is_internal(&self, key: &str) -> bool {
         let computed_from = match key {
             "hashCode" => return true,

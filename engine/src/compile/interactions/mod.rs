@@ -41,9 +41,9 @@ impl Program {
             .collect()
     }
 
-    /// Returns the effects whose score depends on an earlier execution. Executing such an effect may leave
-    /// the remembered flags unchanged, because the collected sprite is not a resource, or because there is no
-    /// partner at the edge.
+    /// Returns the effects whose score depends on an earlier execution. Such an execution may leave the
+    /// remembered flags unchanged, because the collected sprite is not a resource, or because no partner
+    /// exists at the edge.
     pub(super) fn remembering(&self, types: &[TypeInfo]) -> Vec<u16> {
         let collects = |index: u16| self.effects[usize::from(index)].summary.collects();
         let other = |&stype: &SpriteType| {
@@ -178,7 +178,7 @@ pub(super) enum Partner {
 }
 
 /// Returns `Some` if the line is timed: `sprite TIME` or `TIME sprite` (`spec/03` §6). The value contains the
-/// line's target, if it has a target.
+/// line's target, if any.
 fn by_the_clock(
     line: &InteractionLine,
     first: Partner,

@@ -1,35 +1,35 @@
-//! Builds an [`Effect`] from an interaction line: keywords, required and optional parameters (`spec/03` §2).
+//! Builds an [`Effect`] from an interaction line: keyword, required and optional parameters (`spec/03` §2).
 
 use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, TransformIfCount};
 use crate::rules::SpriteType;
 
-/// The parameters of a line, parsed on demand. Getters report problems and continue with a default, so that all
-/// problems of a line are found.
+/// The parameters on a line, parsed on demand. Getters report problems and continue with a default, so that
+/// all problems on a line are found.
 pub(crate) trait Arguments {
     fn int(&mut self, key: &'static str, default: i32) -> i32;
     fn number(&mut self, key: &'static str, default: f64) -> f64;
     fn flag(&mut self, key: &'static str, default: bool) -> bool;
-    /// Returns the player's score, which is the first entry of a list of scores.
+    /// Returns the player's score: the first entry in a list of scores.
     fn score(&mut self, key: &'static str) -> i32;
     /// Returns a required sprite type that must be declared.
     fn sprite(&mut self, key: &'static str) -> SpriteType;
-    /// Returns a required sprite type. An undeclared name gives [`SpriteType::NONE`], which stops the game only when it
-    /// is used.
+    /// Returns a required sprite type. For an undeclared name, returns [`SpriteType::NONE`], which stops the
+    /// game only when it is used.
     fn sprite_or_none(&mut self, key: &'static str) -> SpriteType;
     /// Returns an optional sprite type.
     fn optional_sprite(&mut self, key: &'static str, undeclared: Undeclared) -> Option<SpriteType>;
-    /// Returns a type given by its registry number, which the reference accepts for some optional types.
+    /// Returns a type given by its registry index, which the reference accepts for some optional types.
     fn numbered(&mut self, key: &'static str) -> Option<SpriteType>;
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType>;
-    /// Returns the number of another effect's keyword.
+    /// Returns the keyword index of another effect.
     fn keyword(&mut self, key: &'static str) -> u16;
     /// Returns the effect that addTimer schedules, which is compiled as a separate line.
     fn timed(&mut self) -> u16;
-    /// Returns the relatives of a type, without the type itself.
+    /// Returns the relatives of a type, excluding the type itself.
     fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]>;
 }
 
-/// The reference's treatment of an undeclared name (`spec/03` §2.2). In strict mode, such a name is an error.
+/// How the reference handles an undeclared name (`spec/03` §2.2). In strict mode, such a name is an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Undeclared {
     /// The effect is dropped, and the rest of the file is not read.
@@ -40,10 +40,10 @@ pub(crate) enum Undeclared {
     Void,
 }
 
-/// Declares the effects once, sorted: each keyword, and the effect that is built from its arguments.
+/// Declares the effects once, sorted: each keyword, and the effect built from its arguments.
 macro_rules! effects {
     ($keyword:ident, $args:ident; $($($name:literal)|+ => $effect:expr,)*) => {
-        /// The keywords, which are compared with [`crate::keywords::EFFECTS`].
+        /// The keywords, for comparison with [`crate::keywords::EFFECTS`].
         #[cfg(test)]
         pub(super) const BUILT: &[&str] = &[$($($name),+),*];
 

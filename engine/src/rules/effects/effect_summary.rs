@@ -1,4 +1,4 @@
-//! One consequence of an effect, as plain data, and the properties that analyses need.
+//! One consequence of an effect, as plain data, with the properties that analyses need.
 
 use crate::rules::SpriteType;
 
@@ -7,7 +7,7 @@ use crate::rules::SpriteType;
 pub enum Side {
     /// The sprite named first, on which the effect acts.
     First,
-    /// The partner of the first sprite.
+    /// The first sprite's partner.
     Second,
 }
 
@@ -39,16 +39,17 @@ pub enum EffectSummary {
     Undo(Box<[SpriteType]>),
     /// The first sprite changes its orientation.
     Turn,
-    /// The second sprite pushes the first sprite along.
+    /// The second sprite pushes the first sprite.
     Push,
     /// The second sprite carries the first sprite along, or the first sprite moves to the second sprite's
     /// position.
     Carry,
-    /// The first sprite reappears at the second sprite's exit.
+    /// The first sprite reappears at the exit to which the second sprite leads.
     Teleport,
     /// The first sprite reappears at the opposite edge.
     Wrap,
-    /// The speed changes, for sprites of this type and its relatives or, if `None`, for the first sprite alone.
+    /// The speed changes: for sprites of this type and its relatives, or for the first sprite alone if the
+    /// type is `None`.
     Speed(Option<SpriteType>),
     /// A sprite of this type appears.
     Make(SpriteType),
@@ -72,20 +73,20 @@ pub enum EffectSummary {
         of: Option<SpriteType>,
         /// The change in health points.
         by: i32,
-        /// A sprite with at most this number of health points is removed.
+        /// A sprite is removed if its health points fall to this number or below.
         dies_at: i32,
     },
     /// For the rest of the tick, the first sprite's type is shielded: interactions with one keyword between
     /// that type and the type `from` have no effect on it.
     Shield {
-        /// The partner type that is shielded off.
+        /// The partner type whose interactions are suppressed.
         from: SpriteType,
-        /// The keyword that is suppressed, as in VGDL.
+        /// The VGDL keyword of the suppressed effect.
         keyword: &'static str,
     },
 }
 
-/// The sprites that an effect changes, out of all sprites of a level.
+/// The sprites that an effect changes, among all sprites in a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Target {
     /// The sprite on the given side.
@@ -97,7 +98,7 @@ pub(crate) enum Target {
     Tree(SpriteType),
 }
 
-/// The ways in which an effect takes sprites away from their type.
+/// How an effect removes sprites from their type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
     /// The sprites are removed.
@@ -106,11 +107,11 @@ pub(crate) enum Ending {
     Turned,
     /// The sprites are removed if they have no exit.
     Stranded,
-    /// The sprites' health points change by `by`, and sprites with at most `dies_at` left are removed.
+    /// The sprites' health points change by `by`, and sprites with at most `dies_at` points left are removed.
     Health { by: i32, dies_at: i32 },
 }
 
-/// The moves that an effect can make.
+/// The possible moves caused by an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Movement<'a> {
     /// The first sprite moves back to its previous position.
@@ -121,7 +122,7 @@ pub(crate) enum Movement<'a> {
     Away,
 }
 
-/// The properties of an effect, which a single match over all effects determines.
+/// The properties of an effect, determined by a single match over all effects.
 #[derive(Clone, Copy, Default)]
 struct Properties<'a> {
     /// The sprites that the effect changes, if any.
@@ -181,8 +182,8 @@ impl EffectSummary {
         }
     }
 
-    /// Returns the types of the sprites that appear or that other sprites turn into. [`EffectSummary::Clone`], which
-    /// makes a sprite of the first sprite's type, is not included.
+    /// Returns the types of the sprites that appear, and the types that other sprites turn into.
+    /// [`EffectSummary::Clone`], which creates a sprite of the first sprite's type, is not included.
     pub(crate) fn makes(&self) -> &[SpriteType] {
         self.properties().makes
     }
@@ -192,7 +193,7 @@ impl EffectSummary {
         self.properties().names == Some(stype)
     }
 
-    /// Returns the type whose sprites are all affected, if the effect needs no particular sprite.
+    /// Returns the type whose sprites are all affected, if the effect does not need a particular sprite.
     pub(crate) fn at_large(&self) -> Option<SpriteType> {
         match self.properties().target? {
             Target::All(of) | Target::Tree(of) => Some(of),
@@ -200,19 +201,18 @@ impl EffectSummary {
         }
     }
 
-    /// Returns the sprites that the effect may remove or turn into other sprites, and the way in which the
-    /// effect does so.
+    /// Returns the sprites that the effect may remove or turn into other sprites, and how the effect does so.
     pub(crate) fn ending(&self) -> Option<(Target, Ending)> {
         let Properties { target, ending, .. } = self.properties();
         target.zip(ending)
     }
 
-    /// Returns the move that the effect makes.
+    /// Returns the move caused by the effect.
     pub(crate) fn movement(&self) -> Option<Movement<'_>> {
         self.properties().movement
     }
 
-    /// Returns `true` if the effect changes the sprite on `side`, whatever its type.
+    /// Returns `true` if the effect changes the sprite on `side`, regardless of its type.
     pub(crate) fn changes(&self, side: Side) -> bool {
         self.properties().target == Some(Target::Side(side))
     }

@@ -1,4 +1,5 @@
-//! The effects of interactions (`spec/03`) as an enum, with their meaning. `tick/effects/` executes them.
+//! The effects of interactions (`spec/03`) as an enum, with their meaning. The code in `tick/effects/`
+//! executes the effects.
 
 mod build;
 mod effect_summary;
@@ -166,7 +167,8 @@ pub(crate) enum Effect {
     AddTimer {
         timed: u16,
     },
-    /// Makes the same draws as the effect with this summary, and does nothing else (`ablation.rs`).
+    /// Makes the same random draws as the effect with this summary, and does nothing else
+    /// (`ablation.rs`).
     Disabled(Box<Summary>),
 }
 
@@ -204,7 +206,7 @@ pub(crate) struct SpawnIfCounterSubTypes {
 }
 
 impl Effect {
-    /// Returns an effect that makes the same draws and has no consequences.
+    /// Returns an effect that makes the same random draws and has no consequences.
     pub(crate) fn disabled(&self) -> Effect {
         Effect::Disabled(Box::new(self.summary()))
     }

@@ -1,14 +1,14 @@
-//! The parameters of the effects. The parameters are recorded from the calls of [`build`] itself, so that
-//! there is no second table to maintain.
+//! Effect parameters. The parameters are recorded from the calls made by [`build`] itself, so that no second
+//! table needs maintenance.
 
 use super::EffectFamily;
 use super::build::{Arguments, Undeclared, build};
 use crate::rules::SpriteType;
 
-/// The kinds of values that an effect's parameters have.
+/// The kind of value that an effect parameter accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterKind {
-    /// A whole number.
+    /// An integer.
     Int,
     /// A number.
     Number,
@@ -20,18 +20,18 @@ pub enum ParameterKind {
     Sprite,
     /// The name of an optional sprite type.
     OptionalSprite,
-    /// A list of names of sprite types.
+    /// A list of sprite type names.
     Sprites,
-    /// A sprite type, given by its number in the registry.
+    /// A sprite type, given by its index in the registry.
     TypeNumber,
     /// The required keyword of an effect.
     Effect,
-    /// The required keyword of an effect to be scheduled. The parameters of that effect follow.
+    /// The required keyword of an effect to schedule. The scheduled effect's parameters follow.
     Planned,
 }
 
-/// Returns the parameters that an effect accepts in addition to the parameters of every effect. Empty for an
-/// unknown keyword.
+/// Returns the parameters that an effect accepts in addition to the common parameters of all effects. The
+/// result is empty for an unknown keyword.
 pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
     let mut recorder = Recorder::default();
     build(keyword, &mut recorder);
@@ -42,8 +42,8 @@ pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
 #[derive(Default)]
 pub(super) struct Recorder {
     asked: Vec<(&'static str, ParameterKind)>,
-    /// `true` to return values that differ from the defaults: flags that are set, negative numbers, and types
-    /// that may be absent.
+    /// `true` to return values that differ from the defaults: `true` flags, negative numbers, and types that
+    /// may be absent.
     contrary: bool,
 }
 
@@ -114,7 +114,7 @@ impl Arguments for Recorder {
 }
 
 impl EffectFamily {
-    /// Returns the family of the effect with this keyword, or `None` if no effect has this keyword.
+    /// Returns the family of the effect with this keyword, or `None` for an unknown keyword.
     pub fn of(keyword: &str) -> Option<EffectFamily> {
         Some(build(keyword, &mut Recorder::default())?.summary().family)
     }

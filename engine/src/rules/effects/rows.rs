@@ -1,5 +1,5 @@
-//! The table of effects: one row per effect, with a summary of the possible consequences of an execution. A row gives
-//! only the differences from [`Summary::of`], the summary of an effect that does nothing.
+//! The effects table: one row per effect, with a summary of the possible consequences of an execution. A row
+//! contains only the differences from [`Summary::of`], the summary for an effect that does nothing.
 
 use super::effect_summary::{EffectSummary, Side};
 use super::summary::*;
@@ -8,7 +8,7 @@ use crate::keywords::EFFECTS;
 use smallvec::{SmallVec, smallvec};
 
 impl Effect {
-    /// Returns the row of the effect: the possible consequences of an execution.
+    /// Returns the effect's row: the possible consequences of an execution.
     pub(crate) fn summary(&self) -> Summary {
         use EffectFamily as Family;
         use EffectSummary::{
@@ -412,7 +412,7 @@ impl Effect {
     }
 }
 
-/// Returns an effect, plus a second effect if `flag` is set.
+/// Returns a list with an effect, and with a second effect if `flag` is set.
 fn with(effect: EffectSummary, flag: bool, more: EffectSummary) -> SmallVec<[EffectSummary; 2]> {
     std::iter::once(effect).chain(flag.then_some(more)).collect()
 }

@@ -2,10 +2,10 @@
 //!
 //! `engine::describe` fills the holes, and lists the templates for programs that parse the sentences.
 //!
-//! The holes `{one}` and `{two}` are the sprites that meet. `{one:die|disappears}` is a word that agrees with
+//! The holes `{one}` and `{two}` are the colliding sprites. `{one:die|disappears}` is a word that agrees with
 //! a sprite. The first form is for the player, and the second form is for any other sprite. `{both:…|…}`
 //! agrees with either sprite. `{every}` stands for the sprites on which a timed effect runs. All other holes
-//! have values of their own.
+//! have their own values.
 
 use super::parameters::Recorder;
 use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, Summary, TransformIfCount, build};
@@ -13,33 +13,34 @@ use crate::keywords::EFFECTS;
 use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
-/// The words of an effect.
+/// The texts that describe an effect.
 #[derive(Clone, Debug)]
 pub(crate) struct Sentence {
-    /// The template for two sprites that meet.
+    /// The template for two colliding sprites.
     pub(crate) meeting: &'static str,
     /// The template for a timed effect. The hole `{alone}` in [`Sentence::meeting`] stands for this template.
     pub(crate) alone: &'static str,
-    /// The words that introduce the points, if the points have a different condition than the sentence.
+    /// The words that introduce the points, if the condition for the points differs from the condition in the
+    /// sentence.
     pub(crate) if_scored: &'static str,
     values: SmallVec<[(&'static str, Value); 3]>,
 }
 
-/// The template of effects that do nothing when timed, or for which there are no words.
+/// The template for effects that do nothing when timed, or that have no description.
 pub(crate) const UNTOLD: &str = "something happens to {every}";
 
-/// The template of effects that do nothing.
+/// The template for effects that do nothing.
 const NOTHING: &str = "when {one} {one:touch|touches} {two}, nothing happens";
 
 /// The text with which a probability starts.
 pub(crate) const CHANCE: &str = " with a chance of ";
 
-/// The value of a hole.
+/// The value for a hole.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     /// The name of a type.
     Name(SpriteType),
-    /// The name of a type, in the form for that number of sprites.
+    /// The name of a type, in the singular or plural form for that number of sprites.
     Many(SpriteType, i64),
     /// The name of a type with its indefinite article.
     A(SpriteType),
@@ -51,10 +52,10 @@ pub(crate) enum Value {
     Decimal(f64),
     /// A number with its noun.
     Count(i64, &'static str),
-    /// A probability, which is not mentioned if it is 1.
+    /// A probability, which is omitted if its value is 1.
     Chance(f64),
     Text(String),
-    /// A part with holes of its own, included if `present` is `true`.
+    /// A part with its own holes, included if `present` is `true`.
     Part {
         text: &'static str,
         present: bool,
@@ -70,7 +71,7 @@ impl Sentence {
         Sentence { meeting, alone: UNTOLD, if_scored: "", values: SmallVec::new() }
     }
 
-    /// Returns the sentence of an effect that does nothing.
+    /// Returns the sentence for an effect that does nothing.
     pub(crate) fn of_nothing() -> Sentence {
         Sentence::of(NOTHING)
     }
@@ -79,22 +80,22 @@ impl Sentence {
         Sentence { alone, ..self }
     }
 
-    /// Sets the condition under which the points are given.
+    /// Sets the condition for the points.
     fn scored(self, if_scored: &'static str) -> Sentence {
         Sentence { if_scored, ..self }
     }
 
-    /// Gives the points if the first sprite is removed.
+    /// Sets the condition for the points: the first sprite is removed.
     fn scored_if_killed(self) -> Sentence {
         self.scored("if {one:you die|it disappears}, ")
     }
 
-    /// Gives the points at every contact, whatever the outcome.
+    /// Sets the condition for the points: any contact, regardless of the outcome.
     fn scored_always(self) -> Sentence {
         self.scored("in any case, ")
     }
 
-    /// Gives the points at every contact, and says so if the effect itself is only probable.
+    /// Awards the points at every contact, and states so in the text if the effect itself is only probable.
     fn scored_if(self, prob: f64) -> Sentence {
         if prob < 1.0 { self.scored_always() } else { self }
     }
@@ -104,7 +105,7 @@ impl Sentence {
         self
     }
 
-    /// Adds a part about the partner, if the partner is removed as well.
+    /// Adds a part about the partner, if the partner is removed, too.
     fn and_gone(self, gone: bool) -> Sentence {
         self.part("gone", gone, ", and {two} {two:die|disappears}")
     }
@@ -113,7 +114,7 @@ impl Sentence {
         self.with(hole, Value::Part { text: part, present })
     }
 
-    /// Returns the text with which the value of a hole starts, if the value can be empty.
+    /// Returns the initial text of a hole's value, if the value can be empty.
     pub(crate) fn optional_start(&self, hole: &str) -> Option<&'static str> {
         match self.value(hole)? {
             Value::Chance(_) => Some(CHANCE),
@@ -132,13 +133,13 @@ impl Sentence {
         }
     }
 
-    /// Returns the value of a hole.
+    /// Returns the value for a hole.
     pub(crate) fn value(&self, hole: &str) -> Option<&Value> {
         self.values.iter().find(|(name, _)| *name == hole).map(|(_, value)| value)
     }
 }
 
-/// Returns the effects of all keywords, each with two sets of parameters.
+/// Returns the effects for all keywords, each with two sets of parameters.
 fn recorded() -> impl Iterator<Item = Effect> {
     let effect = |(contrary, keyword): (bool, &&str)| {
         build(keyword, &mut Recorder::contrary(contrary)).expect("every keyword builds an effect")
@@ -149,8 +150,8 @@ fn recorded() -> impl Iterator<Item = Effect> {
         .map(effect)
 }
 
-/// Returns the sentences of all effects, each with the summary of one effect that uses its template. No
-/// template is repeated.
+/// Returns the sentences for all effects, each with the summary of one effect that uses its template. The
+/// result contains each template only once.
 pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     let mut found: Vec<(Sentence, Summary)> = Vec::new();
     for effect in recorded() {
@@ -162,7 +163,7 @@ pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     found
 }
 
-/// Returns the templates of all effects, both for meetings and for timed effects, without [`UNTOLD`].
+/// Returns the templates for all effects, both for collisions and for timed effects, except [`UNTOLD`].
 pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
     let both = |effect: Effect| {
         let sentence = effect.sentence();
@@ -172,15 +173,14 @@ pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
 }
 
 impl Effect {
-    /// Returns the sentence of the effect. Some effects have a shorter sentence if their partner never
-    /// disappears.
+    /// Returns the effect's sentence. Some effects have a shorter sentence if their partner never disappears.
     pub(crate) fn sentence_beside(&self, partner_stays: impl FnOnce() -> bool) -> Sentence {
         // A partner that never disappears is alive.
         let is_alive = matches!(self, Effect::KillIfAlive) && partner_stays();
         if is_alive { Effect::KillSprite.sentence() } else { self.sentence() }
     }
 
-    /// Returns the sentence of the effect.
+    /// Returns the effect's sentence.
     pub(crate) fn sentence(&self) -> Sentence {
         match *self {
             Effect::KillSprite => Sentence::of("{one} {one:die|disappears} on touching {two}")

@@ -1,22 +1,22 @@
 //! Summaries of effects: the possible consequences of an execution, as plain data. Each effect has one row
 //! (`rows.rs`).
 //!
-//! All other parts of the workspace use summaries and depend on no particular effect.
+//! All other parts of the workspace use summaries and do not depend on any particular effect.
 
 use super::effect_summary::{EffectSummary, Side};
 use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
 base::named_enum! {
-    /// The family of an effect: the groups of the engine's ontology, with movement split by its result.
+    /// An effect's family: the groups in the engine's ontology, with movement split by its result.
     pub enum EffectFamily {
-        /// Removes sprites, perhaps under a condition.
+        /// Removes sprites, optionally under a condition.
         Kill = "kill",
         /// Changes health points.
         Health = "health",
         /// Collects sprites as resources, or changes the amount of a resource.
         Resource = "resource",
-        /// Makes sprites appear.
+        /// Creates sprites.
         Spawn = "spawn",
         /// Turns sprites into sprites of other types.
         Transform = "transform",
@@ -28,9 +28,9 @@ base::named_enum! {
         Push = "push",
         /// Makes sprites reappear elsewhere.
         Travel = "travel",
-        /// Changes the speed or the physics of sprites.
+        /// Changes sprites' speed or physics.
         Speed = "speed",
-        /// Handles continuous physics at walls and bats.
+        /// Handles continuous physics at walls and paddles.
         Bounce = "bounce",
         /// Schedules another effect.
         Timer = "timer",
@@ -50,7 +50,7 @@ pub enum Precondition {
     HoldsAtMost(Side, SpriteType, i32),
     /// The interaction takes effect with this probability.
     Chance(f64),
-    /// The condition depends on the movement of the two sprites: from above, head-on, leaving a cell.
+    /// The condition depends on the movement of the two sprites: from above, head-on, or leaving a cell.
     Movement,
 }
 
@@ -60,16 +60,16 @@ pub(crate) struct Summary {
     pub(crate) family: EffectFamily,
     /// The effects, in order of execution.
     pub(crate) effects: SmallVec<[EffectSummary; 2]>,
-    /// The condition of the effects.
+    /// The effects' condition.
     pub(crate) precondition: Precondition,
     /// `true` if the effect does nothing at the edge or when timed, because there is no partner.
     pub(crate) needs_partner: bool,
-    /// The execution on all partners of a sprite together, if the effect has a batch form.
+    /// The joint execution on all partners of a sprite, if the effect has a batch form.
     pub(crate) batch: Option<Batch>,
-    /// The random draws that decide something.
+    /// The random draws with an effect on the result.
     pub(crate) draws: Draws,
-    /// `true` only if an avatar that the effect removes, without turning it into another sprite, stays on the board as
-    /// a dead avatar.
+    /// `true` only if an avatar that the effect removes, without turning it into another sprite, stays on the
+    /// board as a dead avatar.
     pub(crate) spares_avatars: bool,
     /// The sprites that the effect may move.
     pub(crate) moves: Moves,
@@ -80,23 +80,23 @@ pub(crate) struct Summary {
     pub(crate) speed: Option<SpeedEffect>,
     /// The position where sprites appear, for [`EffectSummary::Make`].
     pub(crate) spot: Option<Spot>,
-    /// `true` if a transformed sprite keeps its orientation, whatever the types say.
+    /// `true` if a transformed sprite keeps its orientation, regardless of the two types.
     pub(crate) forces_orientation: bool,
     /// `true` if the transformed first sprite faces the reverse of the partner's direction.
     pub(crate) takes_orientation: bool,
-    /// The resource that a meeting gives.
+    /// The resource that a collision gives.
     pub(crate) gives: Option<Gives>,
-    /// The resource of which a sprite can get more than its limit.
+    /// The resource that can exceed its limit through the effect.
     pub(crate) overfills: Option<SpriteType>,
     /// The type whose sprites the effect counts.
     pub(crate) counts: Option<SpriteType>,
-    /// The spawn points that make a different type after the effect.
+    /// The spawn points that create a different type after the effect.
     pub(crate) redirects: Option<Redirection>,
-    /// The partner type, and the number of the keyword, against which the first sprite's type is shielded.
+    /// The partner type and the keyword index against which the first sprite's type is shielded.
     pub(crate) shield: Option<(SpriteType, u16)>,
-    /// The timed effect that is scheduled.
+    /// The scheduled timed effect.
     pub(crate) schedules: Option<u16>,
-    /// The score change if the execution kills.
+    /// The score change if the execution kills a sprite.
     pub(crate) score_if_killed: i32,
     /// `true` if the effect can change sprites that take no part in the interaction, or read their positions.
     pub(crate) affects_distant_sprites: bool,
@@ -104,7 +104,8 @@ pub(crate) struct Summary {
     /// The condition under which the effect on the first sprite depends only on that sprite and its partner, and
     /// nothing else changes.
     pub(crate) is_local_to_first: Provided,
-    /// The condition under which the effect on the first sprite is the same whichever partner comes first.
+    /// The condition under which the effect on the first sprite is the same regardless of the partners'
+    /// order.
     pub(crate) is_partner_independent: Provided,
 }
 
@@ -115,7 +116,7 @@ pub(crate) enum Batch {
     Reverse,
 }
 
-/// The sprites that an effect may move. This determines how a pass may search for hits.
+/// The sprites that an effect may move. They determine how a pass may search for hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Moves {
     Nothing,
@@ -123,7 +124,7 @@ pub(crate) enum Moves {
     Anything,
 }
 
-/// The draws of an execution.
+/// The random draws of an execution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Draws {
     Nothing,
@@ -133,21 +134,21 @@ pub(crate) enum Draws {
     Chance(f64),
     /// Draws whether something happens, with this probability, if both sprites are oriented.
     ChanceIfOriented(f64),
-    /// Draws one of this number of types.
+    /// Draws one of the given number of types.
     OneOf(usize),
-    /// Draws one of the sprites that the partner leads to.
+    /// Draws one of the sprites to which the partner leads.
     Exit,
 }
 
-/// The position to which the first sprite is moved.
+/// The position to which the first sprite moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Displacement {
     /// The first sprite's previous position.
     Back,
     /// The position beside the partner, on the side from which the first sprite came.
     Flush,
-    /// Like [`Displacement::Flush`], but the first sprite also loses the part of its velocity that points at the
-    /// partner.
+    /// The same position as [`Displacement::Flush`], but the first sprite also loses the component of its
+    /// velocity towards the partner.
     Stop,
     /// The first sprite's previous position. The partner also moves back to its own previous position.
     Apart,
@@ -161,13 +162,13 @@ pub(crate) enum Displacement {
     InLine,
     /// One step in the direction of the partner's move.
     Pushed,
-    /// One step along with the partner, and then `onto` the partner's position if set.
+    /// One step along with the partner and, if `onto` is set, then to the partner's position.
     Carried { onto: bool },
-    /// The exit that the partner leads to.
+    /// The exit to which the partner leads.
     Exit,
 }
 
-/// The new orientation of the first sprite.
+/// The first sprite's new orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turn {
     /// The opposite of the first sprite's own orientation.
@@ -182,14 +183,14 @@ pub(crate) enum Turn {
     OfPartner,
     /// The direction in which the partner pushes.
     OfPush,
-    /// The first sprite's own orientation, without the vertical part for a sprite that is not bound to the grid.
+    /// The first sprite's own orientation, without the vertical component for a sprite with continuous
+    /// physics.
     OfRide,
     /// The exit's orientation.
     OfExit,
 }
 
-/// The way in which a speed changes, which is the difference between increaseSpeedToAll, decreaseSpeedToAll
-/// and setSpeedForAll.
+/// How a speed changes. The variants distinguish increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SpeedChange {
     Increase,
@@ -224,13 +225,13 @@ pub(crate) enum Spot {
 /// The resource that an interaction gives, within the resource's limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Gives {
-    /// The second sprite gets the first sprite itself.
+    /// The second sprite receives the first sprite itself.
     First { used_up: bool },
-    /// The first sprite gets an amount of the resource from the second sprite.
+    /// The first sprite receives an amount of the resource from the second sprite.
     Amount { resource: SpriteType, value: i32, used_up: bool },
 }
 
-/// Spawn points of a type and its relatives that make a different type from then on.
+/// Spawn points of a type and its relatives that create a different type from then on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Redirection {
     pub(crate) spawn_point: SpriteType,
@@ -254,7 +255,7 @@ pub(crate) enum Provided {
     Always,
 }
 
-/// The way in which an effect that does nothing else moves the first sprite back.
+/// How an effect with no other consequence moves the first sprite back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PutBack {
     ToLastPlace,
@@ -270,7 +271,8 @@ pub(crate) struct TickSummary {
 }
 
 impl Summary {
-    /// Returns the summary of an effect that does nothing, without any property that would permit a shortcut.
+    /// Returns the summary for an effect that does nothing, without any property that would permit a
+    /// shortcut.
     pub(super) fn of(family: EffectFamily) -> Summary {
         Summary {
             family,
@@ -301,7 +303,7 @@ impl Summary {
         }
     }
 
-    /// Returns the types of the sprites that the effect makes.
+    /// Returns the types of the sprites created by the effect.
     pub(crate) fn makes(&self) -> Vec<SpriteType> {
         let types = self.effects.iter().flat_map(EffectSummary::makes).copied();
         types.filter(|&stype| stype != SpriteType::NONE).collect()
@@ -327,8 +329,7 @@ impl Summary {
         types.copied().filter(|&stype| stype != SpriteType::NONE)
     }
 
-    /// Returns two types such that the effect turns every sprite of the first type into a sprite of the
-    /// second type.
+    /// Returns two types if the effect turns every sprite of the first type into a sprite of the second type.
     pub(crate) fn becomes_all(&self) -> Option<(SpriteType, SpriteType)> {
         self.effects.iter().find_map(|effect| {
             let EffectSummary::BecomeAll(from, to) = *effect else { return None };
@@ -349,8 +350,8 @@ impl Summary {
         tested.or(changed).filter(|&resource| resource != SpriteType::NONE)
     }
 
-    /// Returns the type whose sprites can gain speed from standing still when the effect is executed on
-    /// sprites of `one`. Forces act only in continuous physics.
+    /// Returns the type whose sprites can gain speed from a standstill when the effect is executed on sprites
+    /// of `one`. Forces act only in continuous physics.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self.speed? {
             SpeedEffect::OfAll { stype, .. } => Some(stype),
@@ -359,7 +360,7 @@ impl Summary {
         }
     }
 
-    /// Returns the types whose sprites stay where they are when everything is moved back, or `None` if the
+    /// Returns the types whose sprites keep their position when everything moves back, or `None` if the
     /// effect does not move everything back.
     pub(crate) fn undoes(&self) -> Option<&[SpriteType]> {
         self.effects.iter().find_map(|effect| {
@@ -373,7 +374,7 @@ impl Summary {
         self.effects.contains(&EffectSummary::Collect)
     }
 
-    /// Returns the way in which the effect moves the first sprite back, if it does nothing else.
+    /// Returns how the effect moves the first sprite back, if the effect has no other consequence.
     pub(crate) fn puts_back(&self) -> Option<PutBack> {
         let alone = self.effects[..] == [EffectSummary::Stop] && self.precondition == Precondition::Always;
         match self.displacement.filter(|_| alone && self.turn.is_none() && self.speed.is_none())? {

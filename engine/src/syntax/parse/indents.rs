@@ -1,10 +1,10 @@
-//! Checks of the indentation. Neighbouring lines that deviate in the same way are reported as one problem.
+//! Indentation checks. Neighbouring lines that deviate in the same way are reported as one problem.
 
 use super::layout::Line;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::syntax::description::Section;
 
-/// Returns the most frequent indent. If several indents are equally frequent, returns the first of them.
+/// Returns the most frequent indent. If several indents are equally frequent, returns the first such indent.
 pub(crate) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     let mut counts: Vec<(usize, usize)> = Vec::new();
     for indent in indents {
@@ -17,7 +17,7 @@ pub(crate) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     counts.iter().find(|(_, count)| Some(*count) == most).map_or(0, |&(indent, _)| indent)
 }
 
-/// Returns the usual indent of the lines without a parent among `lines`.
+/// Returns the usual indent of the parentless lines among `lines`.
 pub(crate) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     let mut sibling = usize::MAX;
     usual(lines.iter().map(|line| line.indent).filter(|&indent| {
@@ -27,7 +27,8 @@ pub(crate) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     }))
 }
 
-/// Returns the problem with a repair that indents the first line by `columns` and moves the other lines along with it.
+/// Returns the problem with a repair that indents the first line by `columns` and shifts the other lines by
+/// the same amount.
 fn shifted(problem: Diagnostic, lines: &[&Line<'_>], columns: usize) -> Diagnostic {
     let first = lines.first().map_or(0, |line| line.indent);
     let moved = |line: &&Line<'_>| line.indented((line.indent + columns).saturating_sub(first));
@@ -35,7 +36,7 @@ fn shifted(problem: Diagnostic, lines: &[&Line<'_>], columns: usize) -> Diagnost
     problem.fix(format!("Indent {} by {columns} columns", them(lines.len())), edits)
 }
 
-/// Reports lines that are not indented deeper than the name of their section.
+/// Reports lines that are not indented deeper than their section's name.
 pub(crate) fn outside(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
     let inside = Some(usual(inside)).filter(|&indent| indent > head).unwrap_or(head + 4);
@@ -48,7 +49,7 @@ pub(crate) fn outside(section: Section, head: usize, lines: &[&Line<'_>], proble
     }
 }
 
-/// Reports lines that are not indented like most lines of their section, for sections without subtypes.
+/// Reports lines that are not indented like most lines in their section, for sections without subtypes.
 pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
     let indent = usual(inside);
@@ -61,8 +62,8 @@ pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
     }
 }
 
-/// Reports lines of a SpriteSet that are indented between the columns of the other lines, and so are children
-/// or siblings by accident. Returns `true` if the lines are indented in columns. Otherwise, reports nothing.
+/// Reports SpriteSet lines with an indent between the columns of the other lines, which are children or
+/// siblings by accident. Returns `true` if the lines are indented in columns. Otherwise, reports nothing.
 pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) -> bool {
     let indents = || std::iter::once(head).chain(lines.iter().map(|line| line.indent));
     let above: Vec<usize> = indents().map(|indent| indent - head).collect();

@@ -2,17 +2,17 @@
 
 use crate::diagnostic::{Edit, Span};
 
-/// The character with which some editors start a file.
+/// The character that some editors place at the start of a file.
 pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 
-/// A line that contains more than spaces and a comment.
+/// A line that contains text other than spaces and a comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Line<'a> {
     /// The number of columns before the first character. A tab counts as one column.
     pub(crate) indent: usize,
     /// `true` if the indent contains a tab.
     pub(crate) tabbed: bool,
-    /// The text without indent, comment and trailing spaces.
+    /// The text, excluding indent, comment and trailing spaces.
     pub(crate) text: &'a str,
     /// The position of `text`.
     pub(crate) span: Span,
@@ -30,7 +30,7 @@ impl Line<'_> {
         Span::new(self.span.start - self.indent, self.span.start)
     }
 
-    /// Returns the edit that indents the line by this number of columns.
+    /// Returns an edit that indents the line by this number of columns.
     pub(crate) fn indented(&self, columns: usize) -> Edit {
         Edit::new(self.indentation(), " ".repeat(columns))
     }
@@ -77,8 +77,8 @@ pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
     (lines, above)
 }
 
-/// Finds a line that consists only of `#` and starts in the first column. The reference crashes on such a
-/// line (`spec/01` §1.1).
+/// Finds a line that consists only of `#` characters and starts in the first column. The reference crashes on
+/// such a line (`spec/01` §1.1).
 pub(crate) fn bare_hashes(source: &str) -> Option<Span> {
     let mut start = 0;
     source.split(['\n', '\r']).find_map(|raw| {

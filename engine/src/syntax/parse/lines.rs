@@ -1,4 +1,4 @@
-//! Reads the lines of the sections into the tree, or reports the problems that prevent reading them.
+//! Reads the section lines into the tree, or reports the problems that prevent reading them.
 
 use super::bounds::{long_name, too_deep};
 use super::indents;
@@ -82,8 +82,8 @@ impl Reader {
         (!sprite.name.text.is_empty()).then_some(sprite)
     }
 
-    /// Reports a line whose arrow is missing or misspelt, at the faulty word if there is one. Returns the text to write
-    /// there. `place` describes where the arrow belongs.
+    /// Reports a line whose arrow is missing or misspelt, at the faulty word if there is such a word. Returns
+    /// the text to write there. `place` describes where the arrow belongs.
     fn mend_arrow(&mut self, line: &Line<'_>, has_arrow: bool, shape: &str, place: &str) -> Option<String> {
         let mut words = line.text.split([' ', '\t']).filter(|word| !word.is_empty());
         let meant = words.find_map(|word| Some((word, repair::arrow(word)?))).filter(|_| !has_arrow);
@@ -103,8 +103,8 @@ impl Reader {
         Some(fixed)
     }
 
-    /// Reads a line of the LevelMapping. `symbols` contains the characters of all lines of the LevelMapping,
-    /// and the characters proposed so far.
+    /// Reads a LevelMapping line. `symbols` contains the characters of all LevelMapping lines, and the
+    /// characters proposed so far.
     pub(crate) fn mapping(&mut self, line: &Line<'_>, symbols: &mut BTreeSet<char>) {
         let shape = "a mapping is `c > sprite sprite …`";
         let Ok(mut pairs) = Grammar::parse(Rule::mapping, line.text) else {
@@ -287,7 +287,7 @@ impl Reader {
     }
 }
 
-/// Returns `true` if a word in the position of a class is a parameter without its `=`.
+/// Returns `true` if a word in a class's position is a parameter without its `=`.
 fn glued(word: &Word) -> bool {
     !CLASSES.contains(&&*word.text) && repair::parameter(&word.text).is_some()
 }
@@ -297,7 +297,7 @@ pub(crate) fn trivia(line: &Line<'_>) -> Trivia {
     Trivia { above: line.above.iter().map(own).collect(), beside: line.beside.as_ref().map(own) }
 }
 
-/// Returns the advice to write a character before the arrow of a mapping.
+/// Returns the advice to write a character before a mapping's arrow.
 fn in_levels_too(symbol: char, rest: &str) -> String {
     format!("write `{symbol} {rest}`, and `{symbol}` in the levels")
 }

@@ -22,9 +22,9 @@ use sections::Part;
 use std::collections::BTreeSet;
 use tokens::Token;
 
-/// Reads a game file in reference mode: faulty lines are dropped with a message each, and lines indented deeper than
-/// the first line of their section are ignored (`spec/01` §1.3–§1.9). The diagnostics contain the fault on which the
-/// reference crashes, or an exceeded limit.
+/// Reads a game file in reference mode: faulty lines are dropped with one message per line, and lines
+/// indented deeper than the first line of their section are ignored (`spec/01` §1.3–§1.9). The diagnostics
+/// contain the fault on which the reference crashes, or an exceeded limit.
 pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
     let read = unreadable(source).map_or_else(|| reference::read(source), Err);
     match read {
@@ -36,14 +36,14 @@ pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
 /// Reads a game file. The tree contains every line that could be read. The diagnostics, sorted by position,
 /// cover all other lines.
 ///
-/// Cost: linear in the text. A text above [`MAX_SOURCE`](crate::MAX_SOURCE) bytes gives one diagnostic and an
-/// empty tree.
+/// Cost: linear in the text's length. A text longer than [`MAX_SOURCE`](crate::MAX_SOURCE) bytes yields one
+/// diagnostic and an empty tree.
 pub fn parse(source: &str) -> (Description, Vec<Diagnostic>) {
     let (description, problems) = parse_all(source);
     (description, problems.shortened(source.len()).0)
 }
 
-/// Does the same as [`parse`], but returns all problems, without a limit on their number.
+/// Reads a game file like [`parse`], but returns all problems, without a limit on their number.
 pub(crate) fn parse_all(source: &str) -> (Description, Diagnostics) {
     let mut reader = Reader::default();
     match unreadable(source) {
@@ -220,7 +220,7 @@ impl Reader {
 }
 
 /// Returns the edit that adds an empty section. The SpriteSet is added below the first line, because other
-/// sections need it. All other sections are added at the end. `heads` are the indents of the existing
+/// sections depend on it. All other sections are added at the end. `heads` are the indents of the existing
 /// sections.
 fn missing_section(source: &str, header: &Line<'_>, section: Section, heads: &[usize]) -> Edit {
     let below = heads.iter().copied().filter(|&indent| indent > header.indent);

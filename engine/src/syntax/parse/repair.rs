@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-/// Returns the parameter that a word stands for if its `=` is missing or a different character: `limit:5`,
-/// `scoreChange-1`, `winTrue`.
+/// Returns the parameter meant by a word whose `=` is missing or replaced by a different character:
+/// `limit:5`, `scoreChange-1`, `winTrue`.
 pub(crate) fn parameter(word: &str) -> Option<String> {
     let (key, value) = match word.split_once([':', ';', '-', '+', '~', '>', '<', '_']) {
         Some((key, value)) if is_value(value) => {
@@ -24,7 +24,7 @@ fn is_value(text: &str) -> bool {
     !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '.')
 }
 
-/// Returns the key and the value of a word without a character between them.
+/// Returns the key and the value in a word without a separator between them.
 fn glued(word: &str) -> Option<(&str, &str)> {
     let truth = ["True", "False", "true", "false"].into_iter().find(|truth| word.ends_with(truth));
     let at = match truth {
@@ -36,7 +36,7 @@ fn glued(word: &str) -> Option<(&str, &str)> {
     (!key.is_empty() && fits).then_some((key, value))
 }
 
-/// Returns the index at which the value of a well-known parameter starts.
+/// Returns the index at which a well-known parameter's value starts.
 fn named(word: &str) -> Option<usize> {
     const KEYS: [&str; 12] = [
         "scoreChange",
@@ -68,8 +68,8 @@ pub(crate) fn arrow(word: &str) -> Option<String> {
     Some(format!("{left}{}>{}{right}", blank(left), blank(right)))
 }
 
-/// Returns a line of the LevelMapping with its missing arrow inserted. The arrow is inserted after the
-/// character, in place of the sign behind it, or after a new character if the first word cannot be a
+/// Returns a LevelMapping line with its missing arrow inserted. The arrow is inserted after the character,
+/// in place of the sign behind the character, or after a new character if the first word cannot be a
 /// character. Returns `None` for a single word, and if a word resembles an arrow.
 pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String> {
     let mut words: Vec<&str> =
@@ -96,8 +96,7 @@ pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String
     Some(format!("{symbol} > {}", words.join(" ")))
 }
 
-/// Returns the character of a line of the LevelMapping, if there is only one character before the line's
-/// arrow.
+/// Returns the character on a LevelMapping line, if there is only one character before the line's arrow.
 pub(crate) fn sole_character(line: &str) -> Option<char> {
     let words: Vec<&str> =
         line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();
@@ -107,7 +106,7 @@ pub(crate) fn sole_character(line: &str) -> Option<char> {
 }
 
 /// Returns a character to write instead of a word in the LevelMapping: the word's first character that no
-/// line has, or else a letter. `A` and `w` have a meaning even without a line. The returned character is
+/// line uses, or else a letter. `A` and `w` have a meaning even without a line. The returned character is
 /// added to `symbols`, so that it is proposed only once.
 pub(crate) fn symbol(word: &str, symbols: &mut BTreeSet<char>) -> char {
     let is_free = |c: &char| c.is_ascii_graphic() && !matches!(c, '#' | '>') && !symbols.contains(c);

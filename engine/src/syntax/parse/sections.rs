@@ -1,5 +1,5 @@
-//! The sections of a game file, as written and as intended. A missing, misspelt or swapped name causes one
-//! problem at its position, not one problem for every line below it.
+//! A game file's sections, as written and as intended. A missing, misspelt or swapped name causes one problem
+//! at its position, not one problem for every line below it.
 
 use super::indents;
 use super::layout::Line;
@@ -13,8 +13,8 @@ pub(crate) struct Part<'a, 'b> {
     pub(crate) section: Section,
     /// The line with the section's name or, if the name is missing, the line at whose depth the name should be.
     pub(crate) head: &'b Line<'a>,
-    /// The column beyond which the section's lines should be indented. This is the column of the section's
-    /// name, if the name is in the right position.
+    /// The column beyond which the section's lines should be indented. The value is the column of the
+    /// section's name, if the name is in the right position.
     pub(crate) indent: usize,
     pub(crate) body: Vec<&'b Line<'a>>,
 }
@@ -25,7 +25,8 @@ pub(crate) fn named(text: &str) -> Option<Section> {
     all.find(|section| section.name().eq_ignore_ascii_case(text))
 }
 
-/// Returns the sections of a file as intended. If a section's name is wrong, the lines below the name decide.
+/// Returns a file's sections as intended. If a section's name is wrong, the lines below the name decide which
+/// section it is.
 pub(crate) fn mended<'a, 'b>(
     header: &'b Line<'a>,
     lines: &'b [Line<'a>],
@@ -76,8 +77,8 @@ fn split<'a, 'b>(
     (orphans, parts)
 }
 
-/// Reports swapped sections. A section is swapped if all its recognised lines belong to another section that
-/// has no recognised lines of its own.
+/// Reports swapped sections. A section is swapped if all its recognised lines belong to a different section
+/// that has no recognised lines of its own.
 fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
     let sound: Vec<Section> = parts
         .iter()
@@ -152,7 +153,7 @@ fn missing<'a, 'b>(
 }
 
 /// Reports section names that are not indented like the other section names. The reference reads a deeper
-/// name as a line of the section above.
+/// name as a line in the section above.
 fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
     // The head of a section without a name is a line of another section.
     let is_own = |&(at, part): &(usize, &Part<'_, '_>)| {
@@ -225,8 +226,8 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
     }
 }
 
-/// Adds the repair that moves a line to just after the line that ends at `end`. A sprite becomes a type without a
-/// parent.
+/// Adds the repair that moves a line to the position after the line that ends at `end`. A sprite becomes a
+/// type without a parent.
 fn move_to(problem: Diagnostic, line: &Line<'_>, section: Section, end: usize, indent: usize) -> Diagnostic {
     let comment = line.beside.map_or(String::new(), |comment| format!("  # {comment}"));
     let text = format!("\n{}{}{comment}", " ".repeat(indent), line.text);
@@ -258,7 +259,7 @@ fn line_of(section: Section) -> &'static str {
 
 /// Recognises sections by their lines.
 struct Guess<'a> {
-    /// The names of sprites, as far as the lines reveal them.
+    /// The sprite names, as far as the lines reveal them.
     sprites: Vec<&'a str>,
 }
 
@@ -272,8 +273,8 @@ impl<'a> Guess<'a> {
         Guess { sprites }
     }
 
-    /// Returns the section that a line must belong to, or `None` if there are several possible sections or no possible
-    /// section.
+    /// Returns the only section to which a line can belong, or `None` if several sections or no section is
+    /// possible.
     fn section(&self, line: &Line<'_>) -> Option<Section> {
         let words: Vec<&str> = line.text.split_whitespace().filter(|word| !word.contains('=')).collect();
         let has_params = line.text.contains('=');

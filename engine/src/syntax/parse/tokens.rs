@@ -10,7 +10,7 @@ use pest::Parser;
 use pest::iterators::{Pair, Pairs};
 use std::iter::Peekable;
 
-/// A token of a line in any section except the LevelMapping.
+/// A token on a line in any section except the LevelMapping.
 pub(crate) enum Token {
     Word(Word),
     Arrow(Span),
@@ -44,8 +44,9 @@ impl Reader {
         tokens
     }
 
-    /// Reports a word with an `=` that is not `key=value`. There may be spaces around the `=`, a missing key
-    /// or value, or several `=`. The intended parameter is read, so that the mistake causes only one problem.
+    /// Reports a word with an `=` that is not `key=value`. The `=` may have spaces around it, the key or
+    /// value may be missing, or there may be several `=`. The intended parameter is read, so that the mistake
+    /// causes only one problem.
     fn broken_param<'a>(
         &mut self,
         line: &Line<'_>,

@@ -52,7 +52,7 @@ pub(super) fn subtract(
     }
 }
 
-/// Returns the first sprite of the last non-empty group of a tree.
+/// Returns the first sprite of the last non-empty group in a tree.
 pub(super) fn last_of(step: &Step<'_, impl Scheduler>, stype: SpriteType) -> Option<Slot> {
     let tree = step.rules.types.get(stype.index()).map_or(&[][..], |info| &info.tree);
     let groups = tree.iter().map(|&stype| step.world.group(stype).head);

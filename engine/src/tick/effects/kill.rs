@@ -30,7 +30,7 @@ pub(super) fn if_from_above(step: &mut Step<'_, impl Scheduler>, index: u16, one
     when(step, index, one, above && falling);
 }
 
-/// Executes killIfFrontal and killIfNotFrontal. Both effects kill a sprite that stands still.
+/// Executes killIfFrontal and killIfNotFrontal, both of which kill a motionless sprite.
 pub(super) fn if_frontal(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -44,8 +44,8 @@ pub(super) fn if_frontal(
     when(step, index, one, still || head_on == frontal);
 }
 
-/// Executes killIfFast and killIfSlow. They compare the speed of the moving sprite or, if both sprites move,
-/// the difference of their orientations.
+/// Executes killIfFast and killIfSlow, which compare the moving sprite's speed or, if both sprites move, the
+/// difference of their orientations.
 pub(super) fn if_speed(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, limit: f64, fast: bool) {
     let (first, second) = (step.world.overrides(one), step.world.overrides(two));
     let is_static = |slot: Slot| step.rules.types[step.world.sprite(slot).stype.index()].traits.is_static;
@@ -63,7 +63,7 @@ pub(super) fn if_speed(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot
     }
 }
 
-/// Executes killIfNotUpright. A sprite is upright at a rotation of about 3π/2, nose up.
+/// Executes killIfNotUpright. A sprite is upright, with its nose up, at a rotation of about 3π/2.
 pub(super) fn if_not_upright(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     let full = 2.0 * std::f64::consts::PI;
     let rotation = (step.world.rotation(step.rules, step.world.sprite(one)) + full) % full;

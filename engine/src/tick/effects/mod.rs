@@ -14,7 +14,8 @@ use crate::rules::effects::{Batch, Draws, Effect, Summary};
 use crate::rules::{EffectInfo, Limit, memory};
 use crate::world::{Partners, Slot, Timer, flag};
 
-/// Executes an effect on a sprite and, in pairs, its partner. Effects that lack a required partner log a message.
+/// Executes an effect on a sprite and, in pairs, its partner. Effects that lack a required partner log a
+/// message.
 pub(crate) fn execute(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -128,8 +129,7 @@ pub(crate) fn execute(
     }
 }
 
-/// Executes a batch effect on a sprite and all its partners. Returns the number of times that the execution
-/// counts.
+/// Executes a batch effect on a sprite and all its partners. Returns how many times the execution counts.
 pub(crate) fn execute_batch(
     step: &mut Step<'_, impl Scheduler>,
     info: &EffectInfo,
@@ -210,7 +210,7 @@ pub(crate) fn execute_alone(step: &mut Step<'_, impl Scheduler>, index: u16, eff
     }
 }
 
-/// Makes the draws of an effect without its consequences, so that the random stream does not shift.
+/// Makes an effect's random draws without its consequences, so that the random stream does not shift.
 #[cold]
 fn draw_only(step: &mut Step<'_, impl Scheduler>, summary: &Summary, one: Slot, two: Option<Slot>) {
     if summary.needs_partner && two.is_none() {
@@ -241,7 +241,7 @@ fn add_timer(step: &mut Step<'_, impl Scheduler>, timed: u16) {
     step.plan(Timer { due, timed });
 }
 
-/// Returns the score change of an execution, and `true` if its text is not a number.
+/// Returns an execution's score change, and `true` if its text is not a number.
 pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     if remembered & memory::KILLED != 0 {
         (info.summary.score_if_killed, info.score_faults[1])

@@ -16,8 +16,8 @@ pub(super) fn step_back(step: &mut Step<'_, impl Scheduler>, one: Slot, flush_wi
     step.place(one, rect);
 }
 
-/// Returns the rectangle flush with the partner on the side from which the sprite came, or the sprite's last rectangle
-/// if it did not come straight.
+/// Returns the rectangle flush with the partner on the side from which the sprite came, or the sprite's last
+/// rectangle if the sprite did not move in exactly one of the four directions.
 pub(super) fn pixel_perfect(step: &Step<'_, impl Scheduler>, one: Slot, two: Slot) -> Rect {
     let (sprite, other) = (step.world.sprite(one), step.world.sprite(two).rect);
     let last = step.world.last(one);
@@ -133,14 +133,15 @@ pub(super) fn attract_gaze(
     }
 }
 
-/// Makes the draw of attractGaze without its consequences.
+/// Makes the random draw of attractGaze without its consequences.
 pub(super) fn draw_gaze(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     if step.world.sprite(one).is(flag::ORIENTED) && step.world.sprite(two).is(flag::ORIENTED) {
         step.world.dice().double();
     }
 }
 
-/// Pushes the sprite: it moves in the direction of the partner's move in this tick, and turns in that direction.
+/// Pushes the sprite. The sprite moves in the direction of the partner's move in this tick, and turns in that
+/// direction.
 pub(super) fn bounce_forward(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let moved = step.last_direction(two);
     let &Overrides { orientation: facing, speed, .. } = step.world.overrides(two);
@@ -179,8 +180,7 @@ pub(super) fn pull_with_it(
     }
 }
 
-/// Moves the sprite to a random sprite of the type that the partner leads to. Kills the sprite if there is no
-/// target.
+/// Moves the sprite to a random sprite of the partner's exit type. Kills the sprite if there is no exit.
 pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let Some(exit_type) = exit_of(step, two) else { return step.message() };
     let count = step.world.group(exit_type).count;
@@ -198,7 +198,7 @@ pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot
     }
 }
 
-/// Makes the draw of teleportToExit without its consequences.
+/// Makes the random draw of teleportToExit without its consequences.
 pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
     let count = exit_of(step, two).map_or(0, |exit_type| step.world.group(exit_type).count);
     if count > 0 {
@@ -206,7 +206,7 @@ pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
     }
 }
 
-/// Returns the type to which touching a sprite leads.
+/// Returns the exit type to which touching a sprite leads.
 fn exit_of(step: &Step<'_, impl Scheduler>, two: Slot) -> Option<SpriteType> {
     let info = &step.rules.types[step.world.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));

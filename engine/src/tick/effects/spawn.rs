@@ -1,4 +1,5 @@
-//! Effects that make sprites (`spec/03` §7.4). These effects draw first, even if the outcome is certain.
+//! Effects that create sprites (`spec/03` §7.4). These effects make their random draw first, even if the
+//! outcome is certain.
 
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{SpawnIf, SpawnIfCounterSubTypes};
@@ -33,8 +34,8 @@ pub(super) fn if_amount(step: &mut Step<'_, impl Scheduler>, index: u16, one: Sl
     }
 }
 
-/// Executes spawnAbove, spawnBelow, spawnLeft and spawnRight, which spawn one block beside the partner's position, or
-/// beside its last position.
+/// Executes spawnAbove, spawnBelow, spawnLeft and spawnRight, which spawn a sprite one block beside the
+/// partner's position, or beside its last position.
 pub(super) fn beside(
     step: &mut Step<'_, impl Scheduler>,
     two: Slot,
@@ -56,7 +57,7 @@ pub(super) fn beside(
     step.add(stype, x, y);
 }
 
-/// Spawns at the partner's last position, if the partner has left that position.
+/// Spawns a sprite at the partner's last position, if the partner has left that position.
 pub(super) fn behind(step: &mut Step<'_, impl Scheduler>, two: Slot, stype: SpriteType, prob: f64) {
     if step.world.dice().double() >= prob {
         return;
@@ -95,8 +96,8 @@ pub(super) fn if_counter_subtypes(
     step.add(if met { stype } else { otherwise }, rect.x, rect.y);
 }
 
-/// Sets the type that spawn points of a type and its relatives make. Spawn points that draw from a list replace the
-/// partner's type in the list.
+/// Sets the type created by the spawn points of a type and its relatives. Spawn points that draw from a list
+/// replace the partner's type in the list.
 pub(super) fn update_type(
     step: &mut Step<'_, impl Scheduler>,
     partner: Option<Slot>,

@@ -67,7 +67,7 @@ pub(super) fn random_child(
     }
 }
 
-/// Transforms the sprite depending on the number of sprites of a type, including killed and disabled sprites.
+/// Transforms the sprite depending on a type's number of sprites, including killed and disabled sprites.
 pub(super) fn if_count(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -91,7 +91,7 @@ pub(super) fn if_count(
     }
 }
 
-/// Makes the sprite the singleton of its type. The previous singleton turns into a sprite of a different
+/// Turns the sprite into its type's singleton. The previous singleton turns into a sprite of a different
 /// type.
 pub(super) fn to_singleton(
     step: &mut Step<'_, impl Scheduler>,
@@ -124,7 +124,7 @@ pub(super) fn to_singleton(
     }
 }
 
-/// Does the same as [`hand_over`], but always passes on the orientation, and never the health.
+/// Passes properties on like [`hand_over`], but always includes the orientation, and never the health.
 fn inherit(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     if step.world.sprite(old).is(flag::ORIENTED) && step.world.sprite(new).is(flag::ORIENTED) {
         step.world.face(new, step.world.overrides(old).orientation);
@@ -132,7 +132,7 @@ fn inherit(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     pass_on(step, old, new);
 }
 
-/// Passes the properties of the old sprite on to the new sprite, and removes the old sprite.
+/// Passes the old sprite's properties on to the new sprite, and removes the old sprite.
 fn hand_over(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
     let (before, after) = (*step.world.overrides(old), *step.world.overrides(new));
     let oriented = step.world.sprite(new).is(flag::ORIENTED) && step.world.sprite(old).is(flag::ORIENTED);

@@ -1,4 +1,4 @@
-//! Characters that move at random or pursue other sprites (`spec/02` §7).
+//! Characters that move at random or chase other sprites (`spec/02` §7).
 
 use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::class::{ClassFamily, SpriteClass};
@@ -8,11 +8,11 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{NO_HEADING, NONE, Slot, Sprite, Target, World, flag};
 use smallvec::SmallVec;
 
-/// The directions to choose from, as indices into [`Direction::BASE`]. A direction appears once per target that it
-/// suits.
+/// The directions to choose from, as indices into [`Direction::BASE`]. A direction appears once per target
+/// that favours it.
 type Options = SmallVec<[u8; 16]>;
 
-/// Updates a character: makes it drift, then moves it in the chosen direction.
+/// Updates a character: applies its drift, then moves it in the chosen direction.
 #[inline(always)]
 pub(super) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     let sprite = step.world.sprite(slot);
@@ -36,7 +36,7 @@ pub(super) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: Spr
     physics::active(step, slot, direction, speed);
 }
 
-/// Chooses the direction of a character that has to wait.
+/// Chooses a direction for a waiting character.
 #[inline(always)]
 pub(crate) fn choose(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     if wanders(class) {
@@ -70,12 +70,12 @@ fn pursue(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) -
     }
 }
 
-/// Returns a random direction, which is kept for `cons` more updates.
+/// Returns a random direction, to be used for `cons` more updates.
 fn random_move(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> Direction {
     towards(random_heading(step, slot, cons))
 }
 
-/// Returns [`random_move`] as an index into [`Direction::BASE`], or [`NO_HEADING`].
+/// Draws a direction like [`random_move`], but returns an index into [`Direction::BASE`], or [`NO_HEADING`].
 #[inline]
 fn random_heading(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> u32 {
     let mut chance = step.world.chance();
@@ -118,7 +118,7 @@ fn chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     chase_visible(step, slot, |_, _| true)
 }
 
-/// Chooses the direction of a LOSChaser, which sees only along the last direction that it drew, even through walls.
+/// Chooses the direction of a LOSChaser, which sees only along the last drawn direction, even through walls.
 fn los_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let ahead = heading(step, slot);
     chase_visible(step, slot, |own, target| match ahead {
@@ -188,7 +188,7 @@ fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &
     }
 }
 
-/// The targets of a sprite: the sprites of one type, followed by the sprites of other types.
+/// A sprite's targets: the sprites of one type, followed by the sprites of other types.
 #[derive(Clone, Copy)]
 struct Targets<'a> {
     first: Option<SpriteType>,
@@ -230,7 +230,7 @@ fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) ->
     targets
 }
 
-/// The first target at the minimum distance, and whether there are more targets at that distance.
+/// The first target at the minimum distance, and whether the distance is shared by further targets.
 struct Closest {
     distance: f64,
     first: Rect,
@@ -278,8 +278,8 @@ fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -
     way
 }
 
-/// Returns the targets of the AlternateChaser family: the sprites of the type, followed by the sprites of its
-/// whole tree, which includes the type itself. Sprites of a leaf type therefore appear twice.
+/// Returns the targets for the AlternateChaser family: the sprites of the type, followed by the sprites of
+/// its whole tree, which includes the type itself. Sprites of a leaf type therefore appear twice.
 fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Targets<'a> {
     let rules = step.rules;
     let stypes = &rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
@@ -301,8 +301,8 @@ fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Tar
     targets
 }
 
-/// Chooses the direction of an AlternateChaser: a step towards one of the closest targets. It never flees, whatever its
-/// parameters say.
+/// Chooses the direction of an AlternateChaser: a step towards one of the closest targets. An AlternateChaser
+/// never flees, regardless of its parameters.
 fn alternate_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let targets = alternate_targets(step, slot);
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
@@ -311,8 +311,8 @@ fn alternate_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Directio
     drawn(step, &options).unwrap_or_else(|| Direction::BASE[step.world.dice().below(4) as usize])
 }
 
-/// Chooses the direction of a RandomAltChaser or RandomPathAltChaser, which occasionally takes a random step. The first
-/// draw is always made.
+/// Chooses the direction of a RandomAltChaser or RandomPathAltChaser, which occasionally takes a random step.
+/// The first random draw is always made.
 fn or_random<S: Scheduler>(
     step: &mut Step<'_, S>,
     slot: Slot,
@@ -326,7 +326,8 @@ fn or_random<S: Scheduler>(
     }
 }
 
-/// Chooses the direction of a PathAltChaser, which follows paths to one target until it stands on that target.
+/// Chooses the direction of a PathAltChaser, which follows paths to one target until it reaches that target's
+/// position.
 fn path_alt_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let rules = step.rules;
     let own = step.world.sprite(slot).rect;

@@ -25,7 +25,8 @@ pub(super) fn flicker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     sprite.count = sprite.count.wrapping_add(1);
 }
 
-/// Updates a flicker that spreads in its second update, which always makes four draws.
+/// Updates a flicker that spreads in its second update. The spreading always makes four random
+/// draws.
 pub(super) fn spreader(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     flicker(step, slot);
     let (sprite, last) = (*step.world.sprite(slot), step.world.last(slot));

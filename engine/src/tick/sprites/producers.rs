@@ -1,4 +1,4 @@
-//! Sprites that make sprites (`spec/02` §8).
+//! Sprites that create sprites (`spec/02` §8).
 
 use super::base;
 use crate::numbers::geometry::Direction;
@@ -7,14 +7,14 @@ use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Slot, flag};
 
-/// Updates a SpawnPoint or Bomber. Makes one draw per update, and makes a sprite if the tick and the draw
-/// allow it.
+/// Updates a SpawnPoint or Bomber. Makes one random draw per update, and creates a sprite if the tick and
+/// the draw allow it.
 pub(super) fn spawn_point(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let stype = step.world.overrides(slot).spawns;
     produce(step, slot, &[stype]);
 }
 
-/// Updates a SpawnPointMultiSprite, which makes one sprite of each type.
+/// Updates a SpawnPointMultiSprite, which creates one sprite of each type.
 pub(super) fn multi_sprite(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let stypes = &step.rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
     produce(step, slot, stypes);
@@ -48,7 +48,7 @@ fn produce(step: &mut Step<'_, impl Scheduler>, slot: Slot, stypes: &[SpriteType
     }
 }
 
-/// Moves the sprite at random, then acts as a spawn point at the new position.
+/// Moves the sprite at random, then updates it as a spawn point at the new position.
 pub(super) fn random_bomber(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let direction = Direction::BASE[step.world.dice().below(4) as usize];
     let speed = step.world.overrides(slot).speed;
@@ -56,7 +56,7 @@ pub(super) fn random_bomber(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     spawn_point(step, slot);
 }
 
-/// Updates a BomberRandomMissile, which draws in every update the type that it would make.
+/// Updates a BomberRandomMissile, which draws the type of its next missile in every update.
 pub(super) fn bomber_random_missile(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let count = step.rules.types[step.world.sprite(slot).stype.index()].traits.stypes.len();
     if count == 0 {

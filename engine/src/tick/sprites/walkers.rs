@@ -28,8 +28,8 @@ pub(super) fn walker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     step.world.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
-/// Updates a WalkerJumper, which jumps occasionally. The reference uses a generator other than the game's for this
-/// decision.
+/// Updates a WalkerJumper, which jumps occasionally. For this decision, the reference does not use the game's
+/// random number generator.
 pub(super) fn walker_jumper(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);
     let sprite = *step.world.sprite(slot);
@@ -43,7 +43,7 @@ pub(super) fn walker_jumper(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     step.world.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
-/// Makes a sprite jump upwards and leave the ground at once.
+/// Makes a sprite jump upwards and leave the ground immediately.
 pub(crate) fn jump(step: &mut Step<'_, impl Scheduler>, slot: Slot, strength: f64) {
     let overrides = step.world.edit_overrides(slot);
     overrides.orientation.y = 0.0;

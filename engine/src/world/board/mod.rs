@@ -1,4 +1,4 @@
-//! The board: the cells that sprites cover, and the sprites that overlap.
+//! The board: the cells that sprites cover, and overlapping sprites.
 
 pub(crate) mod occupancy;
 pub(crate) mod overlap;

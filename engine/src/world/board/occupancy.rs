@@ -1,7 +1,7 @@
-//! The spatial index. Each cell of the board, and of a ring around it, has a chain of the sprites whose
-//! top-left corner is in the cell. Sprites of types without rules are left out. The index is updated as
-//! sprites move, so the cost of finding the sprites that overlap a rectangle depends only on the sprites
-//! nearby.
+//! The spatial index. Each board cell, and each cell in a ring around the board, has a chain of the sprites
+//! whose top-left corner is in the cell. Sprites of types without rules are omitted. The index is updated as
+//! sprites move, so the cost of finding the sprites that overlap a rectangle depends only on the number of
+//! nearby sprites.
 
 use super::placement::Located;
 use super::span::Span;
@@ -9,7 +9,7 @@ use crate::numbers::geometry::Rect;
 use crate::rules::SpriteType;
 use crate::world::{Models, NONE, Slot, Sprite, TypeBits, Watcher, World, flag};
 
-/// The maximum number of cells of a sprite that are stored individually. A larger sprite counts as being everywhere.
+/// The maximum number of a sprite's cells to store individually. A larger sprite counts as being everywhere.
 const MAX_COVERED: i32 = 100;
 
 impl World {
@@ -26,7 +26,8 @@ impl World {
         self.enter_located(models, slot, to, watcher);
     }
 
-    /// Records all sprites again, from scratch, and notifies the watcher of them. Cost: O(sprites + cells).
+    /// Records all sprites again, from scratch, and notifies the watcher of all sprites. Cost: O(sprites +
+    /// cells).
     pub(crate) fn reoccupy(&mut self, models: &Models, watcher: &mut impl Watcher) {
         self.cells.fill(NONE);
         self.masks.fill(0);
@@ -102,8 +103,8 @@ impl World {
         self.left_behind += u32::from(flags & flag::BIG != 0);
     }
 
-    /// Changes the rectangle of a sprite, which then counts as moved in this tick. The sprite keeps its size,
-    /// and is already located.
+    /// Changes a sprite's rectangle. The sprite then counts as moved in this tick. The sprite must keep its
+    /// size, and must already be located.
     #[inline(always)]
     pub(crate) fn relocate_to(
         &mut self,
@@ -126,7 +127,7 @@ impl World {
         self.enter_other(models, slot, from, to, watcher);
     }
 
-    /// Does the same as [`World::relocate_to`], for a sprite whose size may change.
+    /// Relocates a sprite like [`World::relocate_to`], but allows a change of size.
     #[inline(always)]
     pub(crate) fn relocate(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
         let before = self.own(slot).rect;
@@ -230,7 +231,7 @@ impl World {
         }
     }
 
-    /// Does the rest of [`World::shift`], for moves along both axes.
+    /// Completes [`World::shift`] for moves along both axes.
     #[inline(never)]
     fn shift_across(
         &mut self,
@@ -253,7 +254,7 @@ impl World {
         }
     }
 
-    /// Records the new cells of a large sprite.
+    /// Records a large sprite's new cells.
     #[inline(never)]
     fn shift_big(&mut self, models: &Models, slot: Slot, from: Located, to: Located) {
         self.left_behind += u32::from(from.flags & flag::BIG != 0);
@@ -300,8 +301,8 @@ impl World {
         self.crowds.get(cell).copied().unwrap_or(0)
     }
 
-    /// Records that several sprites with a bit cover a cell. Returns the bit, because the sprite shares the cell with
-    /// its own kind.
+    /// Records that several sprites with a bit cover a cell. Returns the bit, because the sprite shares the
+    /// cell with sprites of its own kind.
     #[inline(never)]
     fn crowd(&mut self, own: u64, cell: usize) -> u64 {
         if self.crowds.is_empty() {
@@ -320,7 +321,7 @@ impl World {
         own
     }
 
-    /// Returns the number of sprites with the bit that cover a cell, but no more than two.
+    /// Returns the number of sprites with the bit that cover a cell, counting at most two.
     #[inline(never)]
     fn count_in(&self, models: &Models, cell: usize, own: u64) -> u32 {
         let stride = (self.columns + 2) as usize;
@@ -353,7 +354,8 @@ impl World {
         self.covered = covered;
     }
 
-    /// Recomputes the cells that large sprites cover, when they have left enough cells to make it worthwhile.
+    /// Recomputes the cells that large sprites cover, once the sprites have left enough cells to justify the
+    /// cost.
     #[inline]
     pub(crate) fn tidy_covered(&mut self, models: &Models) {
         if self.left_behind as usize > 4 * self.big as usize + self.cells.len() / 16 {
@@ -464,8 +466,8 @@ impl World {
         Span::new(cell, stride, flags & flag::RIGHT != 0, flags & flag::BELOW != 0)
     }
 
-    /// Calls `visit` with each cell that a sprite covers. Returns `false`, without any call, if there are more than
-    /// [`MAX_COVERED`] cells.
+    /// Calls `visit` with each cell that a sprite covers. Returns `false`, without any call, if the sprite
+    /// covers more than [`MAX_COVERED`] cells.
     pub(crate) fn covered_by(&self, sprite: &Sprite, mut visit: impl FnMut(usize)) -> bool {
         let stride = (self.columns + 2) as usize;
         let cell = self.cell_of(sprite);

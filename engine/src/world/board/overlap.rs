@@ -1,4 +1,4 @@
-//! Overlap queries, which are answered from the cells that two sprites share (`occupancy.rs`).
+//! Overlap queries, based on the cells that two sprites share (`occupancy.rs`).
 
 use super::span::Span;
 use crate::numbers::geometry::Rect;
@@ -6,7 +6,7 @@ use crate::rules::{NOT_IN_TREE, TypeInfo};
 use crate::world::{NONE, Slot, Sprite, World, flag};
 use smallvec::SmallVec;
 
-/// One side of a pass: the types of a tree, and their bits.
+/// One side of a pass: the types in a tree, and their bits.
 #[derive(Clone, Copy)]
 pub(crate) struct Side<'a> {
     pub(crate) family: &'a TypeInfo,
@@ -28,7 +28,7 @@ impl Hit {
     }
 }
 
-/// The sprites that overlap a sprite. There are seldom more than a few.
+/// The sprites that overlap a sprite, usually only a few.
 pub(crate) type Hits = SmallVec<[Hit; 8]>;
 /// The slots of the hits.
 pub(crate) type Partners = SmallVec<[Slot; 8]>;
@@ -53,20 +53,20 @@ impl World {
         }
     }
 
-    /// Returns `true` if types with any of these bits have sprites that are larger than a cell.
+    /// Returns `true` if types with any of these bits have sprites larger than a cell.
     #[inline(always)]
     pub(crate) fn is_big(&self, bits: u64) -> bool {
         self.big_bits & bits != 0
     }
 
-    /// Returns the hit for a sprite of a side.
+    /// Returns the hit for a sprite on a side.
     pub(crate) fn hit(&self, side: Side<'_>, slot: Slot) -> Hit {
         let sprite = self.sprite(slot);
         Hit::new(side.family.rank[sprite.stype.index()], sprite.id, slot)
     }
 
-    /// Returns `true` if another sprite of a side may overlap `sprite`, whose own bit is `own`, because they share a
-    /// cell.
+    /// Returns `true` if another sprite on a side may overlap `sprite`, whose own bit is `own`, because they
+    /// share a cell.
     #[inline(always)]
     pub(crate) fn may_overlap(&self, own: u64, side: Side<'_>, sprite: &Sprite) -> bool {
         let cell = self.cell_of(sprite);
@@ -80,7 +80,7 @@ impl World {
         self.may_overlap_loosely(own, side, cell, lies)
     }
 
-    /// Returns `true` if a sprite of a side may overlap `sprite`, or lie up to `below` pixels under it.
+    /// Returns `true` if a sprite on a side may overlap `sprite`, or lie up to `below` pixels under it.
     #[inline]
     pub(crate) fn may_stand_on(&self, side: Side<'_>, sprite: &Sprite, below: i32) -> bool {
         if self.big_bits & side.bits != 0 || sprite.is(flag::BIG | flag::OFF) || below > self.block {
@@ -93,7 +93,7 @@ impl World {
         rows.iter().any(|&cell| (self.masks[cell] | self.masks[cell + width]) & side.bits != 0)
     }
 
-    /// Does the rest of [`World::may_overlap`], for sprites in several cells and for sides with large sprites.
+    /// Completes [`World::may_overlap`] for sprites in several cells and for sides with large sprites.
     fn may_overlap_loosely(&self, own: u64, side: Side<'_>, cell: usize, lies: u32) -> bool {
         if lies & flag::BIG != 0 {
             return true;
@@ -113,15 +113,16 @@ impl World {
         bits & side.bits != 0 || self.span_is_covered(self.span(cell, lies), side)
     }
 
-    /// Returns `true` if a large sprite of a side may reach into the cells.
+    /// Returns `true` if a large sprite on a side may reach into the cells.
     #[inline(always)]
     fn span_is_covered(&self, span: Span, side: Side<'_>) -> bool {
         self.big_bits & side.bits != 0
             && span.cells().fold(self.vast, |bits, cell| bits | self.covered[cell]) & side.bits != 0
     }
 
-    /// Collects the sprites of a side that overlap a sprite, without the sprite itself, in no particular order. Sprites
-    /// whose ID is `above` or higher are excluded. Returns the number of examined cells and sprites.
+    /// Collects the sprites on a side that overlap a sprite, excluding the sprite itself, in no particular
+    /// order. Sprites with an ID of `above` or higher are excluded. Returns the number of examined cells and
+    /// sprites.
     #[inline(always)]
     pub(crate) fn overlapping(
         &self,
@@ -146,7 +147,7 @@ impl World {
         self.overlapping_around(reach, side, slot, above, hits)
     }
 
-    /// Does the same as [`World::overlapping`], for sprites in several cells.
+    /// Collects overlapping sprites like [`World::overlapping`], for sprites in several cells.
     fn overlapping_around(
         &self,
         reach: i32,
@@ -173,8 +174,8 @@ impl World {
         looked
     }
 
-    /// Collects the sprites of a side that overlap a rectangle around a sprite, without the sprite itself. Returns the
-    /// number of examined cells and sprites.
+    /// Collects the sprites on a side that overlap a rectangle around a sprite, excluding the sprite itself.
+    /// Returns the number of examined cells and sprites.
     pub(crate) fn overlapping_rect(
         &self,
         reach: i32,
@@ -228,7 +229,8 @@ impl World {
         self.overlapping_among(cell, side, one, above, hits)
     }
 
-    /// Does the same as [`World::overlapping`], within one cell that contains a sprite of the side.
+    /// Collects overlapping sprites like [`World::overlapping`], within one cell that contains a sprite on
+    /// the side.
     #[inline(never)]
     fn overlapping_among(
         &self,

@@ -1,9 +1,10 @@
-//! The cells of the board, counted with the ring around it, and the cell that contains a rectangle's corner.
+//! The board's cells, counted with the surrounding ring, and the cell that contains a rectangle's corner.
 
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World, flag};
 
-/// The cell of a sprite's top-left corner, and how the sprite lies in the cell: the flags of [`flag::PLACEMENT`].
+/// The cell of a sprite's top-left corner, and how the sprite lies in the cell: the flags of
+/// [`flag::PLACEMENT`].
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Located {
     pub(crate) column: i16,
@@ -35,13 +36,13 @@ impl World {
         Rect { x: 0, y: 0, w: self.columns * self.block, h: self.rows * self.block }
     }
 
-    /// Returns the number of cells of the board, including its ring.
+    /// Returns the number of cells on the board, including its ring.
     pub(crate) fn cell_count(columns: i32, rows: i32) -> usize {
         ((columns + 2) * (rows + 2)) as usize
     }
 
-    /// Locates a rectangle. `column` and `row` are a guess, which saves a division, because most moves end in
-    /// the same cell or next to it.
+    /// Locates a rectangle. `column` and `row` are a guess that avoids a division, because most moves end in
+    /// the same cell or a neighbouring cell.
     #[inline(always)]
     pub(crate) fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
         let block = self.block;
@@ -64,8 +65,8 @@ impl World {
         Located { column, row, flags: flags & flag::PLACEMENT }
     }
 
-    /// Locates a rectangle that was `old` before. For a sprite on the board that is no larger than a cell, only the
-    /// axes along which it moved are computed.
+    /// Locates a rectangle that was previously `old`. For a sprite on the board that is no larger than a
+    /// cell, only the axes along which it moved are computed.
     #[inline(always)]
     fn locate_moved(&self, from: Located, old: Rect, rect: Rect) -> Located {
         if from.flags & (flag::BIG | flag::OFF) != 0 || (old.w, old.h) != (rect.w, rect.h) {
@@ -134,9 +135,9 @@ fn bit(on: bool, bit: u32) -> u32 {
     if on { bit } else { 0 }
 }
 
-/// Returns, along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next
-/// to `guess`. Also returns `true` if a sprite that starts at the pixel, and is no larger than a cell,
-/// reaches into the next cell.
+/// Returns, along one axis, the cell of a pixel on the board, counted with the ring, if the cell is `guess`
+/// or next to `guess`. Also returns `true` if a sprite that starts at the pixel, and is no larger than a
+/// cell, reaches into the next cell.
 #[inline(always)]
 fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i16, bool)> {
     let mut cell = i32::from(guess) - 1;

@@ -1,12 +1,12 @@
-//! The few cells covered by a sprite that is no larger than a cell.
+//! The few cells covered by a sprite no larger than a cell.
 
-/// Up to four cells that a small sprite covers, within a square of the board that is [`SPAN`] cells wide.
+/// Up to four cells covered by a small sprite, within a square on the board that is [`SPAN`] cells wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
     /// The cell at the square's corner.
     cell: usize,
     stride: usize,
-    /// One bit for each cell of the square, row by row.
+    /// One bit for each cell in the square, row by row.
     bits: u32,
 }
 
@@ -14,7 +14,8 @@ pub(crate) struct Span {
 const SPAN: u32 = 3;
 
 impl Span {
-    /// Returns the cell of a sprite's corner, and the cells to the right and below that the sprite reaches into.
+    /// Returns the cell of a sprite's corner, and the cells to the right and below into which the sprite
+    /// reaches.
     #[inline(always)]
     pub(crate) fn new(cell: usize, stride: usize, right: bool, below: bool) -> Span {
         Span { cell, stride, bits: (1 | u32::from(right) << 1) * (1 | u32::from(below) << SPAN) }
@@ -33,8 +34,8 @@ impl Span {
         })
     }
 
-    /// Returns the cells of this span that are not in the other span, and vice versa. The other span's corner is
-    /// `columns` and `rows` away.
+    /// Returns two results: the cells of this span that are not in the other span, and the cells of the other
+    /// span that are not in this span. The other span's corner is `columns` and `rows` away.
     #[inline(always)]
     pub(crate) fn apart(self, other: Span, columns: i32, rows: i32) -> (Span, Span) {
         if !(-1..2).contains(&columns) || !(-1..2).contains(&rows) {
@@ -48,12 +49,12 @@ impl Span {
         (Span { cell, bits: mine & !others, ..self }, Span { cell, bits: others & !mine, ..self })
     }
 
-    /// Returns the number of columns by which a span made by [`Span::new`] extends to the right.
+    /// Returns the number of columns by which a span created by [`Span::new`] extends to the right.
     pub(crate) fn right(self) -> i32 {
         i32::from(self.bits & 0b0010 != 0)
     }
 
-    /// Returns the number of rows by which a span made by [`Span::new`] extends down.
+    /// Returns the number of rows by which a span created by [`Span::new`] extends downwards.
     pub(crate) fn below(self) -> i32 {
         i32::from(self.bits & 1 << SPAN != 0)
     }

@@ -1,8 +1,8 @@
-//! Hash contributions: the terms that sprites add to the hash of their state, and their growth while sprites
-//! fly.
+//! Hash contributions: the terms that sprites add to their state's hash, and the growth of these terms while
+//! sprites fly.
 //!
-//! The hash of a state is a sum over its sprites. Each sprite adds a number times the sprite's own keys
-//! (`hash.rs`). The number is linear in the position of the sprite and the tick of its last move. Sprites in
+//! A state's hash is a sum over its sprites. Each sprite adds a number times the sprite's own keys
+//! (`hash.rs`). The number is linear in the sprite's position and the tick of its last move. Sprites in
 //! flight therefore need no update. All sprites that move in the same ticks form one linear hash class, and
 //! the sum grows by the class's growth after each of their moves.
 
@@ -13,7 +13,7 @@ use crate::numbers::geometry::Rect;
 use crate::world::sprites::moved::{Resized, last_of};
 use crate::world::{Overrides, Slot, Sprite, World, flag};
 
-/// The tables with data that a sprite does not contain itself.
+/// The tables with the data that sprites do not contain themselves.
 #[derive(Clone, Copy)]
 pub(crate) struct SideTables<'a> {
     pub(crate) overrides: &'a [Overrides],
@@ -26,7 +26,7 @@ impl World {
     }
 }
 
-/// Returns the hash of the rarely changed values of a sprite.
+/// Returns the hash of a sprite's rarely changed values.
 ///
 /// The last rectangle is only included for sprites that are not updated. For all other sprites, the current
 /// rectangle replaces the last rectangle before the next tick reads it.
@@ -53,12 +53,12 @@ fn hash_of(sprite: &Sprite, overrides: &Overrides, last: Option<&Rect>) -> u64 {
     fold(low ^ SECRET[0], high ^ SECRET[1])
 }
 
-/// The hash contribution of a sprite when the hash was last settled: `word`, plus its growth since then, times the
+/// A sprite's hash contribution when the hash was last settled: `word`, plus its growth since then, times the
 /// sprite's own keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Contribution {
-    /// The position and everything else that changes with movement, as one number. For a sprite in flight,
-    /// its value before the first move from tick 0 on. The number is 0 if the slot is free.
+    /// The position and all other values that change with movement, as one number. For a sprite in flight,
+    /// the number is the value before the first move from tick 0 on. The number is 0 if the slot is free.
     pub(crate) word: u64,
     /// The growth of the word during flight.
     pub(crate) motion: FlightMotion,
@@ -68,7 +68,8 @@ pub(crate) struct Contribution {
 
 bytes_of_fields! { Contribution { word motion still } }
 
-/// The weights of a pixel down and of a later tick in [`Contribution::word`]. A pixel to the right has weight 1.
+/// The weights of a pixel down and of a later tick in [`Contribution::word`]. A pixel to the right has the
+/// weight 1.
 const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
 const LATER: u64 = 0xD1B5_4A32_D192_ED03;
 
@@ -76,8 +77,8 @@ fn point(x: i32, y: i32) -> u64 {
     (x as u64).wrapping_add((y as u64).wrapping_mul(DOWN))
 }
 
-/// The motion of a sprite in flight as one number, which contains the displacement in pixels right and down,
-/// the period, the phase, and the `AGES` bit. The number is 0 for all other sprites.
+/// The motion of a sprite in flight as one number, which contains the displacement in pixels to the right and
+/// down, the period, the phase, and the `AGES` bit. The number is 0 for all other sprites.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct FlightMotion(pub(crate) u64);
 
@@ -85,7 +86,7 @@ bytes_of_wrapper! { FlightMotion }
 
 impl FlightMotion {
     const NONE: FlightMotion = FlightMotion(0);
-    /// The bit that is set if the tick of the last move matters.
+    /// A bit set if the tick of the last move matters.
     const AGES: u64 = 1 << 63;
 
     fn of(sprite: &Sprite, ages: bool) -> FlightMotion {
@@ -109,7 +110,7 @@ impl FlightMotion {
         ((self.0 & !FlightMotion::AGES) >> 48) as u16
     }
 
-    /// Returns the growth of the word per move.
+    /// Returns the word's growth per move.
     fn growth(self) -> u64 {
         let by = point(i32::from(self.0 as i16), i32::from((self.0 >> 16) as i16));
         let later =
@@ -118,13 +119,14 @@ impl FlightMotion {
     }
 }
 
-/// Returns `true` if the tick of a sprite's last move matters, as its age or for a cooldown that may delay the sprite.
+/// Returns `true` if the tick of a sprite's last move matters, either as the sprite's age or for a cooldown
+/// that may delay the sprite.
 #[inline(always)]
 fn ages(sprite: &Sprite) -> bool {
     sprite.flags & (flag::NO_COOLDOWN | flag::FROZEN) != flag::NO_COOLDOWN
 }
 
-/// Returns the position of a sprite and everything else that changes with movement, as one number.
+/// Returns a sprite's position and all other values that change with movement, as one number.
 #[inline(always)]
 fn word(sprite: &Sprite) -> u64 {
     let look = u64::from(sprite.stype.0) << 48 | u64::from(sprite.heading()) << 32 | u64::from(sprite.flags);
@@ -143,7 +145,7 @@ fn moves(tick: i32, period: u16, phase: u16) -> u64 {
 }
 
 impl Contribution {
-    /// Returns the hash contribution of a sprite, given its previous contribution.
+    /// Returns a sprite's hash contribution, given its previous contribution.
     #[inline(always)]
     pub(crate) fn renewed(self, sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> Contribution {
         if sprite.flags & (flag::FREE | flag::CHANGED) == 0 {
@@ -155,15 +157,15 @@ impl Contribution {
         }
     }
 
-    /// Returns `true` if [`Contribution::follow`] suffices, which is the most frequent case. The sprite
-    /// neither was nor is in flight, and nothing changed except what changes with movement.
+    /// Returns `true` if [`Contribution::follow`] suffices (the most frequent case). The sprite neither was
+    /// nor is in flight, and no values have changed except those that change with movement.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
         let on_foot = self.motion == FlightMotion::NONE && !sprite.flies();
         on_foot && sprite.flags & (flag::FREE | flag::CHANGED) == 0
     }
 
-    /// Does the same as [`Contribution::renewed`], in place. Returns the growth of the sum.
+    /// Renews the contribution in place, like [`Contribution::renewed`]. Returns the sum's growth.
     #[inline(always)]
     pub(crate) fn follow(&mut self, sprite: &Sprite) -> Sum {
         let word = word(sprite);
@@ -171,13 +173,13 @@ impl Contribution {
         times(self.keys(), by)
     }
 
-    /// Returns the hash contribution of a sprite, computed from scratch.
+    /// Returns a sprite's hash contribution, computed from scratch.
     #[inline(never)]
     pub(crate) fn fresh(sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> Contribution {
         Contribution::of(sprite, still_hash(sprite, slot, tables))
     }
 
-    /// Returns the hash contribution of a sprite, given its [`still_hash`].
+    /// Returns a sprite's hash contribution, given its [`still_hash`].
     #[inline(always)]
     fn of(sprite: &Sprite, still: u64) -> Contribution {
         let word = word(sprite);
@@ -280,7 +282,7 @@ fn update_classes(old: Contribution, new: Contribution, hash_classes: &mut Vec<H
     }
 }
 
-/// Returns the index of the linear hash class for a motion, and adds the class if it does not exist yet.
+/// Returns the index of a motion's linear hash class, and adds the class if it does not exist yet.
 fn class_of(motion: FlightMotion, hash_classes: &mut Vec<HashClass>) -> usize {
     let (period, phase) = (motion.period(), motion.phase());
     hash_classes.iter().position(|class| (class.period, class.phase) == (period, phase)).unwrap_or_else(

@@ -1,9 +1,9 @@
 //! The two hashes of a state, 128 bits each (`docs/lab/decisions/0004-state-as-flat-data.md`).
 //!
-//! [`World::state_hash`] covers everything that can influence the future, including the random number
-//! generator and the tick. The state hash is a sum over the sprites, which `step` updates as they change,
-//! plus a hash of the few other numbers. [`State::search_key`](crate::State::search_key) covers only the part
-//! that can affect later steps, for transposition tables (`search_key.rs`).
+//! [`World::state_hash`] covers all data that can influence the future, including the random number generator
+//! and the tick. The state hash consists of a sum over the sprites, which `step` updates as they change, and
+//! a hash of the few other numbers. [`State::search_key`](crate::State::search_key) covers only the part that
+//! can affect later steps, for transposition tables (`search_key.rs`).
 
 pub(crate) mod contribution;
 
@@ -14,7 +14,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::fmt;
 
-/// A short list that is sorted before it is hashed.
+/// A short list, to be sorted before hashing.
 type Few<T> = SmallVec<[T; 4]>;
 
 macro_rules! hash_type {
@@ -55,8 +55,8 @@ macro_rules! hash_type {
 }
 
 hash_type! {
-    /// A hash of a state. Equal states have equal hashes. Values that only matter for images or bookkeeping are left
-    /// out.
+    /// A state's hash. Equal states have equal hashes. Values that only matter for images or bookkeeping are
+    /// omitted.
     StateHash
 }
 hash_type! {
@@ -65,8 +65,8 @@ hash_type! {
     SearchKey
 }
 
-/// A hasher that absorbs 64-bit words into two accumulators of folded 128-bit products (the construction of wyhash,
-/// with two secrets).
+/// A hasher that absorbs 64-bit words into two accumulators of folded 128-bit products (the wyhash
+/// construction, with two secrets).
 pub(crate) struct Mixer {
     low: u64,
     high: u64,
@@ -101,13 +101,13 @@ pub(crate) fn two(a: i32, b: i32) -> u64 {
     u64::from(a as u32) << 32 | u64::from(b as u32)
 }
 
-/// Returns the bits of a double. NaN has different bits on different machines, so a fixed NaN replaces it.
+/// Returns a double's bits. NaN has different bits on different machines, so a fixed NaN replaces it.
 pub(crate) fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
 
-/// A sum of products of words and keys (after NH of Black and others, "UMAC: fast and secure message authentication",
-/// 1999), with half the multiplications of [`Mixer`]. The result has to be mixed once more.
+/// A sum of products of words and keys (after NH by Black and others, "UMAC: fast and secure message
+/// authentication", 1999), with half the multiplications of [`Mixer`]. The result has to be mixed once more.
 #[derive(Clone, Copy)]
 pub(crate) struct Products(u128);
 
@@ -125,8 +125,8 @@ impl Products {
     }
 }
 
-/// The keys of the products, by position. They are arbitrary constants: the fractions of the square roots of
-/// the first primes.
+/// The keys for the products, by position. The keys are arbitrary constants: the fractions of the square
+/// roots of the first primes.
 pub(crate) const KEYS: [[u64; 2]; 4] = [
     [0x6A09_E667_F3BC_C908, 0xBB67_AE85_84CA_A73B],
     [0x3C6E_F372_FE94_F82B, 0xA54F_F53A_5F1D_36F1],
@@ -135,7 +135,8 @@ pub(crate) const KEYS: [[u64; 2]; 4] = [
 ];
 
 impl World {
-    /// Returns the hash of everything that can influence the future. Cost: O(sprites changed since [`World::settle_hash`]).
+    /// Returns the hash of all data that can influence the future. Cost: O(sprites changed since
+    /// [`World::settle_hash`]).
     pub(crate) fn state_hash(&self) -> StateHash {
         let mut sum = self.hash_classes.iter().fold(self.sum, |sum, class| plus(sum, class.at(self.tick)));
         for &slot in &self.dirty {
@@ -175,8 +176,8 @@ impl World {
         }
     }
 
-    /// Returns the slots of the sprites that have changed since [`World::settle_hash`]. Moves of sprites in flight are
-    /// not recorded.
+    /// Returns the slots of the sprites that have changed since [`World::settle_hash`]. Moves by sprites in
+    /// flight are not recorded.
     #[inline(always)]
     pub(crate) fn dirty(&self) -> &[super::Slot] {
         &self.dirty
@@ -193,7 +194,7 @@ impl World {
         self.with_globals(contributions.fold([0; 2], plus), self.hash_memory())
     }
 
-    /// Hashes the memory of the effects, and the types that have ever had a sprite.
+    /// Hashes the effects' memory, and the types that have ever had a sprite.
     fn hash_memory(&self) -> u64 {
         let mut mixer = Mixer::new(0x4D65_6D6F);
         for bytes in [&self.memory, &self.templates] {

@@ -1,4 +1,4 @@
-//! Sprites in flight: sprites whose position is stored as a function of the tick. They move by the same
+//! Sprites in flight, whose position is stored as a function of the tick. Sprites in flight move by the same
 //! displacement every `period` ticks. `rect`, `last_corner` and `moved_at` belong to an earlier move.
 
 use crate::numbers::geometry::Rect;
@@ -28,15 +28,15 @@ pub(crate) fn settle_in(sprite: &mut Sprite, tick: i32) {
 }
 
 impl World {
-    /// Advances a sprite in flight to its last move up to this tick, without changing the cells in which it is
-    /// recorded. Returns its rectangle, and the displacement per move.
+    /// Advances a sprite in flight to its last move up to this tick, without changing the cells in which it
+    /// is recorded. Returns its rectangle and its displacement per move.
     pub(crate) fn fly_on(&mut self, slot: Slot) -> (Rect, (i32, i32)) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let by = fly_to(sprite, self.tick);
         (sprite.rect, by)
     }
 
-    /// Returns the rectangle of a sprite, in flight or not. For use in the event phase and between steps.
+    /// Returns a sprite's rectangle, whether in flight or not. For use in the event phase and between steps.
     pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
         if !sprite.flies() {
             return sprite.rect;
@@ -46,7 +46,8 @@ impl World {
         sprite.rect
     }
 
-    /// Returns the current values of a sprite, in flight or not. For use in the event phase and between steps.
+    /// Returns a sprite's current values, whether in flight or not. For use in the event phase and between
+    /// steps.
     pub(crate) fn present(&self, slot: Slot) -> Sprite {
         let mut sprite = *self.sprite(slot);
         if sprite.flies() {

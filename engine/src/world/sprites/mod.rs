@@ -1,4 +1,4 @@
-//! Sprites, and the values in which they differ from their types.
+//! Sprites, and the values that differ between a sprite and its type.
 
 pub(crate) mod flight;
 pub(crate) mod models;

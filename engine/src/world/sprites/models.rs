@@ -1,4 +1,4 @@
-//! The prototypes of sprites: one model per type, with the values that all its sprites share.
+//! Sprite prototypes: one model per type, with the values that all its sprites share.
 
 use crate::numbers::geometry::Rect;
 use crate::rules::class::SpriteClass;
@@ -6,20 +6,20 @@ use crate::rules::{Rules, SpriteType, TypeInfo};
 use crate::world::{NO_HEADING, NONE, Overrides, Sprite, flag};
 
 /// The number of bits. If there are more types than bits, the remaining types share the last bit. The rules
-/// of these types are tested more often than needed, with the same results.
+/// for these types are tested more often than needed, with the same results.
 const BITS: usize = 64;
 
-/// The part of a type that the world needs.
+/// The part of a type needed by the world.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub(crate) prototype: Sprite,
-    /// The values that sprites of the type share.
+    /// The values shared by sprites of the type.
     pub(crate) overrides: Overrides,
     /// `true` if a termination may count sprites of the type.
     pub(crate) counted: bool,
 }
 
-/// The bits of a type in the masks of cells.
+/// A type's bits in the cell masks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TypeBits {
     /// The type's own bit, or 0 for types without rules.
@@ -28,12 +28,12 @@ pub(crate) struct TypeBits {
     pub(crate) partners: u64,
 }
 
-/// The models of a game.
+/// A game's models.
 #[derive(Clone, Debug)]
 pub(crate) struct Models {
-    /// The model of each type.
+    /// Each type's model.
     pub(crate) of_type: Vec<Model>,
-    /// The bits of each type.
+    /// Each type's bits.
     pub(crate) bits: Vec<TypeBits>,
     /// For each type, the bits of the types in its tree.
     pub(crate) trees: Vec<u64>,
@@ -42,7 +42,7 @@ pub(crate) struct Models {
 }
 
 impl Models {
-    /// Builds the models of a game. Cost: O(types + passes × the largest trees).
+    /// Builds a game's models. Cost: O(types + passes × size of the largest trees).
     pub(crate) fn of(rules: &Rules) -> Models {
         let model = |(at, info): (u16, &TypeInfo)| Model {
             prototype: prototype(SpriteType(at), info),
@@ -86,7 +86,7 @@ impl Models {
         all(&self.bits, types)
     }
 
-    /// Returns the bit of a type, or 0 if the type may share it with other types.
+    /// Returns a type's bit, or 0 if the type may share the bit with other types.
     pub(crate) fn sole_bit(&self, stype: SpriteType) -> u64 {
         self.bit(stype) & !(1 << (BITS - 1))
     }
@@ -105,7 +105,8 @@ pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Returns the prototype of a type's sprites. The rectangles, the creation number and the age are set on creation.
+/// Returns the prototype for a type's sprites. The rectangles, the creation number and the age are set on
+/// creation.
 pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
     let (traits, is_avatar) = (&info.traits, info.class.is_some_and(SpriteClass::is_avatar));
     let flags = [
@@ -140,7 +141,7 @@ pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
     }
 }
 
-/// Returns the values that the sprites of a type share.
+/// Returns the values that a type's sprites share.
 pub(crate) fn overrides(info: &TypeInfo) -> Overrides {
     let traits = &info.traits;
     Overrides {

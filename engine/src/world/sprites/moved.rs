@@ -1,13 +1,13 @@
-//! The rectangles of sprites at the start of their own last update, which the reference stores in each sprite.
+//! Each sprite's rectangle at the start of its own last update, which the reference stores in each sprite.
 //!
-//! A sprite contains its earlier corner. Its earlier size equals its current size, except for the few sprites that have
-//! been resized since.
+//! A sprite stores its earlier corner. A sprite's earlier size equals its current size, except for the few
+//! sprites that have been resized since.
 
 use crate::flat::bytes_of_fields;
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World, flag};
 
-/// The size of a sprite before it was resized in this tick.
+/// A sprite's size before it was resized in this tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Resized {
     pub(crate) slot: Slot,
@@ -17,7 +17,7 @@ pub(crate) struct Resized {
 
 bytes_of_fields! { Resized { slot w h } }
 
-/// Returns the rectangle of a sprite at the start of its own update in this tick.
+/// Returns a sprite's rectangle at the start of its own update in this tick.
 #[inline]
 pub(crate) fn last_of(sprite: &Sprite, slot: Slot, resized: &[Resized]) -> Rect {
     let last = sprite.rect.at(sprite.last_corner.0, sprite.last_corner.1);
@@ -39,13 +39,13 @@ impl Sprite {
 }
 
 impl World {
-    /// Returns the rectangle of a sprite at the start of its own update in this tick.
+    /// Returns a sprite's rectangle at the start of its own update in this tick.
     #[inline]
     pub(crate) fn last(&self, slot: Slot) -> Rect {
         last_of(self.sprite(slot), slot, &self.resized)
     }
 
-    /// Sets the rectangle of a sprite at the start of its own update in this tick. The sprite counts as moved.
+    /// Sets a sprite's rectangle at the start of its own update in this tick. The sprite counts as moved.
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let (before, resized) = (sprite.flags, (sprite.rect.w, sprite.rect.h) != (last.w, last.h));
@@ -71,7 +71,7 @@ impl World {
         self.resized.len()
     }
 
-    /// Starts a sprite's move by itself, which resets its age. The caller relocates the sprite.
+    /// Starts a sprite's own move, which resets its age. The caller relocates the sprite.
     #[inline(always)]
     pub(crate) fn start_move(&mut self, slot: Slot) {
         self.sprites[usize::from(slot)].moved_at = self.tick;
@@ -83,7 +83,7 @@ impl World {
         moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
     }
 
-    /// Records that a sprite that is not yet in the list has moved.
+    /// Records the move of a sprite that is not yet in the list.
     pub(crate) fn note_moved(&mut self, slot: Slot) {
         self.sprites[usize::from(slot)].set(flag::MOVED, true);
         self.moved.push(slot);
@@ -107,9 +107,9 @@ impl World {
         resized.retain(|one| stays(one.slot));
     }
 
-    /// Makes the current rectangles the last rectangles. The reference does the same for every sprite before
-    /// the sprite's own update. The result differs only for sprites that have moved since, and nothing reads
-    /// another sprite's last rectangle before the events.
+    /// Sets each sprite's last rectangle to its current rectangle. The reference does the same for every
+    /// sprite before the sprite's own update. The result differs only for sprites that have moved since, and
+    /// nothing reads another sprite's last rectangle before the events.
     #[inline]
     pub(crate) fn settle_moved(&mut self) {
         let World { sprites, moved, resized, .. } = self;

@@ -1,7 +1,7 @@
-//! Copy-on-write overrides of sprites: orientation, speed, health and other values that seldom differ from
+//! Copy-on-write overrides for sprites: orientation, speed, health and other values that seldom differ from
 //! the type's values.
 //!
-//! Sprites share the values of their type, and get their own overrides with the first change. This keeps
+//! Sprites share their type's values, and get their own overrides with the first change. Sharing keeps
 //! sprites small and copies of a state cheap.
 
 use crate::flat::{Bytes, bytes_of_fields};
@@ -10,8 +10,7 @@ use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType};
 use crate::world::{NONE, Slot, Sprite, World};
 
-/// The rarely changed values of a sprite: either the values of its type, or the sprite's own copy (copy on
-/// write).
+/// A sprite's rarely changed values: either its type's values or the sprite's own copy (copy on write).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overrides {
     pub(crate) orientation: Direction,
@@ -20,17 +19,17 @@ pub(crate) struct Overrides {
     pub(crate) max_health: i32,
     /// The tick of a spawner's first update, or −1 before that update.
     pub(crate) start: i32,
-    /// The type that a spawner makes now, which updateSpawnType changes.
+    /// The type that a spawner currently creates, which updateSpawnType changes.
     pub(crate) spawns: SpriteType,
     /// The index into `World::extras`, or `NONE`.
     pub(crate) extra: u16,
-    /// The sprite that owns the overrides, or `NONE` if they belong to a type.
+    /// The sprite that owns the overrides, or `NONE` if the overrides belong to a type.
     pub(crate) holder: Slot,
 }
 
 bytes_of_fields! { Overrides { orientation speed health max_health start spawns extra holder } }
 
-/// More values, for the few sprites that turn, fall differently from their type, or pursue one target.
+/// Additional values for the few sprites that turn, fall differently from their type, or chase one target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Extra {
     pub(crate) holder: Slot,
@@ -40,15 +39,15 @@ pub(crate) struct Extra {
     pub(crate) facing: Direction,
     /// The tick of a WizardAvatar's last block.
     pub(crate) block_time: i32,
-    /// The target of a PathAltChaser, and the last position to which it knew a path.
+    /// The target of a PathAltChaser, and the last position to which the PathAltChaser knew a path.
     pub(crate) target: Target,
     pub(crate) last_known: Option<(i32, i32)>,
 }
 
 bytes_of_fields! { Extra { holder rotation gravity facing block_time target last_known } }
 
-/// The target of a PathAltChaser. The reference keeps the object, so a removed target is pursued at its last
-/// position.
+/// The target of a PathAltChaser. The reference keeps a reference to the object, so a removed target is
+/// chased to its last position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
     None,
@@ -79,7 +78,7 @@ impl Bytes for Target {
 }
 
 impl World {
-    /// Returns the overrides of a sprite. The sprite may be scenery.
+    /// Returns a sprite's overrides. The sprite may be scenery.
     #[inline(always)]
     pub(crate) fn overrides_of(&self, sprite: &Sprite) -> &Overrides {
         &self.overrides[usize::from(sprite.overrides)]
@@ -95,14 +94,14 @@ impl World {
         self.overrides_of(self.sprite(slot))
     }
 
-    /// Returns the overrides of a sprite for modification. Shared overrides are copied first.
+    /// Returns a sprite's overrides for modification. Shared overrides are copied first.
     #[inline]
     pub(crate) fn edit_overrides(&mut self, slot: Slot) -> &mut Overrides {
         let at = usize::from(self.edit(slot).overrides);
         if self.overrides[at].holder == slot { &mut self.overrides[at] } else { self.copy_overrides(slot) }
     }
 
-    /// Gives a sprite its own copy of the overrides.
+    /// Creates a sprite's own copy of its overrides.
     #[inline(never)]
     fn copy_overrides(&mut self, slot: Slot) -> &mut Overrides {
         let sprite = &mut self.sprites[usize::from(slot)];
@@ -121,13 +120,13 @@ impl World {
         }
     }
 
-    /// Does the rest of [`World::face`], for a changed orientation.
+    /// Completes [`World::face`] for a changed orientation.
     #[inline(never)]
     pub(crate) fn turn_to(&mut self, slot: Slot, direction: Direction) {
         self.edit_overrides(slot).orientation = direction;
     }
 
-    /// Releases the overrides and the extra that a sprite owns.
+    /// Releases the overrides and the extra values that a sprite owns.
     pub(crate) fn release_overrides(&mut self, slot: Slot) {
         let at = self.sprite(slot).overrides;
         let Overrides { holder, extra, .. } = self.overrides[usize::from(at)];
@@ -147,8 +146,8 @@ impl World {
         }
     }
 
-    /// Returns the extra of a sprite. If the sprite has no extra yet, one is created from the traits of the
-    /// sprite's type.
+    /// Returns a sprite's extra values. If the sprite has no extra values yet, they are created from the
+    /// traits of the sprite's type.
     pub(crate) fn extra(&mut self, rules: &Rules, slot: Slot) -> &mut Extra {
         if self.overrides(slot).extra == NONE {
             let info = &rules.types[self.sprite(slot).stype.index()];
@@ -170,7 +169,7 @@ impl World {
         &mut self.extras[usize::from(extra)]
     }
 
-    /// Returns the extra of a sprite, or `None` if the sprite has no extra.
+    /// Returns a sprite's extra values, or `None` if the sprite has no extra values.
     pub(crate) fn extra_of(&self, sprite: &Sprite) -> Option<&Extra> {
         self.extras.get(usize::from(self.overrides_of(sprite).extra))
     }

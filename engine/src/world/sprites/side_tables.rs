@@ -1,5 +1,5 @@
-//! Side tables for data of single sprites: the resources that they hold, and changed entries in the list of types that
-//! they make. Few sprites have such data, so it is stored in two sorted lists of the state.
+//! Side tables for data about single sprites: held resources, and changed entries in the list of types that a
+//! sprite creates. Few sprites have such data, so it is stored in two sorted lists in the state.
 
 use crate::flat::bytes_of_fields;
 use crate::rules::{Rules, SpriteType};
@@ -32,17 +32,17 @@ impl World {
         self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))
     }
 
-    /// Returns all resources that sprites hold.
+    /// Returns all resources held by sprites.
     pub(crate) fn held(&self) -> &[Held] {
         &self.held
     }
 
-    /// Returns the amount of a resource that a sprite holds.
+    /// Returns a sprite's held amount of a resource.
     pub(crate) fn amount(&self, holder: Slot, resource: SpriteType) -> i32 {
         self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)
     }
 
-    /// Adds to the amount of a resource. The amount stays at 0 or above, and an entry is made even for 0.
+    /// Adds to the amount of a resource. The amount stays at 0 or above, and an entry is created even for 0.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         match self.find_held(holder, resource) {
             Ok(at) => self.held[at].amount = self.held[at].amount.wrapping_add(change).max(0),
@@ -64,7 +64,7 @@ impl World {
         &self.held[start..end]
     }
 
-    /// Removes the entries of a sprite that is being released.
+    /// Removes a sprite's entries when the sprite is released.
     #[inline]
     pub(crate) fn release_side_tables(&mut self, holder: Slot) {
         if !self.held.is_empty() {

@@ -1,14 +1,14 @@
-//! Sprites, and the lists of the sprites of a type.
+//! Sprites, and the lists of each type's sprites.
 
 use crate::flat::bytes_of_fields;
 use crate::numbers::geometry::Rect;
 use crate::rules::SpriteType;
 
-/// An index into the sprites of a state.
+/// An index into a state's sprites.
 pub(crate) type Slot = u16;
-/// The `heading` of an NPC that has not drawn a direction.
+/// The value of `heading` for an NPC that has not drawn a direction.
 pub(crate) const NO_HEADING: u32 = 4;
-/// The slot number that stands for no sprite.
+/// The slot index that stands for no sprite.
 pub(crate) const NONE: Slot = u16::MAX;
 
 /// The bits of [`Sprite::flags`]. Traces record the first four.
@@ -28,7 +28,7 @@ pub(crate) mod flag {
     /// The sprite is not updated, and `moved_at` contains its age. Its type is not in the update order, or
     /// its class is an avatar class and the sprite is disabled or not the player's avatar.
     pub(crate) const FROZEN: u32 = 128;
-    /// The sprite is in `State::moved`, because its last rectangle differs, or may differ, from its
+    /// The sprite is in `State::moved`, because its last rectangle differs, or may differ, from its current
     /// rectangle.
     pub(crate) const MOVED: u32 = 256;
     /// The dirty flag. The sprite is in `State::dirty`, because the running hash may contain an older version
@@ -48,7 +48,7 @@ pub(crate) mod flag {
     pub(crate) const MULTI_CELL: u32 = RIGHT | BELOW | BIG;
     /// The cooldown never delays the sprite, so the tick of its last move does not matter.
     pub(crate) const NO_COOLDOWN: u32 = 32_768;
-    /// The hash contribution has changed beyond what changes with movement.
+    /// The hash contribution has changed in more than the values that change with movement.
     pub(crate) const CHANGED: u32 = 65_536;
     /// The sprite is in `State::resized`, because it had a different size at the start of its update.
     pub(crate) const RESIZED: u32 = 262_144;
@@ -56,21 +56,21 @@ pub(crate) mod flag {
     pub(crate) const PLACEMENT: u32 = MULTI_CELL | OFF;
     /// The sprite is a spawner that has been updated, and `Overrides::start` is the tick of its first update.
     pub(crate) const STARTED: u32 = 524_288;
-    /// The position of the highest bits. For an NPC, they contain the last drawn direction as an index into the base
-    /// directions, or 4 for no direction.
+    /// The position of the highest bits. For an NPC, the highest bits contain the last drawn direction as an
+    /// index into the base directions, or 4 for no direction.
     pub(crate) const HEADING: u32 = 29;
-    /// The bits that are part of the state. All other bits are bookkeeping, in which two equal states may
-    /// differ.
+    /// The bits that are part of the state. All other bits are bookkeeping and may differ between two equal
+    /// states.
     pub(crate) const LASTING: u32 = 0xFF;
 }
 
-/// A sprite, which has the size of a cache line.
+/// A sprite. Its size is the size of a cache line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sprite {
     pub(crate) rect: Rect,
     /// The corner at the start of the sprite's own update in this tick (`moved.rs`).
     pub(crate) last_corner: (i32, i32),
-    /// The creation number, never reused.
+    /// The creation number, which is never reused.
     pub(crate) id: u32,
     /// The tick of the last move. The reference's `lastmove` is the current tick minus this tick.
     pub(crate) moved_at: i32,
@@ -80,16 +80,16 @@ pub(crate) struct Sprite {
     pub(crate) count: i32,
     pub(crate) flags: u32,
     pub(crate) stype: SpriteType,
-    /// The index into `State::overrides` of the entry of the sprite's type, or of the sprite's own entry.
+    /// The index into `State::overrides` for the entry of the sprite's type, or for the sprite's own entry.
     pub(crate) overrides: u16,
     /// The schedule's note about what happened to the sprite in this tick.
     pub(crate) activity: u16,
     /// For a sprite in flight, the number of ticks between its moves (`flight.rs`). For all other sprites, 0.
     pub(crate) period: u16,
-    /// The neighbours in the chain of the type.
+    /// The neighbours in the type's chain.
     pub(crate) next: Slot,
     pub(crate) previous: Slot,
-    /// The neighbours in the chain of the cell.
+    /// The neighbours in the cell's chain.
     pub(crate) cell_next: Slot,
     pub(crate) cell_previous: Slot,
     /// The cell's column and row, counted with the ring around the board.
@@ -141,9 +141,9 @@ pub(crate) struct Group {
     pub(crate) disabled: u16,
     /// The number of sprites that cover, or may cover, more than one cell.
     pub(crate) multi_cell: u16,
-    /// The number of sprites that are larger than a cell.
+    /// The number of sprites larger than a cell.
     pub(crate) big: u16,
-    /// The number of sprites that are not completely on the screen.
+    /// The number of sprites not completely on the screen.
     pub(crate) off: u16,
 }
 

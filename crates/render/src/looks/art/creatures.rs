@@ -1,10 +1,10 @@
-//! Drawings of creatures: the player, its hunters, its prey, and bystanders.
+//! Drawings of creatures: the player, its chasers, its prey, and bystanders.
 
 use super::{Art, RIM};
 use crate::looks::colour::{Colour, INK, PAPER};
 use crate::looks::shape::Outline;
 
-/// The colour of the ring around the avatar, which no other tile has.
+/// The colour of the ring around the avatar, which no other tile uses.
 const RING: Colour = Colour([0x1f, 0xb8, 0xff]);
 
 fn ring(art: &mut Art) {
@@ -51,7 +51,7 @@ pub(crate) fn craft(art: &mut Art) {
     }
 }
 
-/// Draws the mark where the player died.
+/// Draws the mark at the position where the player died.
 pub(crate) fn fallen(art: &mut Art) {
     ring(art);
     art.solid(Outline::rounded(0.43, 0.18, 0.14, 0.66, 0.03), art.main());
@@ -59,7 +59,7 @@ pub(crate) fn fallen(art: &mut Art) {
     art.fill(Outline::rect(0.45, 0.34, 0.1, 0.1), art.main());
 }
 
-/// Draws one of four bodies, all of which have sharp points, angry eyes and teeth.
+/// Draws one of four bodies, each with sharp points, angry eyes and teeth.
 pub(crate) fn enemy(art: &mut Art) {
     let main = art.main();
     match art.look.variant {
@@ -117,8 +117,8 @@ pub(super) fn teeth(art: &mut Art, x: f32, y: f32, width: f32) {
     art.fill(Outline::polygon(&points), PAPER);
 }
 
-/// Draws a charger seen from above, so that it can point in any direction. It has a snout in front, eyes
-/// beside the snout, and sharp points at the sides.
+/// Draws a charger seen from above, so that it can point in any direction. The charger has a snout in
+/// front, eyes beside the snout, and sharp points at the sides.
 pub(crate) fn charger(art: &mut Art) {
     let main = art.main();
     match art.look.variant {

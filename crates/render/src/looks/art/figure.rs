@@ -1,4 +1,4 @@
-//! Drawing of the figures and marks from the table in [`crate::looks::figure`].
+//! Draws the figures and marks from the table in [`crate::looks::figure`].
 
 use super::Art;
 use super::creatures::{ring_of_avatar, teeth};
@@ -11,7 +11,7 @@ use crate::looks::shape::Outline;
 /// The size of a figure in the avatar's ring.
 const IN_RING: f32 = 0.72;
 
-/// Adds a figure, and the signs of its meaning in the rules.
+/// Adds a figure, and the signs for its meaning in the rules.
 pub(crate) fn draw(art: &mut Art, figure: &Figure) {
     if art.look.glyph == Glyph::Avatar {
         ring_of_avatar(art);

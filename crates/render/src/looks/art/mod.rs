@@ -1,7 +1,7 @@
 //! The drawing of every glyph: shapes in a unit square.
 //!
-//! - Harmful things have sharp points, teeth or angry eyes.
-//! - Things that win have a star.
+//! - Harmful sprites have sharp points, teeth or angry eyes.
+//! - Winning sprites have a star.
 //! - Permanent obstacles fill their cells.
 //! - The avatar stands in a bright ring.
 //!
@@ -23,8 +23,8 @@ const GOLD: Colour = Colour([0xff, 0xd2, 0x3f]);
 /// The default width of an outline, in tiles.
 const RIM: f32 = 0.045;
 
-/// Returns the tile of a look whose front points along the unit vector `facing`. `facing` has no effect on
-/// looks without a front.
+/// Returns a look's tile, with its front along the unit vector `facing`. `facing` has no effect on looks
+/// without a front.
 pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
     let mut art = Art { look, facing, shapes: Vec::new() };
     match look.form {
@@ -74,13 +74,13 @@ impl Art {
         self.stroke(outline, INK, RIM);
     }
 
-    /// Draws the gold star of things that win. The star is white if the tile itself is gold.
+    /// Draws the gold star for winning sprites. The star is white if the tile itself is gold.
     fn star(&mut self, x: f32, y: f32, radius: f32) {
         let colour = if self.main().distance(GOLD) < 12_000 { PAPER } else { GOLD };
         self.solid(Outline::star(x, y, 5, radius, radius * 0.45), colour);
     }
 
-    /// Draws white eyes with pupils, `apart` from each other. `frown` lowers the inner ends of the brows.
+    /// Draws white eyes with pupils at a distance of `apart`. `frown` lowers the inner ends of the brows.
     fn eyes(&mut self, [x, y]: Point, apart: f32, radius: f32, frown: bool) {
         for side in [-1.0_f32, 1.0] {
             let at = x + side * apart / 2.0;
@@ -96,7 +96,7 @@ impl Art {
         }
     }
 
-    /// Returns the round, square or pointed emblem that a key shares with the gate that it opens.
+    /// Returns the round, square or pointed emblem shared by a key and the gate that it opens.
     fn emblem(&self, x: f32, y: f32, radius: f32) -> Outline {
         match self.look.variant {
             0 => Outline::circle(x, y, radius),
@@ -106,7 +106,7 @@ impl Art {
         }
     }
 
-    /// Turns the shapes from index `first` on.
+    /// Rotates the shapes with an index of at least `first`.
     fn turn(&mut self, first: usize, direction: Point) {
         for shape in &mut self.shapes[first..] {
             let outline = std::mem::take(&mut shape.outline);
@@ -114,7 +114,7 @@ impl Art {
         }
     }
 
-    /// Shrinks the shapes from index `first` on, towards the middle.
+    /// Shrinks the shapes with an index of at least `first` towards the middle.
     fn shrink(&mut self, first: usize, factor: f32) {
         for shape in &mut self.shapes[first..] {
             let outline = std::mem::take(&mut shape.outline);
@@ -122,7 +122,7 @@ impl Art {
         }
     }
 
-    /// Draws dots at the bottom of the tile, which distinguish types of the same form and colour.
+    /// Draws dots at the bottom of the tile, which distinguish types with the same form and colour.
     fn pips(&mut self) {
         let count = self.look.pips;
         // Grounds lie under other sprites, so they have smaller dots at the top.

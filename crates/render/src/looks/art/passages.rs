@@ -78,7 +78,7 @@ pub(crate) fn maker(art: &mut Art) {
     }
 }
 
-/// Draws a hole in the ground, which is dark at the top where the rim throws its shadow.
+/// Draws a hole in the ground, which is dark at the top where the rim casts its shadow.
 pub(crate) fn socket(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.1), main.shade());

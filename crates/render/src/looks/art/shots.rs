@@ -4,7 +4,7 @@ use super::Art;
 use crate::looks::colour::{INK, PAPER};
 use crate::looks::shape::Outline;
 
-/// Draws a shot that is barbed at the head and jagged at the tail.
+/// Draws a shot with a barbed head and a jagged tail.
 pub(crate) fn hostile(art: &mut Art) {
     let main = art.main();
     let tail =

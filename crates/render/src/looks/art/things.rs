@@ -1,10 +1,10 @@
-//! Drawings of things to be taken, pushed, pressed or kept safe.
+//! Drawings of items to be taken, pushed, pressed or kept safe.
 
 use super::Art;
 use crate::looks::colour::{Colour, INK, PAPER};
 use crate::looks::shape::Outline;
 
-/// Draws a star in the thing's own colour: flat, with a round middle, or with many points.
+/// Draws a star in the item's own colour: flat, with a round middle, or with many points.
 pub(crate) fn treasure(art: &mut Art) {
     let main = art.main();
     let (points, inner) = match art.look.variant {

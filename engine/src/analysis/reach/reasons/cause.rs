@@ -5,16 +5,16 @@ use crate::rules::SpriteType;
 /// The reason why a termination can never hold in a level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// Too many sprites can never be removed. Each of these sprites is given with the cell in which the level
+    /// Too many sprites can never be removed. Each such sprite is listed with the cell in which the level
     /// places it.
     Permanent(Vec<(SpriteType, usize)>),
-    /// There can never be more sprites of the counted types than this number.
+    /// The number of sprites of the counted types can never exceed this maximum.
     AtMost(i64),
-    /// Each required removal takes some of a resource, and there is too little of that resource.
+    /// Each required removal costs some of a resource, and not enough of that resource is available.
     Unpaid(Unpaid),
 }
 
-/// Sprites that must be removed for a win, and the resource that each removal takes and that runs out first.
+/// Sprites that must be removed for a win, and the resource that each removal costs and that runs out first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unpaid {
     /// The type of one of the sprites that must be removed.
@@ -25,9 +25,9 @@ pub struct Unpaid {
     pub resource: SpriteType,
     /// The minimum amount that one removal takes.
     pub each: i64,
-    /// The total amount of the resource that can be obtained.
+    /// The total obtainable amount of the resource.
     pub most: i64,
-    /// The indices of the interactions that remove sprites that must be removed.
+    /// The indices of the interactions that perform the required removals.
     pub removing: Vec<usize>,
     /// The indices of the interactions that take the resource.
     pub taking: Vec<usize>,

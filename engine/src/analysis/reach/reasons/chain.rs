@@ -1,4 +1,4 @@
-//! The reasons why a termination can never hold in a level, link by link: from its requirements to the first
+//! The reasons why a termination can never hold in a level, as a chain from its requirements to the first
 //! impossible requirement.
 //!
 //! Every link is proved by the over-approximation of [`Reach`](crate::analysis::reach::Reach): a requirement
@@ -14,7 +14,8 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Ending, Target};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The reason why a termination can never hold in a level, with the missing requirement of each rule that could help.
+/// The reason why a termination can never hold in a level, with the missing requirement of each rule that
+/// could help.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chain {
     /// The index into [`Analysis::goals`].
@@ -25,13 +26,13 @@ pub struct Chain {
     pub obstacles: Vec<Obstacle>,
 }
 
-/// A rule that would remove or make the required sprite, but can never do so in this level.
+/// A rule that would remove or create the required sprite, but can never do so in this level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Obstacle {
-    /// The sprite that the rule would remove, or the type that it would make.
+    /// The sprite that the rule would remove, or the type that the rule would create.
     pub target: SpriteType,
-    /// The index of the rule in [`Description::interactions`](crate::Description), or `None` if a sprite makes the type
-    /// by itself.
+    /// The index of the rule in [`Description::interactions`](crate::Description), or `None` if a sprite
+    /// creates the type by itself.
     pub line: Option<usize>,
     /// The missing requirement.
     pub missing: Missing,
@@ -40,22 +41,22 @@ pub struct Obstacle {
 /// The first missing requirement of a rule.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Missing {
-    /// No sprite of the type is placed in this level, and no rule or existing sprite makes one.
+    /// The level does not place a sprite of the type, and no rule or existing sprite creates one.
     Absent(SpriteType),
-    /// No sprite of the type is placed in this level, and none is ever made, because each rule that could
-    /// make one has a missing requirement. The list of these rules is empty if the same chain already
-    /// contains them.
+    /// The level does not place a sprite of the type, and no sprite of the type is ever created, because each
+    /// rule that could create one has a missing requirement. The list of these rules is empty if the same
+    /// chain already contains them.
     Unmade(SpriteType, Vec<Obstacle>),
     /// The rule requires more of a resource than any sprite can get.
     Resource(Shortage),
-    /// Sprites of one of the types never get to a required cell.
+    /// Sprites of one of the types can never reach a required cell.
     Unreachable(Unreachable),
-    /// Sprites of the type come to the cell, but the rule at the given index moves them back before the
+    /// Sprites of the type can enter the cell, but the rule at the given index moves them back before the
     /// required rule applies.
     Blocked(SpriteType, usize),
-    /// Sprites of the two types never meet anywhere. `None` stands for the edge of the screen.
+    /// Sprites of the two types never collide. `None` stands for the edge of the screen.
     Nowhere(SpriteType, Option<SpriteType>),
-    /// The sprite stays where it is, and so never gets to the edge of the screen.
+    /// The sprite never moves, and so never reaches the edge of the screen.
     Inside,
 }
 
@@ -68,11 +69,11 @@ pub struct Shortage {
     pub needed: i32,
     /// The maximum amount that one sprite can hold, if this maximum is already too small.
     pub capacity: Option<i32>,
-    /// The total amount that can be obtained. The value is meaningless if `capacity` is set.
+    /// The total obtainable amount. The value is meaningless if `capacity` is set.
     pub most: i64,
     /// The indices of the rules that give the resource.
     pub rules: Vec<usize>,
-    /// The sprites of the level that give the resource.
+    /// The level's sprites that give the resource.
     pub sources: Vec<Source>,
 }
 
@@ -87,18 +88,18 @@ pub struct Source {
     pub count: u32,
     /// The amount that each sprite gives.
     pub each: i64,
-    /// The obstacle to getting the resource, or `None` if it can be obtained.
+    /// The obstacle between a collecting sprite and this source, or `None` if the resource can be obtained.
     pub unreachable: Option<Unreachable>,
 }
 
-/// A cell that sprites of a type never get to.
+/// A cell that sprites of a type can never reach.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unreachable {
     /// The type of the sprites.
     pub stype: SpriteType,
-    /// The cell that the sprites never get to.
+    /// The cell that the sprites can never reach.
     pub cell: usize,
-    /// Removable sprites on the paths to the cell, next to cells that the type can reach.
+    /// Removable sprites on the paths to the cell, adjacent to cells that the type can reach.
     pub blockers: Vec<Blocker>,
 }
 
@@ -114,19 +115,19 @@ pub struct Blocker {
     pub obstacles: Vec<Obstacle>,
 }
 
-/// The maximum number of rules reported for one sprite.
+/// The maximum number of rules to report for one sprite.
 const MAX_RULES: usize = 3;
-/// The maximum number of blocking sprites that are reported.
+/// The maximum number of blocking sprites to report.
 const MAX_BLOCKERS: usize = 2;
-/// The maximum number of sources that are reported.
+/// The maximum number of sources to report.
 const MAX_SOURCES: usize = 16;
-/// The maximum number of blocking sprites in a row that are followed.
+/// The maximum number of consecutive blocking sprites to follow.
 const MAX_DEPTH: usize = 4;
 
-/// The value that replaces the cell in [`Reported`] entries about the making of sprites.
+/// The value that replaces the cell in [`Reported`] entries about the creation of sprites.
 const UNMADE: usize = usize::MAX;
 
-/// The sprites whose obstacles are already reported, each with its cell or [`UNMADE`].
+/// The sprites whose obstacles have already been reported, each with its cell or [`UNMADE`].
 type Reported = Vec<(SpriteType, usize)>;
 
 /// The sprites that an interaction would remove.
@@ -136,7 +137,7 @@ enum Ended {
     Anywhere,
 }
 
-/// The derivation of chains from the completed fixed point.
+/// Derives chains from the completed fixed point.
 pub(crate) struct Chains<'a, 'e> {
     analysis: &'a Analysis,
     events: Events<'e>,
@@ -149,7 +150,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Chains { analysis, events, gifts }
     }
 
-    /// Returns the chain of a termination that can never hold for this cause.
+    /// Returns the chain of causes for a termination that can never hold for this cause.
     pub(crate) fn chain(&mut self, goal: usize, cause: Cause) -> Chain {
         let mut reported = Vec::new();
         let obstacles = match &cause {
@@ -167,7 +168,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Chain { goal, cause, obstacles }
     }
 
-    /// Returns the rules that could remove a sprite where it stands, with their missing requirements.
+    /// Returns the rules that could remove a sprite in its cell, with their missing requirements.
     fn keeping(&self, stype: SpriteType, cell: usize, reported: &mut Reported) -> Vec<Obstacle> {
         if reported.contains(&(stype, cell)) || reported.len() >= MAX_DEPTH {
             return Vec::new();
@@ -189,7 +190,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         obstacles
     }
 
-    /// Returns the rules and sprites that could make sprites of a type, with their missing requirements.
+    /// Returns the rules and sprites that could create sprites of a type, with their missing requirements.
     fn unmade(&self, stype: SpriteType, reported: &mut Reported) -> Vec<Obstacle> {
         let makes = |encounter: &Encounter| {
             encounter.does(|effect| {
@@ -234,7 +235,7 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 
     /// Returns the missing requirement of an interaction. If `target` is given, returns the missing
-    /// requirement of removing the target sprite where it stands. Returns `None` if nothing is proved.
+    /// requirement for removing the target sprite in its cell. Returns `None` if nothing is proved.
     fn missing(
         &self,
         encounter: &Encounter,
@@ -300,7 +301,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Some(Missing::Blocked(other, lines.first().copied()?))
     }
 
-    /// Returns the reason why no more of a resource can be obtained.
+    /// Returns the reason why no more of a resource is obtainable.
     fn shortage(&self, resource: SpriteType, needed: i32, reported: &mut Reported) -> Shortage {
         let model = self.events.flood.model;
         let rules = &*self.analysis.game().0;
@@ -341,8 +342,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         Shortage { resource, needed, capacity, most, rules: lines, sources }
     }
 
-    /// Returns the type whose sprites give a resource by an interaction, the type that gets it, and the amount, or
-    /// `None` if the amount is the resource's value.
+    /// Returns the type whose sprites give a resource in an interaction, the type that receives it, and the
+    /// amount. Returns `None` if the amount is the resource's value.
     fn giver(
         &self,
         encounter: &Encounter,
@@ -363,7 +364,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         })
     }
 
-    /// Returns the obstacle that keeps sprites of a type from a cell.
+    /// Returns the obstacle that keeps sprites of a type out of a cell.
     fn unreachable(&self, stype: SpriteType, cell: usize, reported: &mut Reported) -> Unreachable {
         let blockers = self.in_the_way(stype, cell);
         let blockers = blockers.into_iter().take(MAX_BLOCKERS).map(|(stype, cell)| {
@@ -373,8 +374,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         Unreachable { stype, cell, blockers: blockers.collect() }
     }
 
-    /// Returns the removable sprites, each with its cell, that stand on paths to a cell, next to cells that
-    /// sprites of a type can reach. Paths go from a cell to its four neighbours.
+    /// Returns the removable sprites, each with its cell, that are on paths to a cell and adjacent to cells
+    /// that sprites of a type can reach. Paths go from a cell to its four neighbours.
     fn in_the_way(&self, stype: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
         let (board, rules) = (self.events.board(), &*self.analysis.game().0);
         let family: Vec<SpriteType> = rules.types[stype.index()].tree.to_vec();
@@ -409,18 +410,18 @@ impl<'a, 'e> Chains<'a, 'e> {
         found.into_iter().map(|(cell, stype)| (stype, cell)).collect()
     }
 
-    /// Returns `true` if sprites to which a rule on `written` applies can exist.
+    /// Returns `true` if sprites subject to a rule on `written` can exist.
     fn is_alive(&self, written: SpriteType) -> bool {
         let tree = &self.analysis.game().0.types[written.index()].tree;
         tree.iter().any(|&stype| self.events.can_occur(stype))
     }
 
-    /// Returns the cells that sprites to which a rule on `written` applies can reach at some moment.
+    /// Returns the cells that sprites subject to a rule on `written` can reach at some point.
     fn all(&self, written: SpriteType) -> Cells {
         self.cells_of(written, |stype| self.events.touch(stype))
     }
 
-    /// Returns the cells of all sprites that can occur and to which a rule on `written` applies.
+    /// Returns the cells of all possible sprites subject to a rule on `written`.
     fn cells_of<'c>(&self, written: SpriteType, cells: impl Fn(SpriteType) -> &'c Cells) -> Cells {
         let mut all = Cells::none(self.events.board());
         let family = self.analysis.game().0.types[written.index()].tree.iter().copied();
@@ -432,7 +433,7 @@ impl<'a, 'e> Chains<'a, 'e> {
 }
 
 impl Missing {
-    /// Returns a rank. The lower the rank, the closer the requirement is to being met.
+    /// Returns the requirement's rank. The lower the rank, the closer the requirement is to being met.
     fn rank(&self) -> u8 {
         match self {
             Missing::Resource(_) => 0,

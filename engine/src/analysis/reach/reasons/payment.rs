@@ -1,4 +1,4 @@
-//! Removals that cost a resource: a win that needs more removals than the resource pays for is impossible.
+//! Removals that cost a resource: a win is impossible if the resource cannot pay for the required removals.
 
 use super::cause::{Cause, Unpaid};
 use crate::analysis::Analysis;
@@ -10,7 +10,7 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Ending, Movement, Target};
 use std::collections::BTreeSet;
 
-/// A way to remove a sprite that takes a resource from the other sprite.
+/// A method of removing a sprite that takes a resource from the other sprite.
 struct Payment {
     resource: SpriteType,
     each: i64,
@@ -19,8 +19,8 @@ struct Payment {
 }
 
 impl Analysis {
-    /// Returns the reason why too few of the counted sprites can be removed, if the removals take more of a resource
-    /// than there is. Returns `None` if anything is unclear.
+    /// Returns the reason why too few of the counted sprites can be removed, if the removals require more of
+    /// a resource than is obtainable. Returns `None` in uncertain cases.
     pub(in crate::analysis::reach) fn unpaid(
         &self,
         condition: &Condition,
@@ -71,9 +71,9 @@ impl Analysis {
         Some(Cause::Unpaid(Unpaid { target, removals, resource, each, most, removing, taking }))
     }
 
-    /// Returns the payments of an interaction that can remove sprites of these types. The list is empty if
-    /// the interaction cannot remove such sprites. Returns `None` if the interaction may remove a sprite for
-    /// free.
+    /// Returns the payments in an interaction that can remove sprites of these types. The list is empty if
+    /// the interaction cannot remove such sprites. Returns `None` if the interaction may remove a sprite
+    /// without payment.
     fn payments(&self, at: usize, types: &[SpriteType], events: &Events<'_>) -> Option<Vec<Payment>> {
         let encounter = &self.encounters[at];
         let covers = |written: SpriteType| types.iter().any(|&stype| self.applies(written, stype));
@@ -98,7 +98,7 @@ impl Analysis {
         Some(payments)
     }
 
-    /// Returns `true` unless it is certain that an interaction never takes effect.
+    /// Returns `true` unless an interaction definitely never takes effect.
     fn can_happen(&self, encounter: &Encounter, events: &Events<'_>) -> bool {
         let occurs = |written: SpriteType| {
             let mut family = self.game.0.types[written.index()].tree.iter();
@@ -109,7 +109,8 @@ impl Analysis {
             && events.can_be(encounter.precondition)
     }
 
-    /// Returns the payment for removing a sprite on one side of an interaction, or `None` if the removal may be free.
+    /// Returns the payment for removing a sprite on one side of an interaction, or `None` if the removal may
+    /// cost nothing.
     fn payment(&self, at: usize, side: Side, types: &[SpriteType], events: &Events<'_>) -> Option<Payment> {
         let encounter = &self.encounters[at];
         let (payer, pays) = match side {
@@ -169,14 +170,14 @@ impl Analysis {
         is_sure.then_some(Payment { resource, each, removing: encounter.line, taking: taking.line })
     }
 
-    /// Returns `true` if a rule on `written` applies to an avatar type that can occur.
+    /// Returns `true` if a rule on `written` applies to a possible avatar type.
     fn is_avatars(&self, written: SpriteType, events: &Events<'_>) -> bool {
         let mut avatars = self.avatars.iter().map(|avatar| avatar.stype);
         avatars.any(|stype| events.can_occur(stype) && self.applies(written, stype))
     }
 
-    /// Returns `true` if the only sprite of a type is the avatar, because nothing makes a second sprite of
-    /// the type.
+    /// Returns `true` if a type's only sprite is the avatar, because nothing creates another sprite of the
+    /// type.
     fn is_one_avatar(&self, written: SpriteType, events: &Events<'_>) -> bool {
         let rules = &*self.game.0;
         let own = rules.types[written.index()].tree.iter().filter(|&&stype| events.can_occur(stype));
@@ -199,7 +200,7 @@ impl Analysis {
     }
 
     /// Returns `true` if an avatar never touches two sprites of these types at the same time, because they
-    /// stand still and apart from each other.
+    /// are motionless and apart from each other.
     fn are_apart(&self, types: &[SpriteType], payer: SpriteType, events: &Events<'_>) -> bool {
         let model = events.flood.model;
         let still = types.iter().all(|&stype| {

@@ -1,4 +1,5 @@
-//! The minimum and maximum numbers of sprites in a level, and their consequences for its terminations.
+//! The minimum and maximum numbers of sprites in a level, and their consequences for the level's
+//! terminations.
 
 use super::cause::Cause;
 use crate::analysis::goals::attain::disappears_by_itself;
@@ -40,7 +41,7 @@ impl Tally<'_> {
         }
     }
 
-    /// Returns the sprites of the type that nothing ever removes, with the cells in which the level places them.
+    /// Returns the type's sprites that nothing ever removes, with the cells in which the level places them.
     fn staying(&self, stype: SpriteType) -> Vec<(SpriteType, usize)> {
         let info = &self.rules.types[stype.index()];
         let removable = &self.removable[stype.index()];
