@@ -108,7 +108,7 @@ export async function* stream<T>(path: string, body: unknown, signal: AbortSigna
     if (signal.aborted) return;
     // A connection that breaks, or a line that is cut off.
     if (error instanceof Failure) throw error;
-    throw new Failure('The studio's answer was cut off.', STOPPED, 0, {});
+    throw new Failure("The studio's answer was cut off.", STOPPED, 0, {});
   }
 }
 
