@@ -5,7 +5,7 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::quantile;
 
-/// The durations of a player's decisions, including decisions in aborted episodes.
+/// The durations of a player's decisions, including those in aborted episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeRow {
     /// The index of the player in the study.
@@ -16,7 +16,7 @@ pub struct TimeRow {
     pub median_ms: Option<f64>,
     /// The 90th percentile of the duration, in milliseconds.
     pub p90_ms: Option<f64>,
-    /// The median number of forward-model calls per decision, for players that make such calls.
+    /// The median number of forward-model calls per decision, for players that use the forward model.
     pub median_calls: Option<f64>,
     /// The 90th percentile of the number of forward-model calls per decision.
     pub p90_calls: Option<f64>,
