@@ -62,7 +62,7 @@ pub enum Value {
     Quantiles(Quantiles),
     /// A number of items.
     Count(u64),
-    /// A number of items out of a total, with the name of the counted items.
+    /// A number of items out of a total, with the name for items in the total.
     CountOf(u64, u64, &'static str),
     /// A fraction between 0 and 1, without an interval.
     Expected(f64),
@@ -76,7 +76,7 @@ impl From<Share> for Value {
     }
 }
 
-/// The named values for programs, and the first error that occurred among them.
+/// The named values for programs, and the first error among them.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Data {
     fields: BTreeMap<String, Node>,
