@@ -30,7 +30,6 @@ pub enum Entry {
         recipe: Digest,
         /// The previous release's root.
         parent: Option<Digest>,
-        /// The round of public randomness that the recipe uses. Its value must be unknown when the commitment
         /// The round of public randomness used by the recipe. Its value must be unknown when the commitment
         /// is logged.
         beacon: Option<Round>,
