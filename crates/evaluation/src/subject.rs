@@ -18,7 +18,7 @@ pub struct Subject {
     pub game: Game,
     /// The analysis of the game's rules.
     pub analysis: Analysis,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<SubjectLevel>,
     /// The known facts that are not part of the rules.
     pub facts: SubjectFacts,
@@ -67,7 +67,7 @@ impl Subject {
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{}{problems}", level.map_or(String::new(), |number| format!("level {number}: ")))]
 pub struct Unreadable {
-    /// The number of the level, or `None` if the game does not compile.
+    /// The level number, or `None` if the game does not compile.
     pub level: Option<usize>,
     /// The problems found.
     pub problems: Diagnostics,
@@ -76,7 +76,7 @@ pub struct Unreadable {
 /// A level of a [`Subject`].
 #[derive(Clone, Debug)]
 pub struct SubjectLevel {
-    /// The number of the level in the game.
+    /// The level's number in the game.
     pub number: usize,
     /// The level text.
     pub text: String,
@@ -92,7 +92,7 @@ pub struct SubjectLevel {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectFacts {
-    /// The title of the game in its own theme.
+    /// The game's title in its own theme.
     pub title: String,
     /// The kind of game stated by its release or its card, such as `shooter`. The text is empty if the kind
     /// is unknown.
@@ -120,7 +120,7 @@ pub struct SubjectFacts {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelMark {
-    /// The number of the level.
+    /// The level number.
     pub level: usize,
     /// The level's tier, from 1 to 4, which measures how far ahead a winner must look.
     pub tier: u8,

@@ -8,7 +8,7 @@ use std::error::Error;
 pub struct File {
     /// The path relative to the report's folder, with `/` as the separator.
     pub name: String,
-    /// The content of the file.
+    /// The file's content.
     pub bytes: Vec<u8>,
 }
 

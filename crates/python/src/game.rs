@@ -54,7 +54,7 @@ pub(crate) fn seed_of(text: &str) -> Seed {
     text.parse().unwrap_or_else(|_| Seed::from_text(text))
 }
 
-/// Returns the name of an outcome.
+/// Returns an outcome's name.
 pub(crate) fn outcome_name(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Ongoing => "ongoing",

@@ -182,13 +182,13 @@ impl Section {
         self.data(key, &share).figure(key, name, Value::Share(share))
     }
 
-    /// Adds a mean between 0 and 1, if there is one.
+    /// Adds a mean between 0 and 1, if any.
     #[must_use]
     pub fn mean(self, key: &'static str, name: &str, mean: Option<Mean>) -> Section {
         self.data(key, &mean).known(key, name, mean.map(Value::Mean))
     }
 
-    /// Adds a mean that may be negative, if there is one.
+    /// Adds a mean that may be negative, if any.
     #[must_use]
     pub fn gain(self, key: &'static str, name: &str, mean: Option<Mean>) -> Section {
         self.data(key, &mean).known(key, name, mean.map(Value::Gain))

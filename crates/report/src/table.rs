@@ -46,9 +46,9 @@ pub enum TableCell {
     Interval {
         /// The value of the number.
         value: f64,
-        /// The lower bound of the interval.
+        /// The interval's lower bound.
         low: f64,
-        /// The upper bound of the interval.
+        /// The interval's upper bound.
         high: f64,
         /// The number of decimal places.
         digits: usize,

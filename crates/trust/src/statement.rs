@@ -16,9 +16,9 @@ const FORMAT: u32 = 1;
 pub struct Statement {
     /// The format version, which is 1.
     pub format: u32,
-    /// The name of the release.
+    /// The release's name.
     pub release: String,
-    /// The root of the release.
+    /// The release's root.
     pub root: Digest,
     /// The key set in force, or `None` if the publisher signs with a single key.
     pub keys: Option<KeysInForce>,

@@ -99,7 +99,7 @@ struct Decision<'a> {
 }
 
 /// Reads a normalised answer that does not follow the requested format. Reads the marked decisions first, and
-/// then the text after the last marked decision. If no decision is marked, reads the whole answer.
+/// then the text after the last marked decision. If no decision is marked, reads the entire answer.
 pub(super) fn read<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)> {
     let places: Vec<usize> = MARK.find_iter(said).map(|found| found.start()).collect();
     let marks = &places[places.len().saturating_sub(DECISIONS)..];

@@ -25,7 +25,7 @@ pub struct Connection {
     pub caps: Arc<Caps>,
     /// The part of the configuration that is stored with the results.
     pub settings: ModelSettings,
-    /// The price of the model's tokens, if it is known.
+    /// The price of the model's tokens, if known.
     pub price: Option<Price>,
 }
 

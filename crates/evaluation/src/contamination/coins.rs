@@ -14,7 +14,7 @@ pub struct Coins {
 /// A game, with its withheld sibling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameCoin {
-    /// The name of the game's folder.
+    /// The game's folder name.
     pub id: String,
     /// The digest of the published game.
     pub published: Digest,

@@ -25,13 +25,13 @@ pub enum Event {
         /// The version of the engine's semantics ([`engine::SEMANTICS`]). Under a different version, the
         /// actions may have different effects.
         semantics: u32,
-        /// The name of the game's folder in the results.
+        /// The game's folder name in the results.
         game: String,
-        /// The digest of the game.
+        /// The game's digest.
         game_digest: Digest,
-        /// The number of the level.
+        /// The level number.
         level: usize,
-        /// The digest of the level.
+        /// The level's digest.
         level_digest: Digest,
         /// The episode's index among this player's episodes on this level.
         run: u64,
@@ -190,7 +190,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// Returns the record of an answer. The record does not yet contain the action read from the answer.
+    /// Returns an answer's record. The record does not yet contain the action read from the answer.
     pub(crate) fn of(step: u64, attempt: u32, class: ReplyClass, answer: ChatReply) -> Reply {
         let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
         let latency_ms = (latency_ms * 1000.0).round() / 1000.0;

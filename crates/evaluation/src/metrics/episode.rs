@@ -18,9 +18,9 @@ use std::collections::BTreeSet;
 /// The metrics of a single episode. Ratios are between 0 and 1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EpisodeMetrics {
-    /// The name of the game's folder.
+    /// The game's folder name.
     pub game: String,
-    /// The number of the level.
+    /// The level number.
     pub level: usize,
     /// The episode's index among the player's episodes on this level.
     pub run: u64,

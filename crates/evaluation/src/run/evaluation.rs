@@ -92,7 +92,7 @@ pub struct Tally {
 /// The episodes of one game that the engine stopped for the same reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct StoppedEpisodes {
-    /// The ID of the game.
+    /// The game's ID.
     pub game: String,
     /// The reason why the engine stopped the episodes.
     pub reason: String,

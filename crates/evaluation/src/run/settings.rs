@@ -108,7 +108,7 @@ pub struct Entrant {
 pub struct SubjectEntry {
     /// The name of the game's folder in `games/`.
     pub id: String,
-    /// The digest of the game.
+    /// The game's digest.
     pub digest: Digest,
     /// The known facts about the game.
     pub facts: SubjectFacts,
@@ -120,9 +120,9 @@ pub struct SubjectEntry {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelEntry {
-    /// The number of the level in the game.
+    /// The level's number in the game.
     pub number: usize,
-    /// The digest of the level.
+    /// The level's digest.
     pub digest: Digest,
     /// The length of the shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,

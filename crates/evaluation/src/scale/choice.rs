@@ -60,7 +60,7 @@ pub struct PlannedErrors {
     pub episodes: u64,
     /// The number of games played.
     pub games: u64,
-    /// The standard error of the ability.
+    /// The ability's standard error.
     pub error: f64,
     /// The smallest difference between two players on the same levels detectable at the 5% level in 80% of
     /// evaluations.
@@ -198,9 +198,9 @@ pub struct AdaptiveChoice {
 /// A chosen episode, with the ability estimated before the episode.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AdaptiveStep {
-    /// The ID of the game.
+    /// The game's ID.
     pub game: String,
-    /// The number of the level.
+    /// The level number.
     pub level: usize,
     /// The episode's index among the episodes on this level.
     pub run: u64,

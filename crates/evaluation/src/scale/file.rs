@@ -71,7 +71,7 @@ pub struct ScaleFile {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExamineeEntry {
-    /// The name of the examinee.
+    /// The examinee's name.
     pub name: String,
     /// The family of the examinee.
     pub family: String,
@@ -89,7 +89,7 @@ pub struct ExamineeEntry {
 pub struct Estimate {
     /// The estimated value, in logits.
     pub value: f64,
-    /// The standard error of the estimate.
+    /// The estimate's standard error.
     pub error: f64,
 }
 
@@ -99,9 +99,9 @@ pub struct Estimate {
 pub struct Span {
     /// The estimated value.
     pub value: f64,
-    /// The lower bound of the interval.
+    /// The interval's lower bound.
     pub low: f64,
-    /// The upper bound of the interval.
+    /// The interval's upper bound.
     pub high: f64,
 }
 
@@ -109,7 +109,7 @@ pub struct Span {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MonthEntry {
-    /// The name of the release.
+    /// The release's name.
     pub name: String,
     /// The root digest of the release, if it is a snapshot.
     pub snapshot: Option<Digest>,
@@ -134,15 +134,15 @@ pub struct MonthEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameEntry {
-    /// The ID of the game.
+    /// The game's ID.
     pub id: String,
-    /// The digest of the game.
+    /// The game's digest.
     pub digest: Digest,
     /// The standard errors shared by all of the game's levels, for planners and for readers.
     pub common: [f64; 2],
     /// The mean squared standardised residual over the game's episodes.
     pub misfit: f64,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<LevelEntry>,
 }
 
@@ -150,9 +150,9 @@ pub struct GameEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelEntry {
-    /// The number of the level.
+    /// The level number.
     pub number: usize,
-    /// The digest of the level.
+    /// The level's digest.
     pub digest: Digest,
     /// The level's difficulty for planners and for readers. The standard errors exclude the link error.
     pub difficulty: [Estimate; 2],

@@ -32,7 +32,7 @@ pub struct PersonAbility {
 /// A person's ability, estimated from one release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MonthAbility {
-    /// The name of the release.
+    /// The release's name.
     pub month: String,
     /// The number of wins among the distinct episodes.
     pub won: u64,

@@ -27,7 +27,7 @@ pub struct Timeline {
 /// A month in a timeline.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimelineMonth {
-    /// The name of the month.
+    /// The month's name.
     pub name: String,
     /// The root digest of the month, if it is a snapshot.
     pub snapshot: Option<Digest>,

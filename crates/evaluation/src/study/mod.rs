@@ -108,9 +108,9 @@ pub struct Study {
 /// A game of a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StudyGame {
-    /// The name of the game's folder.
+    /// The game's folder name.
     pub id: String,
-    /// The title of the game in its own theme.
+    /// The game's title in its own theme.
     pub title: String,
     /// The kind of game stated by the release. The text is empty if the kind is not recorded.
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -120,7 +120,7 @@ pub struct StudyGame {
     /// `true` for a stochastic game, or `None` if unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub is_stochastic: Option<bool>,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<StudyLevel>,
     /// The release's reference results for the levels.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -130,9 +130,9 @@ pub struct StudyGame {
 /// A level of a game in a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StudyLevel {
-    /// The number of the level.
+    /// The level number.
     pub number: usize,
-    /// The number of ticks in the shortest win, if the win is proved to be optimal.
+    /// The length of the shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,
 }
 

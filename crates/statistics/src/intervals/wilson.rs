@@ -9,9 +9,9 @@ pub const Z95: f64 = 1.959963984540054;
 /// differences between proportions are within [−1, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// The lower bound of the interval.
+    /// The interval's lower bound.
     pub low: f64,
-    /// The upper bound of the interval.
+    /// The interval's upper bound.
     pub high: f64,
 }
 

@@ -11,7 +11,7 @@ use crate::intervals::wilson::{Interval, Z95};
 /// A player's results on one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlayedLevel {
-    /// The difficulty of the level.
+    /// The level's difficulty.
     pub difficulty: f64,
     /// The difficulty's standard error, without the component shared by all of the game's levels.
     pub own: f64,

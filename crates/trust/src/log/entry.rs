@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 pub enum Entry {
     /// A new key set.
     Keys {
-        /// The number of the set.
+        /// The set's number.
         version: u32,
         /// The digest of the set's file.
         digest: Digest,
@@ -22,7 +22,7 @@ pub enum Entry {
     },
     /// A commitment to a release's secret. The commitment must be logged before the release is minted.
     Commitment {
-        /// The name of the release.
+        /// The release's name.
         release: String,
         /// The commitment, which covers the recipe.
         commitment: Digest,
@@ -46,9 +46,9 @@ pub enum Entry {
     },
     /// A minted release.
     Root {
-        /// The name of the release.
+        /// The release's name.
         release: String,
-        /// The root of the release.
+        /// The release's root.
         root: Digest,
         /// The previous release's root.
         parent: Option<Digest>,
@@ -63,9 +63,9 @@ pub enum Entry {
     Reveal(Revealed),
     /// A release's calibration, which places the release on the scale.
     Calibration {
-        /// The name of the release.
+        /// The release's name.
         release: String,
-        /// The root of the release.
+        /// The release's root.
         root: Digest,
         /// The digest of the calibration file.
         file: Digest,
@@ -80,7 +80,7 @@ pub enum Entry {
 pub struct Round {
     /// The source, such as `drand quicknet`.
     pub source: String,
-    /// The number of the round.
+    /// The round number.
     pub round: u64,
 }
 
@@ -88,9 +88,9 @@ pub struct Round {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Revealed {
-    /// The name of the release.
+    /// The release's name.
     pub release: String,
-    /// The root of the release.
+    /// The release's root.
     pub root: Digest,
     /// The text from which the release's seed is derived.
     pub seed: String,
@@ -104,9 +104,9 @@ pub struct Revealed {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResultRow {
-    /// The name of the release.
+    /// The release's name.
     pub release: String,
-    /// The root of the release.
+    /// The release's root.
     pub root: Digest,
     /// The digest of the files in the results folder.
     pub results: Digest,

@@ -94,7 +94,7 @@ impl Checkpoint {
         format!("cosignature/v1\ntime {seconds}\n{}", self.body())
     }
 
-    /// Returns the content of the checkpoint's file.
+    /// Returns the content of the checkpoint file.
     pub fn to_text(&self) -> String {
         let line = |s: &Signature| format!("\u{2014} {} {}\n", s.name, STANDARD.encode(&s.bytes));
         format!("{}\n{}", self.body(), self.signatures.iter().map(line).collect::<String>())

@@ -38,7 +38,7 @@ pub struct Consistency {
 }
 
 impl Inclusion {
-    /// Returns the content of the proof's file.
+    /// Returns the content of the proof file.
     pub fn to_text(&self) -> String {
         write(INCLUSION, "index", self.index, &self.hashes, &self.checkpoint)
     }
@@ -68,7 +68,7 @@ impl Inclusion {
 }
 
 impl Consistency {
-    /// Returns the content of the proof's file.
+    /// Returns the content of the proof file.
     pub fn to_text(&self) -> String {
         write(CONSISTENCY, "old", self.old, &self.hashes, &self.checkpoint)
     }

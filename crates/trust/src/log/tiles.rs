@@ -16,11 +16,11 @@ pub const MAX_ENTRY: usize = 65535;
 pub(super) struct Tile {
     /// The file's path, relative to the log's folder.
     pub(super) path: String,
-    /// The content of the file.
+    /// The file's content.
     pub(super) bytes: Vec<u8>,
 }
 
-/// Returns the path of a tile. `level` is `entries` or a number.
+/// Returns a tile's path. `level` is `entries` or a number.
 fn path(level: &str, number: u64, width: u64) -> String {
     let mut text = format!("{:03}", number % 1000);
     let mut rest = number / 1000;

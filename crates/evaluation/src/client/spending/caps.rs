@@ -50,7 +50,7 @@ struct Ledger {
 }
 
 impl Caps {
-    /// Creates caps with the given limits. `price` is the model's price, if it is known.
+    /// Creates caps with the given limits. `price` is the model's price, if known.
     pub fn new(limits: Limits, price: Option<Price>) -> Caps {
         Caps { limits, price, ledger: Mutex::default() }
     }

@@ -28,11 +28,11 @@ pub struct Contrasts {
 /// A comparison of two players on a level or a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// The indices of the two players in the study.
+    /// The two players' indices in the study.
     pub players: [usize; 2],
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
-    /// The number of the level, or `None` for all levels of the game.
+    /// The level number, or `None` for all levels of the game.
     pub level: Option<usize>,
     /// Each player's number of wins. Identical episodes count once.
     pub wins: [u64; 2],
@@ -54,7 +54,7 @@ pub struct Comparison {
 /// games, and each game's value is a mean over its levels. The results apply to similar games.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverallComparison {
-    /// The indices of the two players in the study.
+    /// The two players' indices in the study.
     pub players: [usize; 2],
     /// Each player's number of wins on the common levels.
     pub wins: [u64; 2],

@@ -119,11 +119,11 @@ pub struct MatrixRow {
 pub struct MatrixColumn {
     /// The column label.
     pub label: String,
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
-    /// The number of the level, or `None` for all levels of the game.
+    /// The level number, or `None` for all levels of the game.
     pub level: Option<usize>,
-    /// The number of ticks in the shortest win, if the win is proved to be optimal.
+    /// The length of the shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,
 }
 

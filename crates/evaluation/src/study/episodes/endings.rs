@@ -12,9 +12,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A player's episodes on a game that ended with the same cause.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EndingRow {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
     /// The kind of ending.
     pub kind: EndingKind,
@@ -35,7 +35,7 @@ pub struct EndingRow {
 /// A summary of a player's episodes without a win.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EndingSummary {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
     /// The number of episodes without a win.
     pub episodes: u64,

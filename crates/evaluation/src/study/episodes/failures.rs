@@ -108,9 +108,9 @@ pub(crate) fn failures(study: &Study) -> Vec<FailureMode> {
 /// A player's oscillation rate on a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OscillationRow {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
     /// The level number.
     pub level: usize,

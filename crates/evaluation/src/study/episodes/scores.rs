@@ -13,9 +13,9 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Estimate {
     /// The estimated number.
     pub value: f64,
-    /// The lower bound of the interval.
+    /// The interval's lower bound.
     pub low: f64,
-    /// The upper bound of the interval.
+    /// The interval's upper bound.
     pub high: f64,
 }
 
@@ -59,9 +59,9 @@ impl Estimate {
 /// An episode of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudyEpisode {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
     /// The score relative to the range of all players' scores on this level, `(r − min) / (max − min +
     /// 1e-8)`. `None` if the range is empty, or if the episode was aborted.

@@ -39,9 +39,9 @@ impl DifficultyLabel {
 /// The difficulty of a level, or of a game over all its levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DifficultyRow {
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
-    /// The number of the level, or `None` for the whole game.
+    /// The level number, or `None` for the entire game.
     pub level: Option<usize>,
     /// The players' mean win rate.
     pub win_rate: Option<f64>,

@@ -12,7 +12,7 @@ use serde::Serialize;
 pub struct TaxonomyRow {
     /// The kind: a word from the release or a sentence from the taxonomy.
     pub kind: String,
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
     /// The number of the kind's games that the player played.
     pub games: u64,

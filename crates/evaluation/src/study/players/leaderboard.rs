@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// A player's results on all its levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LeaderRow {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
     /// The scores over all the player's episodes.
     pub scores: Scores,

@@ -8,7 +8,7 @@ use serde::Serialize;
 /// A player's results by game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sweep {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
     /// The results for each of the player's games, in the order of the study.
     pub games: Vec<SweepRow>,
@@ -23,7 +23,7 @@ pub struct Sweep {
 /// A player's results on a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SweepRow {
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
     /// The scores over all of the game's levels that the player played.
     pub scores: Scores,

@@ -8,7 +8,7 @@ use statistics::quantile;
 /// The durations of a player's decisions, including those in aborted episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeRow {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
     /// The number of decisions.
     pub decisions: u64,

@@ -55,7 +55,7 @@ pub(crate) fn bars(label: &str, key: &[&str], rows: &[BarRow]) -> String {
     canvas.finish()
 }
 
-/// Returns the corners of a rectangle.
+/// Returns a rectangle's corners.
 fn boxed([x, y, w, h]: [f64; 4]) -> [[f64; 2]; 4] {
     [[x, y], [x + w, y], [x + w, y + h], [x, y + h]]
 }
