@@ -9,7 +9,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Returns the path as text for a JSON document. Invalid UTF-8 is replaced with U+FFFD. Paths must not be
-/// inserted into a document directly, because `json!` panics on a path that is not UTF-8.
+/// inserted into a document directly, because `json!` panics on a non-UTF-8 path.
 pub(crate) fn in_json(path: &Path) -> Cow<'_, str> {
     path.to_string_lossy()
 }

@@ -33,7 +33,7 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The first bytes of a manifest, which is canonical JSON. Other programs may use the same file name.
+/// The first bytes of a manifest in canonical JSON. Other programs may use the same file name.
 const MANIFEST_START: &[u8] = b"{\n  \"canary\": ";
 
 /// Returns `true` if the folder contains a release's manifest.

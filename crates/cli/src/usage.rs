@@ -85,7 +85,7 @@ fn first_clause(verb: &Command) -> String {
     about[..end.unwrap_or(about.len())].to_owned()
 }
 
-/// Adds a subcommand and its description, which is wrapped in its own column.
+/// Adds a subcommand and its description, wrapped in its own column.
 fn row(text: &mut String, name: &str, width: usize, description: &str) {
     let mut line = format!("  {name:<width$} ");
     for word in description.split_whitespace() {

@@ -38,7 +38,7 @@ pub enum EntryRole {
     /// The ground under the other sprites, omitted from encodings.
     Floor,
     /// A stationary type that offers no gain, such as soil, cover, or sprites that shots or other sprites
-    /// break. Listing its positions would take too much space.
+    /// break. Lists of its positions would be too long.
     Scenery,
     /// Any other type.
     Thing,
@@ -163,8 +163,8 @@ fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
         && matches!(role, Role::Soil | Role::Cover | Role::Breakable | Role::Refuge | Role::Floor)
 }
 
-/// Returns `true` for a type whose sprites either move straight ahead, but not always in the direction stated
-/// in the rules, or stand still and are turned.
+/// Returns `true` if a type's sprites move straight ahead in directions not fixed by the rules, or stand
+/// still and are turned.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let motion = analysis.facts(stype).motion;
     let turns = |effect: &EffectSummary| match effect {
@@ -190,8 +190,8 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     }
 }
 
-/// Assigns the character [`AVATAR`] to all avatar states. A type that already had this character gets a
-/// character that has become unused.
+/// Assigns the character [`AVATAR`] to all avatar states. A type that already had this character gets one
+/// that has become unused.
 fn unite_avatars(entries: &mut [Entry]) {
     let is_avatar = |entry: &&Entry| entry.role == EntryRole::Avatar;
     let Some(free) = entries.iter().find(is_avatar).map(|entry| entry.symbol) else { return };

@@ -44,7 +44,7 @@ pub struct Grade {
     pub insight: Option<f64>,
 }
 
-/// A game's sprite types, except avatars and floors, grouped by the effect of a touch. The effects are those
+/// A game's sprite types, except avatars and floors, grouped by the effect of a touch. The effects are stated
 /// for a player who does not know the rules and must learn them by touching.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Trials {
@@ -109,8 +109,8 @@ fn fact_of(touch: &Touch, fact: TouchFact) -> Option<bool> {
     }
 }
 
-/// Grades predictions about sprite types. Ignores names that are not in the game, and types that were not in
-/// the question.
+/// Grades predictions about sprite types. Ignores names missing from the game, and types missing from the
+/// question.
 pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Grade {
     let mut grade = Grade::default();
     let mut insights = Vec::new();
@@ -174,7 +174,7 @@ pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted,
     Ok(predicted)
 }
 
-/// Returns `true` if a word has the form of a type name in a question.
+/// Returns `true` if a word has the format of a type name in a question.
 fn is_kind(word: &str) -> bool {
     word.strip_prefix('t').is_some_and(|rest| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit()))
 }

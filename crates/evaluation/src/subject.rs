@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// A game with its levels, and with known facts that are not part of its rules.
+/// A game with its levels, and known facts beyond its rules.
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// The game's ID in logs and tables. The ID is usable as a file name, without path separators.
@@ -20,7 +20,7 @@ pub struct Subject {
     pub analysis: Analysis,
     /// The game's levels.
     pub levels: Vec<SubjectLevel>,
-    /// The known facts that are not part of the rules.
+    /// The known facts beyond the rules.
     pub facts: SubjectFacts,
 }
 

@@ -12,9 +12,9 @@ const PIECE: usize = 4096;
 
 /// Counts a text's tokens in the embedded vocabulary `o200k_base`.
 ///
-/// Every model family has its own vocabulary, whose counts are within about 20% of this count. Words that
-/// look like control tokens are counted as words. Cost: O(bytes). The first call in a process loads the
-/// vocabulary, which takes about 0.2 s.
+/// Every model family has its own vocabulary, whose counts are within about 20% of this count. Text that
+/// looks like control tokens is counted as ordinary text. Cost: O(bytes). The first call in a process loads
+/// the vocabulary, which takes about 0.2 s.
 pub fn count(text: &str) -> u64 {
     let vocabulary = o200k_base_singleton();
     let mut rest = text;

@@ -20,8 +20,8 @@ base::named_enum! {
 }
 
 impl Track {
-    /// Returns the track's version, which is incremented whenever its settings or the texts of its own
-    /// prompts change.
+    /// Returns the track's version. The version is incremented whenever the track's settings or its own
+    /// prompt texts change.
     pub const fn version(self) -> u32 {
         match self {
             Track::Told | Track::Masked | Track::Discover | Track::Vision => 1,

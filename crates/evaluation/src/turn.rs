@@ -59,7 +59,7 @@ pub struct LevelEnd {
 pub struct Before<'a> {
     /// The observation before the action.
     pub observation: &'a Observation,
-    /// The action that was played.
+    /// The action played.
     pub action: Action,
     /// The change in score caused by the action.
     pub reward: f64,
@@ -108,7 +108,7 @@ impl<'a> Turn<'a> {
         Turn { subject, level, number, limit, commit, observation, before, played, actions, series }
     }
 
-    /// Returns the number of actions in the decision, which is at least one.
+    /// Returns the number of actions in the decision (at least one).
     pub fn due(&self) -> u64 {
         self.commit.due(self.limit.saturating_sub(self.number)).max(1)
     }

@@ -40,7 +40,7 @@ struct Order {
     settings: Settings,
     prompts: PromptSettings,
     run: u64,
-    /// The index of the series among all series of the same game and run.
+    /// The index of the series among those of the same game and run.
     first: usize,
     reasks: u32,
 }
@@ -191,7 +191,7 @@ fn track_named(name: Option<&str>) -> PyResult<Option<Track>> {
     name.map(named).transpose()
 }
 
-/// Returns the prompt settings of a track, or those described by a JSON object.
+/// Returns the prompt settings from a track, or from a JSON object.
 fn prompts_of(track: Option<Track>, prompts: Option<&str>) -> PyResult<PromptSettings> {
     match prompts {
         Some(prompts) => {

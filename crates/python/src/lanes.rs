@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// The number of lanes per task of a thread.
+/// The number of lanes per thread task.
 const LANES_OF_A_TASK: usize = 64;
 
 /// The rule for starting a new episode in a lane whose episode has ended.

@@ -4,7 +4,7 @@ use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, quantile, wilson};
 
-/// A fraction of a number of items, with its confidence interval.
+/// A fraction of a set of items, with its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Share {
@@ -23,7 +23,7 @@ impl Share {
         Share { count, of, interval: [interval.low, interval.high] }
     }
 
-    /// Returns the fraction of answers that are `true`.
+    /// Returns the fraction of `true` answers.
     pub fn yes(answers: impl IntoIterator<Item = bool>) -> Share {
         let (mut count, mut of) = (0, 0);
         for answer in answers {
@@ -48,8 +48,8 @@ pub struct Mean {
     pub interval: [f64; 2],
     /// The number of items.
     pub count: u64,
-    /// The name of an item in the singular, such as `level`. In JSON, the key of the count is the plural of
-    /// the name.
+    /// The name of an item in the singular, such as `level`. In JSON, the count's key is the plural of the
+    /// name.
     pub item: &'static str,
 }
 

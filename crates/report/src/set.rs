@@ -41,7 +41,7 @@ pub struct Section {
 /// A figure shown on a page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// The value's key in the JSON. The key is empty for figures that are shown only on the page.
+    /// The value's key in the JSON. The key is empty for figures shown only on the page.
     pub key: &'static str,
     /// The name shown on the page.
     pub name: String,
@@ -52,7 +52,7 @@ pub struct Figure {
 /// A figure's value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A fraction of a number of items, with its interval.
+    /// A fraction of a set of items, with its interval.
     Share(Share),
     /// A mean between 0 and 1.
     Mean(Mean),
@@ -93,7 +93,7 @@ impl Data {
 }
 
 impl SetReport {
-    /// Adds a value that is written to the JSON but not shown on the page.
+    /// Adds a value to the JSON but not to the page.
     #[must_use]
     pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> SetReport {
         self.data.put(key, value);
@@ -163,14 +163,14 @@ impl Section {
         Section { key, title, note: note.into(), figures, tables, data: Data::default() }
     }
 
-    /// Adds a value that is written to the JSON but not shown on the page.
+    /// Adds a value to the JSON but not to the page.
     #[must_use]
     pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> Section {
         self.data.put(key, value);
         self
     }
 
-    /// Adds a figure that is shown on the page but not written to the JSON.
+    /// Adds a figure to the page but not to the JSON.
     #[must_use]
     pub fn shown(self, name: impl Into<String>, value: Value) -> Section {
         self.figure("", name, value)
@@ -207,7 +207,7 @@ impl Section {
         self.data(key, &count).figure(key, name, Value::Count(count))
     }
 
-    /// Adds the number of occurrences of each item. If a total is given, fractions are added instead of
+    /// Adds the number of times that each item occurs. If a total is given, fractions are added instead of
     /// counts.
     #[must_use]
     pub fn tally(self, key: &str, name: &str, counts: &BTreeMap<String, u64>, of: Option<u64>) -> Section {
@@ -217,7 +217,7 @@ impl Section {
         })
     }
 
-    /// Adds a table that is shown on the page but not written to the JSON.
+    /// Adds a table to the page but not to the JSON.
     #[must_use]
     pub fn table(mut self, table: Table) -> Section {
         self.tables.push(table);
@@ -231,8 +231,8 @@ impl Section {
         }
     }
 
-    /// Adds a figure that is shown on the page and can be found by [`SetReport::headlines`] under its key.
-    /// The value is not written to the JSON.
+    /// Adds a figure to the page but not to the JSON. [`SetReport::headlines`] can find the figure by its
+    /// key.
     #[must_use]
     pub fn figure(mut self, key: &'static str, name: impl Into<String>, value: Value) -> Section {
         self.figures.push(Figure { key, name: name.into(), value });

@@ -148,7 +148,7 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// Returns `true` if a column contains text, which is left-aligned.
+    /// Returns `true` if a column contains text, so that it is left-aligned.
     fn is_words(&self, column: usize) -> bool {
         self.rows.iter().any(|row| row[column].is_words())
     }

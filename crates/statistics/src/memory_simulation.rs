@@ -10,8 +10,8 @@ use crate::planning::draws::Draws;
 pub struct MemoryTrial {
     /// The simulated player.
     pub player: Memoriser,
-    /// The decrease in ability caused by new names, in logits. Both siblings have names that differ from
-    /// those of the games that the player may know.
+    /// The decrease in ability caused by new names, in logits. Both siblings have different names than the
+    /// games known to the player.
     pub hurt: f64,
     /// The standard deviation, in logits, of the ability decrease between different sets of names for the
     /// same game.

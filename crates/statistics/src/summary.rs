@@ -6,7 +6,7 @@
 /// any order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// The number of values, which is at least 1.
+    /// The number of values (at least 1).
     pub count: usize,
     /// The arithmetic mean, within `min..=max`.
     pub mean: f64,

@@ -21,7 +21,7 @@ const FORMAT: u32 = 1;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeySet {
-    /// The format version, which is 1.
+    /// The format version, currently 1.
     pub format: u32,
     /// The set's number. The first set has number 1.
     pub version: u32,
@@ -151,7 +151,7 @@ impl KeySet {
     /// Returns the bytes of the set's file. These bytes are signed.
     ///
     /// # Errors
-    /// Never returns an error for a set that was parsed or created by this module.
+    /// Never returns an error for a set parsed or created by this module.
     pub fn to_bytes(&self) -> Result<Vec<u8>, TrustError> {
         let text = to_canonical_json(self).map_err(|error| TrustError::Refused(error.to_string()))?;
         Ok(text.into_bytes())

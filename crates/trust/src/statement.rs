@@ -14,7 +14,7 @@ const FORMAT: u32 = 1;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Statement {
-    /// The format version, which is 1.
+    /// The format version, currently 1.
     pub format: u32,
     /// The release's name.
     pub release: String,

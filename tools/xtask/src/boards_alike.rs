@@ -277,8 +277,8 @@ fn corpus(folder: &Path) -> anyhow::Result<Vec<Known>> {
     Ok(known)
 }
 
-/// Returns the sufficiently large drawings in kernels. A drawing is any text in a kernel file that is a
-/// board, with floor written as `.`.
+/// Returns the sufficiently large drawings in kernels. A drawing is any board text in a kernel file, with
+/// floor written as `.`.
 fn drawings(folder: &Path) -> anyhow::Result<Vec<Known>> {
     let mut known = Vec::new();
     for path in files(folder)?.into_iter().filter(|path| path.extension().is_some_and(|end| end == "toml")) {

@@ -53,7 +53,7 @@ pub(crate) struct EpisodeRun<'a> {
     pub(crate) ticks: u64,
     /// The CPU time spent on stepping.
     pub(crate) time: Duration,
-    /// The digest of the hashes of all visited states, in visiting order.
+    /// The combined digest of all visited states' hashes, in visiting order.
     pub(crate) digest: u128,
 }
 

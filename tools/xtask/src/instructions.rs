@@ -1,6 +1,6 @@
 //! `cargo xtask instructions` tests whether a step has become slower. The task counts instructions instead of
-//! measuring time. Instruction counts are unaffected by other load on the machine, so a change of a few
-//! percent is visible.
+//! measuring time. Other load on the machine does not affect instruction counts, so a change of a few percent
+//! is visible.
 
 use crate::episode_run::{Subject, subjects};
 use anyhow::{Context, bail};

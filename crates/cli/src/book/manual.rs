@@ -24,7 +24,7 @@ pub(crate) struct Page {
     pub(crate) text: &'static str,
 }
 
-/// The sections of the manual, in the order of the table of contents. Each section is a folder in `docs/`.
+/// The manual's sections, in the order of the table of contents. Each section is a folder in `docs/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Section {
     /// Tutorials.
@@ -91,7 +91,7 @@ pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
     }
 }
 
-/// Returns the failure for a word that is neither a page name nor contained in any page.
+/// Returns the failure for a word that is neither a page name nor on any page.
 pub(crate) fn absent(pages: &[Page], wanted: &str) -> Failure {
     let near = engine::nearest(wanted, pages.iter().map(|page| page.name.as_str()));
     let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
@@ -232,7 +232,7 @@ fn find(pages: &[Page], wanted: &str) -> Option<usize> {
 }
 
 impl Page {
-    /// Parses a line of the table of contents as a list item that links to a page.
+    /// Parses a line in the table of contents as a list item that links to a page.
     fn listed(line: &str) -> Option<Page> {
         let item = line.trim_start();
         let (label, file) = item.strip_prefix("- [")?.strip_suffix(')')?.split_once("](")?;

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use std::thread::available_parallelism;
 
 /// The maximum number of threads in a pool. More threads would only wait for each other, and starting
-/// thousands of threads takes minutes.
+/// thousands of threads would need minutes.
 const MAX_THREADS: usize = 256;
 
 /// The limits that the user sets for a run. No output depends on them.

@@ -173,7 +173,7 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Returns `true` if new games can be created at `place`. The place must either not exist, or be a folder
+/// Returns `true` if new games can be created at `place`. The path must not exist, or must be a folder
 /// without games and visible subfolders. A name with an extension counts as a file, and the name of a corpus
 /// game counts as a game.
 pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {

@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 /// The number of trailing lines searched for an action without the word "action".
 const LAST_LINES: usize = 5;
 
-/// The maximum number of bytes of a line to examine.
+/// The maximum number of bytes to examine per line.
 pub(super) const MAX_SCANNED: usize = 400;
 
 /// The maximum number of decisions to examine, counted from the end of the answer.

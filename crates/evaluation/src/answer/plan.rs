@@ -32,8 +32,8 @@ static PART: LazyLock<Regex> = LazyLock::new(|| {
 });
 
 /// Reads a plan, truncated to `due` actions. `listed` contains the game's actions. The last plan in the
-/// answer counts. A plan with a word that is not an action is unusable, and no earlier plan replaces it.
-/// Cost: O(bytes + due).
+/// answer counts. A plan that contains a non-action word is unusable, and no earlier plan replaces it. Cost:
+/// O(bytes + due).
 pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>> {
     let said = without_reasoning(text).trim();
     if said.is_empty() {
@@ -116,7 +116,7 @@ fn strict(said: &str, due: u64, listed: &[Action]) -> Option<Vec<Action>> {
 /// The beginning of a text, parsed as a list of actions.
 enum List<'a> {
     Plan(Vec<Action>),
-    /// A word that is not an action, in the first line or after an action on the same line.
+    /// A non-action word, in the first line or after an action on the same line.
     Unknown(&'a str),
     None,
 }

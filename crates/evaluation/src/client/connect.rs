@@ -17,13 +17,13 @@ use base::Digest;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A model that is ready to answer.
+/// A model ready to answer requests.
 pub struct Connection {
     /// The model, shareable between threads.
     pub model: Box<dyn Model>,
     /// The spending limits and the amounts spent so far.
     pub caps: Arc<Caps>,
-    /// The part of the configuration that is stored with the results.
+    /// The part of the configuration saved with the results.
     pub settings: ModelSettings,
     /// The price of the model's tokens, if known.
     pub price: Option<Price>,
@@ -120,8 +120,8 @@ pub fn connect_with(
     Ok(Connection { model: Box::new(remote), caps, settings, price })
 }
 
-/// Rejects a value that is not a valid variable name. The error message does not repeat the value, because
-/// the value may be the key itself.
+/// Rejects invalid variable names. The error message does not repeat the value, because the value may be the
+/// key itself.
 fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     let is_name = |name: &str| {
         let plain = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';

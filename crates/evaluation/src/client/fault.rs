@@ -254,7 +254,7 @@ mod tests {
         }
     }
 
-    /// A reply that is truncated at any byte is not an answer.
+    /// A reply truncated at any byte is not an answer.
     #[test]
     fn truncated_replies_are_rejected() {
         for (provider, body) in [

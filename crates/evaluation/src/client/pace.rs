@@ -72,8 +72,7 @@ impl Pace {
         }
     }
 
-    /// Corrects the schedule after a request that was admitted with `expected` tokens and used `taken`
-    /// tokens.
+    /// Corrects the schedule after a request admitted with `expected` tokens has used `taken` tokens.
     pub(super) fn correct(&self, expected: u64, taken: u64) {
         if let Some(limit) = self.tokens_per_minute {
             let mut schedule = self.schedule();

@@ -50,7 +50,7 @@ impl Model for Remote {
 }
 
 impl Remote {
-    /// Requests an answer that is not cached.
+    /// Requests an uncached answer.
     fn request_with_retries(
         &self,
         request: &ChatRequest,

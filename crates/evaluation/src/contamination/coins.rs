@@ -31,8 +31,8 @@ pub struct LevelCoin {
     pub published: Digest,
     /// The level's digest in the withheld sibling, if any.
     pub withheld: Option<Digest>,
-    /// The first actions of the published win and of the withheld win. The two sequences differ and have the
-    /// same length. `None` unless both wins exist.
+    /// The first actions of the published and the withheld win. The two sequences differ and have the same
+    /// length. `None` unless both wins exist.
     pub beginnings: Option<[Vec<Action>; 2]>,
 }
 

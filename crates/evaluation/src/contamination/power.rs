@@ -20,7 +20,7 @@ const BY_CHANCE: f64 = 0.07;
 /// The standard deviation, in logits, of the difference between the effects of two sets of names on a
 /// player's results.
 const NAMES: f64 = 0.5;
-/// The number of simulated players per power value of the sibling test.
+/// The number of simulated players for each power value in the sibling test.
 const TRIALS: u64 = 1000;
 /// The seed of the power simulation.
 const SEED: u64 = 32;

@@ -42,7 +42,7 @@ type Place = (usize, String, usize, u64);
 ///
 /// # Errors
 /// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders
-/// hold the same episode of the same player.
+/// contain the same episode of the same player.
 pub fn episodes_by_player(folders: &[PathBuf]) -> Result<Vec<PlayerEpisodes>, EvaluationError> {
     let (mut persons, mut known) = (Vec::new(), BTreeMap::new());
     for (number, folder) in folders.iter().enumerate() {

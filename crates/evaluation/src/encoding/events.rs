@@ -7,7 +7,7 @@ use engine::{Action, AvatarView, Observation};
 use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum number of cells listed per type that has appeared or disappeared.
+/// The maximum number of cells listed per appearing or disappearing type.
 const MAX_CELLS: usize = 4;
 
 /// Describes the effects of an action, found by comparing two observations. The lines describe what happened

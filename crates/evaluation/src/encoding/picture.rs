@@ -21,7 +21,7 @@ pub struct Picture {
 /// than the other encodings. The same arguments give the same bytes on every machine. Cost: O(pixels).
 ///
 /// # Errors
-/// Returns an error if the cells or the whole image would be too small or too large.
+/// Returns an error if the cells or the entire image would be too small or too large.
 pub fn picture(observation: &Observation, legend: &Legend, cell: u32) -> Result<Picture, EvaluationError> {
     let style = Style { cell, caption: false, legend: true };
     let fault =

@@ -67,8 +67,8 @@ pub enum Event {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         image: Option<Digest>,
     },
-    /// A request that is about to be sent. If the log contains no reply, the request may have been paid for,
-    /// but its reply was lost.
+    /// A request about to be sent. If the log contains no reply, the request may have been paid for, but its
+    /// reply was lost.
     Request {
         /// The number of actions played before the decision.
         step: u64,
@@ -96,7 +96,7 @@ pub enum Event {
     Step {
         /// The step's index, starting at 0.
         step: u64,
-        /// The action that was played.
+        /// The action played.
         action: Action,
         /// The origin of the action's choice.
         validity: Validity,
@@ -221,7 +221,7 @@ pub enum ReplyClass {
     Strict,
     /// The answer states an action in a different format, read by a tolerant rule.
     Tolerant,
-    /// The answer contains no readable action, or states an action that does not exist.
+    /// The answer contains no readable action, or states a nonexistent action.
     Invalid,
     /// The model declined to answer.
     Refused,

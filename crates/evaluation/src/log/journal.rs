@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// The maximum size of a log, in bytes. A long episode with extensive model reasoning can take several
+/// The maximum size of a log, in bytes. A long episode with extensive model reasoning can occupy several
 /// hundred million bytes.
 const MAX_LOG: u64 = 1 << 30;
 

@@ -4,7 +4,7 @@ use crate::log::{Event, ReplyClass};
 use crate::player::Validity;
 use serde::Serialize;
 
-/// The number of steps for each origin of a choice. The counts add up to the total number of steps.
+/// The numbers of steps, by the origin of each choice. The counts add up to the total number of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Choices {
     /// The number of steps chosen by an answer in the requested format, or by a player that does not answer
@@ -66,8 +66,8 @@ impl Choices {
 /// answer's count is missing, or if there are no answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Spending {
-    /// The number of requests that were sent, whether or not they were answered. A request forbidden by a cap
-    /// was not sent.
+    /// The number of requests sent, whether or not they were answered. A request forbidden by a cap is not
+    /// sent.
     pub requests: u64,
     /// The number of answers.
     pub replies: u64,
@@ -129,7 +129,7 @@ impl Spending {
     }
 }
 
-/// Returns the number of requests in a log that were sent.
+/// Returns the number of requests in a log that were actually sent.
 ///
 /// Requests are recorded before it is known whether a cap allows them. If the evaluation is resumed, a
 /// forbidden request is sent without being recorded again.

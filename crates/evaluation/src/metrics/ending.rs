@@ -8,7 +8,7 @@ use itertools::Itertools;
 use serde::Serialize;
 
 base::named_enum! {
-    /// The kind of ending of an episode without a win.
+    /// How an episode without a win ended.
     pub enum EndingKind {
         /// The avatar was removed or transformed into a different type.
         Died = "died",
@@ -18,7 +18,7 @@ base::named_enum! {
         Appeared = "sprite_appeared",
         /// The time limit of the game was reached.
         OutOfTime = "out_of_time",
-        /// The game was lost in a different way, or for an unknown reason.
+        /// The game was lost for a different or an unknown reason.
         Otherwise = "lost_otherwise",
         /// The episode reached its step limit.
         StepLimit = "step_limit",
@@ -50,7 +50,7 @@ impl EndingKind {
 pub struct Ending {
     /// The kind of ending.
     pub kind: EndingKind,
-    /// The sprite type that was removed or appeared, if its sprite count lost the game.
+    /// The removed or appearing sprite type, if its sprite count lost the game.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sprite: Option<String>,
     /// The other sprite type in the interaction that last removed or created the sprite, or `EOS`. `None` if

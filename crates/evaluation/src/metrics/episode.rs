@@ -47,15 +47,15 @@ pub struct EpisodeMetrics {
     /// The level's position in a series of levels played in one conversation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub series: Option<SeriesPlace>,
-    /// The grade of the predictions after the last level of a series.
+    /// The grade of the player's predictions after the last level in a series.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub predictions: Option<Grade>,
     /// The length of the level's shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,
     /// The meaningful step ratio: the number of meaningful steps divided by the total number of steps.
     pub meaningful: Option<f64>,
-    /// The meaningful step ratio according to the reference code, which omits the last step. An episode with
-    /// a single step has no ratio.
+    /// The meaningful step ratio according to the reference code, which omits the last step. The ratio is
+    /// undefined for an episode with a single step.
     pub meaningful_as_code: Option<f64>,
     /// The metrics of the avatar's movement in the level.
     pub movement: Movement,
@@ -260,7 +260,7 @@ fn served_by(log: &[Event]) -> BTreeSet<String> {
     replies.collect()
 }
 
-/// Returns the fraction of flags that are `true`.
+/// Returns the fraction of `true` flags.
 fn fraction(flags: &[bool]) -> Option<f64> {
     (!flags.is_empty()).then(|| flags.iter().filter(|flag| **flag).count() as f64 / flags.len() as f64)
 }

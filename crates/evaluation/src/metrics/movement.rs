@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 /// are `None` if there was never an avatar.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Movement {
-    /// The fraction of steps that were not meaningful, between 0 and 1 (one minus the meaningful step ratio).
+    /// The fraction of steps that were not meaningful (one minus the meaningful step ratio), between 0 and 1.
     pub bump_rate: Option<f64>,
     /// The length of the longest sequence of steps that were not meaningful.
     pub max_bumps: Option<u64>,
@@ -67,7 +67,7 @@ impl Movement {
     }
 }
 
-/// Returns the area of the bounding rectangle of all cells.
+/// Returns the area of the rectangle that bounds all cells.
 fn area(cells: &[(i32, i32)]) -> Option<f64> {
     let side = |of: fn(&(i32, i32)) -> i32| {
         let (least, most) = (cells.iter().map(of).min()?, cells.iter().map(of).max()?);

@@ -14,7 +14,7 @@ use engine::Action;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The feedback on an answer that was cut off.
+/// The feedback on a truncated answer.
 const CUT_OFF: &str = "it was cut off before it came to an action";
 /// The feedback on a refusal.
 const DECLINED: &str = "it declines to play";
@@ -24,12 +24,12 @@ pub struct ModelPlayer {
     model: Arc<dyn Model>,
     prompter: Arc<Prompter>,
     decoding: Decoding,
-    /// The maximum number of repetitions of a question after answers without a usable action.
+    /// The maximum number of times that a question is repeated after answers without a usable action.
     reasks: u32,
     /// The seed for sampling answers.
     samples: Seed,
     past: Vec<Past>,
-    /// The indices of the texts that are already in the log.
+    /// The indices of texts already in the log.
     texts: BTreeMap<Text, u32>,
     /// The number of log events whose texts have already been added to `texts`.
     read: usize,

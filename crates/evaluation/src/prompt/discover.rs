@@ -1,5 +1,4 @@
-//! The parts of prompts that are specific to the track without rules: the end of a level and the last
-//! question.
+//! The prompt parts specific to the track without rules: the end of a level and the last question.
 
 use super::{Attempt, Past, Prompt, PromptStyle, Prompter, data};
 use crate::encoding;

@@ -4,7 +4,7 @@ use crate::answer;
 use crate::tokens;
 use engine::Action;
 
-/// The maximum number of trailing bytes of an answer shown in later turns.
+/// The maximum length of an answer's last part shown in later turns, in bytes.
 const MAX_ANSWER: usize = 2_000;
 
 /// The text that replaces an empty answer, because providers reject empty messages.

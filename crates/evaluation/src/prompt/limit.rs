@@ -31,8 +31,8 @@ mod tests {
     use super::*;
     use engine::Game;
 
-    /// Checks the sentences about winning and losing under a limit, for a game that is lost at tick 81 and
-    /// won at tick 91.
+    /// Checks the sentences about winning and losing under a limit, for a game lost at tick 81 and won at
+    /// tick 91.
     #[track_caller]
     fn check(limit: u64, expect: &[&str]) {
         let game = "BasicGame\n  SpriteSet\n    tick > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    t > tick\n  \

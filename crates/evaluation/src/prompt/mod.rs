@@ -39,7 +39,7 @@ use minijinja::value::{Serde, Value};
 use render::Style;
 use serde::Serialize;
 
-/// The version of the templates and of the English rules. The version is incremented whenever their wording
+/// The version of the templates and the English rules. The version is incremented whenever their wording
 /// changes, so that results with different prompts are easy to distinguish.
 pub const VERSION: u32 = 9;
 
@@ -122,7 +122,7 @@ pub struct Prompt {
     pub messages: Vec<ChatMessage>,
     /// The text of the newest turn, to be passed to [`Past::new`] when the turn is over.
     pub shown: String,
-    /// The number of oldest turns that were dropped.
+    /// The number of oldest turns dropped.
     pub left_out: usize,
     /// The prompt's token counts.
     pub tokens: PromptTokens,
@@ -138,7 +138,7 @@ impl Prompter {
     }
 
     /// Prepares the prompts for a game whose episodes have at most `limit` actions. The rules in the prompts
-    /// mention no later tick. The prompts request as many actions as the player commits to.
+    /// mention no later tick. The prompts request the number of actions that the player commits to.
     ///
     /// # Errors
     /// Returns an error if the settings are out of range, if the reference's style is combined with a
@@ -212,7 +212,7 @@ impl Prompter {
         &self.actions
     }
 
-    /// Returns the beginning of all of the game's prompts, which is always byte-identical.
+    /// Returns the byte-identical beginning of all the game's prompts.
     pub fn static_part(&self) -> &str {
         &self.static_part
     }
@@ -322,7 +322,7 @@ impl Prompter {
         format!("{}\n\n{}", end.trim_end(), self.write_turn(last, &[]))
     }
 
-    /// Reads a turn's answer, which states one action, or a plan with the actions that are due.
+    /// Reads a turn's answer: one action, or a plan with the actions due.
     pub fn read(&self, answer: &str, turn: &Turn<'_>) -> Reading<Vec<Action>> {
         if !self.commit.is_one() {
             return answer::read_plan(answer, turn.due(), &self.actions);

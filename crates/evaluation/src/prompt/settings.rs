@@ -36,7 +36,7 @@ pub struct PromptSettings {
     pub identity_tracking: bool,
     /// The number that selects the board's shuffled characters. `None` keeps the original characters.
     pub shuffled_symbols: Option<u64>,
-    /// Advice that is inserted verbatim into the prompt.
+    /// Advice to insert verbatim into the prompt.
     pub strategy: Option<String>,
     /// The maximum number of tokens in a conversation, counted locally. If a conversation exceeds the
     /// maximum, its oldest turns are dropped.

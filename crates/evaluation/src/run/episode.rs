@@ -63,8 +63,8 @@ impl Task<'_> {
         self.max_steps.min(self.subject.game.time_limit())
     }
 
-    /// Returns the maximum number of decisions. Each decision covers as many actions as the player commits
-    /// to.
+    /// Returns the maximum number of decisions. Each decision covers the number of actions that the player
+    /// commits to.
     pub fn most_decisions(&self) -> u64 {
         let steps = self.most_steps();
         steps.div_ceil(self.commit.due(steps).max(1))

@@ -66,7 +66,7 @@ pub struct Tally {
     pub episodes: u64,
     /// The number of episodes that ended.
     pub ended: u64,
-    /// The number of ended episodes that were won, excluding practice episodes.
+    /// The number of ended episodes with a win, excluding practice episodes.
     pub won: u64,
     /// The episodes stopped by the engine, grouped by game and reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -74,13 +74,13 @@ pub struct Tally {
     /// The games that could not be played because the server rejected their prompts.
     #[serde(skip_serializing_if = "BTreeSet::is_empty")]
     pub unfit: BTreeSet<String>,
-    /// The total number of practice episodes, which are excluded from all results.
+    /// The total number of practice episodes, excluded from all results.
     #[serde(skip_serializing_if = "is_zero")]
     pub practice: u64,
     /// The decision counts over all episodes: in total, and without a usable answer.
     #[serde(flatten)]
     pub answers: Answers,
-    /// The number of episodes that were aborted, or were not started because other episodes were aborted.
+    /// The number of aborted episodes, and of episodes not started because others were aborted.
     pub open: u64,
     /// The reason for the first aborted episode, if any.
     pub halted: Option<String>,

@@ -171,7 +171,7 @@ impl Settings {
     /// The limits bound the size of a results folder for its readers.
     ///
     /// # Errors
-    /// Returns a message that states the value that is out of range, or the repeated game or level.
+    /// Returns a message that states the out-of-range value, or the repeated game or level.
     pub fn check(&self) -> Result<(), String> {
         let levels: u64 = self.games.iter().map(|game| game.levels.len() as u64).sum();
         let episodes = self.runs.checked_mul(levels).filter(|&episodes| episodes <= MAX_EPISODES);

@@ -9,7 +9,7 @@ use std::sync::Mutex;
 /// shown earlier.
 const FIRST: u64 = 20;
 
-/// The reciprocal of the fraction of decisions without a usable answer above which a warning is shown.
+/// The reciprocal of a fraction. A warning is shown if a greater fraction of decisions lacks a usable answer.
 const ONE_IN: u64 = 5;
 
 /// The number of decisions, and the number of decisions in which the player did nothing because no answer was
@@ -58,7 +58,7 @@ impl fmt::Display for Answers {
     }
 }
 
-/// A count of the answers in all episodes of a run, shared between threads.
+/// A count of the answers in all of a run's episodes, shared between threads.
 #[derive(Debug, Default)]
 pub(crate) struct Watch(Mutex<Watched>);
 

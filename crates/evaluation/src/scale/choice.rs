@@ -227,8 +227,8 @@ impl AdaptiveChoice {
         })
     }
 
-    /// Returns the indices of the next episodes among all of the evaluation's episodes, or an empty list to
-    /// finish. `played` contains the episodes that have ended since the last call, with `true` for wins.
+    /// Returns the indices of the next episodes, counted over all the evaluation's episodes, or an empty list
+    /// to finish. `played` contains the episodes that have ended since the last call, with `true` for wins.
     pub fn next(&mut self, settings: &Settings, played: &[(usize, bool)]) -> Vec<usize> {
         for &(episode, won) in played {
             let (game, level) = self.places[episode % self.places.len()];

@@ -34,7 +34,7 @@ const LEAST_SPREAD: f64 = 1e-6;
 /// The maximum number of bootstrap replicates.
 const MAX_REPLICATES: f64 = 10_000.0;
 
-/// The recommendation in error messages about files that are not scales.
+/// The recommendation in error messages about files other than scales.
 const NEXT_STEP: &str = "pass the scale.json that `arcade study calibrate` wrote";
 
 /// A scale, with the releases placed on it.
@@ -462,8 +462,8 @@ impl MonthEntry {
 }
 
 impl GameEntry {
-    /// Returns a level's difficulty in a dimension, with the component of its error that is not shared with
-    /// the game's other levels.
+    /// Returns a level's difficulty in a dimension, with the error component not shared with the game's other
+    /// levels.
     pub(super) fn difficulty(&self, level: usize, side: usize) -> (f64, f64) {
         let levels = self.levels.iter().map(|one| {
             let Estimate { value, error } = one.difficulty[side];

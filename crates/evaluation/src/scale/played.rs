@@ -28,16 +28,16 @@ pub struct PersonPlays {
     pub levels: BTreeMap<(Digest, Digest), (u64, u64)>,
 }
 
-/// Reads results folders, and distinguishes their persons as in reports. Aborted episodes do not count. An
-/// episode does not count either if its track, commitment or step limit differs from those of a scale with
-/// `max_steps`, because the scale's difficulties would not apply.
+/// Reads results folders, and distinguishes their persons as in reports. Aborted episodes do not count.
+/// Episodes with a different track, commitment or step limit than a scale with `max_steps` do not count,
+/// because the scale's difficulties would not apply.
 ///
 /// Cost: one [`replay_course`](crate::metrics::replay_course) per episode, on the threads of the current
 /// rayon pool.
 ///
 /// # Errors
 /// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders
-/// hold different episodes of the same person, level, run and seed.
+/// contain different episodes of the same person, level, run and seed.
 pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, EvaluationError> {
     let (persons, settings) = persons(folders)?;
     let person = |(player, episodes): (Player, Vec<EpisodeMetrics>)| {

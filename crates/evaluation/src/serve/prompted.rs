@@ -1,5 +1,5 @@
-//! A served player that is called directly, without a server. The player gets the same prompts, and its
-//! answers are parsed in the same way.
+//! A served player called directly, without a server. The player gets the same prompts, and its answers are
+//! parsed identically.
 
 use super::PromptPlayer;
 use crate::log::Journal;

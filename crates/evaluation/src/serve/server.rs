@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use tokio::sync::oneshot;
 
-/// A server that is bound to its port but does not serve requests yet.
+/// A server bound to its port that does not serve requests yet.
 #[derive(Debug)]
 pub struct Server {
     player: PromptPlayer,

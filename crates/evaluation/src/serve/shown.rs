@@ -25,7 +25,7 @@ pub(super) struct Shown<'a> {
     /// The names in each cell, in row-major order. Within a cell, the names are ordered from bottom to top,
     /// without floors.
     pub(super) cells: Vec<Vec<&'a str>>,
-    /// The names of floors, which are omitted from the board.
+    /// The names of floors, omitted from the board.
     pub(super) floors: Vec<&'a str>,
     pub(super) tick: u32,
     /// The player's position and type, or `None` if the player is gone.

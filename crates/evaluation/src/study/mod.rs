@@ -44,7 +44,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 const LEVEL: f64 = 0.95;
-/// The maximum number of rows in a comparison table of a report. The study's data contain all rows.
+/// The maximum number of rows in a report's comparison tables. The study's data contain all rows.
 const MAX_COMPARISONS: usize = 100;
 
 /// The analysed results of several players. Indices named `player` and `game` refer to the lists `players`
@@ -61,10 +61,10 @@ pub struct Study {
     pub notes: Vec<String>,
     /// The leaderboard, best player first.
     pub leaderboard: Vec<LeaderRow>,
-    /// The heat maps by game, one for each [`Scope`] that has models. Without models, there is only one heat
-    /// map, for both modes.
+    /// The heat maps by game, one per [`Scope`] with models. Without models, there is only one heat map, for
+    /// both modes.
     pub by_game: Vec<Matrix>,
-    /// The heat maps by level, one for each [`Scope`] that has models.
+    /// The heat maps by level, one per [`Scope`] with models.
     pub by_level: Vec<Matrix>,
     /// The comparisons between models, and between models and other players.
     pub pairs: Contrasts,

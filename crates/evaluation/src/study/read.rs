@@ -29,7 +29,7 @@ impl Study {
     ///
     /// # Errors
     /// Returns an error if a folder or log cannot be read, if a replay differs from its log, if two folders
-    /// hold the same episode of the same player, or if the same name stands for different games or levels.
+    /// contain the same episode of the same player, or if the same name stands for different games or levels.
     pub fn read(folders: &[PathBuf]) -> Result<Study, EvaluationError> {
         let mut results: Vec<PersonResults> = Vec::new();
         let mut names = Names::default();

@@ -27,12 +27,12 @@ pub(crate) struct Figure {
     png: String,
     size: [u32; 2],
     head: String,
-    /// A text that is always empty. The field is kept because the page's nonce is computed over it.
+    /// An always empty text. The field is kept because the page's nonce is computed over it.
     line: &'static str,
 }
 
 impl Figure {
-    /// Converts a picture to a PNG image with a caption.
+    /// Creates a captioned PNG image from a drawing.
     pub(crate) fn of(picture: &Picture, head: String) -> Result<Figure, RenderError> {
         let size = [picture.width(), picture.height()];
         Ok(Figure { png: STANDARD.encode(png(picture)?), size, head, line: "" })

@@ -22,7 +22,7 @@ pub(crate) struct Shown {
     stack: bool,
 }
 
-/// A table column. The flag is `true` if the column contains numbers, which are right-aligned.
+/// A table column. The flag is `true` if the column contains right-aligned numbers.
 #[derive(Serialize)]
 pub(crate) struct Column {
     pub(crate) name: String,

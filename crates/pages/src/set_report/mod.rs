@@ -14,7 +14,7 @@ use render::{Picture, RenderError, png, sheet};
 use report::SetReport;
 use serde::Serialize;
 
-/// The parts of a page that are not included in the [`SetReport`].
+/// The parts of a page beyond the [`SetReport`].
 #[derive(Serialize)]
 struct Showcase<'a> {
     title: String,

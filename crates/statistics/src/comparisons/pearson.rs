@@ -32,7 +32,7 @@ pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
 /// within −1..=1.
 ///
 /// For [`pearson`], the p-value is exact if one side is normally distributed. For
-/// [`spearman`](crate::spearman), the p-value is an approximation, which is accurate for about ten or more
+/// [`spearman`](crate::spearman), the p-value is an approximation that is accurate for about ten or more
 /// pairs.
 ///
 /// ```

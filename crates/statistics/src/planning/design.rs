@@ -13,9 +13,9 @@ use statrs::function::erf::erfc;
 /// The model's standard deviations, in logits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// The standard deviation of the ease of games.
+    /// The standard deviation of game ease.
     pub games: f64,
-    /// The standard deviation of the ease of the levels within a game.
+    /// The standard deviation of level ease within a game.
     pub levels: f64,
     /// The standard deviation of the match between a player and a game. A match states how much better the
     /// player performs on the game than on equally hard games.
@@ -25,8 +25,8 @@ pub struct Spread {
 impl Default for Spread {
     /// Returns standard deviations of 1.3 for games, 1.0 for levels and 0.9 for matches. The values for games
     /// and levels were measured with built-in players. The value for matches is based on the published
-    /// results of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`), which give
-    /// 0.88 by maximum likelihood.
+    /// results of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`). The
+    /// maximum-likelihood estimate is 0.88.
     fn default() -> Spread {
         Spread { games: 1.3, levels: 1.0, matches: 0.9 }
     }

@@ -76,8 +76,8 @@ impl Power {
 }
 
 /// Returns the probability that [`fisher`] returns at most `alpha`, if two players with win rates `rates`
-/// play `trials` episodes. Returns NaN if a rate is not a proportion. Cost: cubic in the number of trials,
-/// which is acceptable for a few hundred trials.
+/// play `trials` episodes. Returns NaN if a rate is not a proportion. Cost: cubic in the number of trials. A
+/// few hundred trials are feasible.
 ///
 /// ```
 /// use infinite_arcade_statistics::fisher_power;

@@ -37,7 +37,7 @@ pub struct Difficulties {
 }
 
 impl Difficulties {
-    /// Returns the component of a level's error that is not shared with the game's other levels.
+    /// Returns the error component that a level does not share with the game's other levels.
     pub fn own(&self, level: usize) -> f64 {
         let rest = self.levels[level].error * self.levels[level].error - self.common * self.common;
         rest.max(0.0).sqrt()

@@ -241,8 +241,8 @@ impl Linked {
     }
 }
 
-/// Calibrates a first month, and adds a second month that is harder by `shift` and has a drift of `drift`.
-/// Returns `None` if a month cannot be calibrated.
+/// Calibrates a first month, and adds a second month, harder by `shift` and with a drift of `drift`. Returns
+/// `None` if a month cannot be calibrated.
 pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<LinkTrial> {
     let Linked { first, second, calibration, month, .. } = Linked::new(plan, shift, drift, seed)?;
     let apart = |dimension: Dimension| second.mean(dimension) - first.mean(dimension);

@@ -49,7 +49,7 @@ pub(super) const PLANNERS_ONLY: usize = 4;
 /// The number of parameters in a model with readers.
 pub(super) const WITH_READERS: usize = 9;
 /// The mean and the standard deviation of the prior for the logarithm of a standard deviation. Two standard
-/// deviations of the prior span 0.14 to 7 logits.
+/// deviations on either side of the mean span 0.14 to 7 logits.
 const LOG_PRIOR: (f64, f64) = (0.0, 1.0);
 /// The mean and the standard deviation of the prior for a slope.
 const SLOPE_PRIOR: (f64, f64) = (0.0, 1.0);

@@ -1,5 +1,5 @@
-//! Public randomness. A source publishes a random value in each round, which is stored as a file or as a log
-//! entry.
+//! Public randomness. A source publishes a random value in each round. The value is stored as a file or as a
+//! log entry.
 
 mod drand;
 

@@ -40,7 +40,7 @@ pub enum Entry {
         round: Round,
         /// The 32-byte random value.
         value: Digest,
-        /// The round's signature, which is required for drand values.
+        /// The round's signature, required for drand values.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         proof: Option<Proof>,
     },

@@ -257,8 +257,7 @@ pub fn is_month(name: &str) -> bool {
 }
 
 /// Checks that a log has reached a month, such as `2027-03`, and returns the fault otherwise. The newest
-/// month in the log reveals a copy that is no longer updated. Releases with other names contain no
-/// information about time.
+/// month in the log reveals an outdated copy. Releases with other names contain no information about time.
 pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
     let roots = entries.iter().filter_map(|entry| match entry {
         Entry::Root { release, .. } => Some(release.as_str()).filter(|name| is_month(name)),

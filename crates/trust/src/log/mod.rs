@@ -121,7 +121,7 @@ impl Log {
         faults
     }
 
-    /// Returns the fault in this log from the point of view of a reader who has seen an earlier checkpoint.
+    /// Returns the fault in this log, as seen by a reader with an earlier checkpoint.
     pub fn fork(&self, seen: &Checkpoint) -> Option<String> {
         let Checkpoint { origin, size, root, .. } = &self.checkpoint;
         if seen.origin != *origin {
@@ -177,7 +177,7 @@ impl Log {
         Some(Consistency { old, hashes, checkpoint: self.checkpoint.clone() })
     }
 
-    /// Replaces the checkpoint with a version that has additional signatures.
+    /// Replaces the checkpoint with a version that contains additional signatures.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.

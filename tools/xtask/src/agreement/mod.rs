@@ -1,5 +1,5 @@
 //! `cargo xtask agreement` prints random inputs for the functions in `statistics`, with their results.
-//! `tools/scripts/agreement.py` compares the results with those from other libraries.
+//! `tools/scripts/agreement.py` compares the results with other libraries' results.
 
 mod scale;
 

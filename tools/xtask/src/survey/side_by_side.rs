@@ -173,7 +173,7 @@ fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
 struct Judge<'a> {
     survey: GameSurvey,
     levels: usize,
-    /// The rows of games that have already been judged, by digest.
+    /// The rows of previously judged games, by digest.
     known: BTreeMap<Digest, GameRow>,
     file: Option<&'a Path>,
 }

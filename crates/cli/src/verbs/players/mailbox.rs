@@ -305,7 +305,7 @@ fn wrapped(text: &str, width: usize) -> String {
         .join("\n")
 }
 
-/// Returns the action specified by a line: by its full name, by its first letters or by an arrow key.
+/// Returns the action specified by a line: by its full name, its first letters or an arrow key.
 fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
     let typed = match line {
         // The escape sequences of a terminal's arrow keys.
@@ -370,7 +370,7 @@ fn listed(desk: &Desk, view: &View) -> String {
     [heading].into_iter().chain(lines).chain([state]).join("\n")
 }
 
-/// Returns an outcome in words.
+/// Returns a description of an outcome.
 fn words(outcome: engine::Outcome) -> &'static str {
     match outcome {
         engine::Outcome::Won => "won",

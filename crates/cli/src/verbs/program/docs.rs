@@ -81,7 +81,7 @@ const VERBS: [(&str, &[&str]); 23] = [
 /// The maximum number of pages listed by a search.
 const SHOWN: usize = 8;
 
-/// Lists the pages about a word that is not a page name.
+/// Lists the pages about a word other than a page name.
 fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -> Answer {
     let of_verb = about_verb.iter().filter_map(|name| pages.iter().find(|page| page.name == *name));
     let of_verb = of_verb.map(|page| (page, page.title().to_owned()));

@@ -155,7 +155,7 @@ impl Spent {
     }
 }
 
-/// A reservation for a request in flight. A reservation that is dropped before it is settled charges nothing.
+/// A reservation for a request in flight. Dropping a reservation before it is settled charges nothing.
 #[derive(Debug)]
 #[must_use]
 pub(in crate::client) struct Reservation<'a> {

@@ -29,7 +29,7 @@ fn size(png: &[u8]) -> Option<(u32, u32)> {
 pub struct Batch {
     /// The number of requests.
     pub requests: u64,
-    /// The number of tokens in the common prefix of all prompts.
+    /// The number of tokens in the prefix shared by all prompts.
     pub stable_tokens: u64,
     /// The average number of tokens per prompt after the common prefix.
     pub changing_tokens: u64,

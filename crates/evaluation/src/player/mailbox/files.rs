@@ -15,7 +15,7 @@ use std::str::FromStr;
 pub(super) const MARKER_FILE: &str = "mailbox.json";
 /// The name of the lock file, locked by the evaluation that writes to the mailbox.
 pub(super) const LOCK_FILE: &str = ".lock";
-/// The name of the file with the result of an episode or of the entire evaluation.
+/// The name of the file with an episode's result, or with the result of the entire evaluation.
 pub(super) const FINISHED_FILE: &str = "finished.json";
 /// The name of the file with an episode's last message.
 pub(super) const FINISHED_TEXT: &str = "finished.txt";

@@ -38,7 +38,7 @@ pub(super) struct Marker {
     pub(super) format: u32,
     /// The player's name in results.
     pub(super) player: String,
-    /// The digest of the settings of the evaluation that uses the mailbox.
+    /// The settings digest of the evaluation that uses the mailbox.
     pub(super) evaluation: Digest,
 }
 

@@ -57,7 +57,7 @@ struct EpisodeFolder {
     open: Mutex<Open>,
 }
 
-/// The prompt that is open, or that will be opened next.
+/// The current prompt, or the prompt to be opened next.
 #[derive(Debug, Default)]
 struct Open {
     address: Address,
@@ -162,7 +162,7 @@ impl EpisodeFolder {
         }
     }
 
-    /// Removes all prompt files except those of the prompt at `kept` and its answer.
+    /// Removes all prompt files except those at address `kept`, and all earlier answers.
     fn clear(&self, kept: Option<Address>) -> Result<(), EvaluationError> {
         let names = names(&self.path)?;
         let is_removed = |name: &&String| match split(name) {

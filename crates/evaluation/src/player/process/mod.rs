@@ -47,7 +47,7 @@ use std::time::Duration;
 /// The maximum number of characters recorded from an invalid answer.
 const MAX_RECORDED: usize = 500;
 
-/// The maximum number of repetitions of a question after an invalid answer.
+/// The maximum number of times that a question is repeated after an invalid answer.
 const MAX_REASKS: u32 = 1;
 
 /// The time after an unanswered `invalid` message at which a notice is shown.
@@ -76,8 +76,8 @@ impl Default for ProcessConfig {
     }
 }
 
-/// A player that is an external program. The program is started at an episode's first turn, and killed at the
-/// end of the episode.
+/// A player implemented as an external program. The program is started at an episode's first turn, and killed
+/// at the end of the episode.
 #[derive(Debug)]
 pub struct Process {
     command: String,
@@ -329,8 +329,7 @@ impl Agent for Process {
     }
 }
 
-/// Returns the available actions that can have an effect in the game, the same actions that are listed in
-/// model prompts.
+/// Returns the available actions that can have an effect in the game. Model prompts list the same actions.
 fn of_use(turn: &Turn<'_>) -> Vec<Action> {
     let analysis = &turn.subject.analysis;
     turn.actions.iter().copied().filter(|&action| is_of_use(analysis, action)).collect()
@@ -422,7 +421,7 @@ struct Addressed {
 /// Returns the next answer to the given turn.
 ///
 /// Answers to an earlier turn are skipped, so that an agent that states its turns cannot get out of sync. The
-/// timeout includes the skipped answers. After `notice_after`, `notice` is called once.
+/// timeout includes the skipped answers. Calls `notice` once, after `notice_after`.
 fn receive(
     process: &LineProcess,
     timeout: Duration,

@@ -7,7 +7,7 @@ use std::ffi::OsStr;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-/// The file extensions of scripts that are run as an interpreter's first argument.
+/// The file extensions of scripts that an interpreter runs as its first argument.
 const SCRIPTS: [&str; 9] = ["py", "sh", "js", "mjs", "ts", "rb", "pl", "lua", "jl"];
 
 /// Checks that the program in the first word exists. If the second word looks like a script, checks that the

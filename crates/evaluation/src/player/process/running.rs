@@ -1,4 +1,4 @@
-//! A registry of the running processes of all players, so that an exiting program can kill them first.
+//! A registry of all players' running processes, so that an exiting program can kill them first.
 
 use rustix::process::{Pid, Signal, kill_process, kill_process_group};
 use std::collections::BTreeMap;

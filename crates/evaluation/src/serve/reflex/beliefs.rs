@@ -20,9 +20,9 @@ pub(super) struct Beliefs<'a> {
     pub(super) blocks: BTreeSet<&'a str>,
     /// The sprites that the player can push.
     pub(super) pushed: BTreeSet<&'a str>,
-    /// The sprites that kill the player when touched, if the condition on a resource holds.
+    /// The sprites that kill the player when touched, if the condition on a resource is satisfied.
     kills: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
-    /// The sprites that are removed when touched, if the condition on a resource holds.
+    /// The sprites removed when touched, if the condition on a resource is satisfied.
     taken: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
     /// The sprites with any other effect when touched, whether on the player's type, on its resources, or
     /// elsewhere.
@@ -78,7 +78,7 @@ enum Subject {
     EndBoth,
     /// The second party pushes the first party.
     Push,
-    /// A touch between the two parties has a different effect.
+    /// A touch between the two parties has an effect other than blocking, removing or pushing.
     Change,
     /// The first party moves by itself.
     Motion,

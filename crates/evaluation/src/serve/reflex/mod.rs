@@ -22,8 +22,8 @@ const DANGER_COST: u32 = 8;
 /// The cost of pushing a sprite, in steps.
 const PUSH_COST: u32 = 20;
 
-/// The reciprocal of the fraction of decisions in which the player takes a random step. Because the player
-/// has no memory, it could otherwise repeat a useless path forever.
+/// The reciprocal of the probability of a random step. Because the player has no memory, it could otherwise
+/// repeat a useless path forever.
 const RANDOM_STEP_ODDS: usize = 16;
 
 /// Chooses the next steps, up to the number of actions due.
@@ -107,7 +107,7 @@ impl Reflex<'_> {
         self.beliefs.is_taken(name, self.held) && !self.beliefs.must_keep.contains(name)
     }
 
-    /// Returns `true` if a cell contains an obstacle that is not removed by touching it.
+    /// Returns `true` if a cell contains an obstacle that cannot be removed by touching it.
     fn is_blocked(&self, cell: usize) -> bool {
         self.others(cell)
             .any(|name| self.beliefs.blocks.contains(name) && !self.beliefs.is_taken(name, self.held))

@@ -76,7 +76,7 @@ pub struct OverallComparison {
     pub bounds: Option<[f64; 2]>,
     /// The two-sided p-value of the paired t test over games. `None` with fewer than two games.
     pub p: Option<f64>,
-    /// The p-value corrected for all pairs in the list that have a p-value (Benjamini–Hochberg).
+    /// The p-value corrected for all pairs in the list with a p-value (Benjamini–Hochberg).
     pub q: Option<f64>,
     /// Cohen's h, computed from the two players' rates.
     pub h: f64,

@@ -70,8 +70,8 @@ impl Study {
         format!("{label} {won}: {value}% ({wins} of {episodes} episodes); {about}, {low} to {high}%.")
     }
 
-    /// Returns the comparison of two players, with a sign. Multiplied by the sign, the differences are those
-    /// of the first player relative to the second.
+    /// Returns the comparison of two players, with a sign. Multiplied by the sign, the differences are the
+    /// first player's values minus the second player's.
     fn comparison(&self, one: &LeaderRow, other: &LeaderRow) -> Option<(f64, &OverallComparison)> {
         let all = [&self.pairs, &self.modes, &self.aids].into_iter().flat_map(|contrasts| &contrasts.overall);
         all.filter_map(|found| match found.players {

@@ -26,7 +26,7 @@ pub const ZERO_SHOT: &str = "zero-shot";
 pub const CONTEXTUAL: &str = "contextual";
 
 impl Player {
-    /// Creates a player that is not a model.
+    /// Creates a non-model player.
     pub fn reference(name: &str) -> Player {
         Player { name: name.to_owned(), mode: None, aids: Vec::new(), conditions: Vec::new() }
     }

@@ -5,7 +5,7 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::quantile;
 
-/// The durations of a player's decisions, including those in aborted episodes.
+/// The durations of a player's decisions, including decisions in aborted episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeRow {
     /// The player's index in the study.
@@ -18,7 +18,7 @@ pub struct TimeRow {
     pub p90_ms: Option<f64>,
     /// The median number of forward-model calls per decision, for players that use the forward model.
     pub median_calls: Option<f64>,
-    /// The 90th percentile of the number of forward-model calls per decision.
+    /// The 90th percentile of forward-model calls per decision.
     pub p90_calls: Option<f64>,
 }
 

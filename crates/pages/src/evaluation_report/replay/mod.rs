@@ -19,9 +19,9 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use talk::{Talk, talks};
 
-/// The number of decisions shown from the start of a long episode.
+/// The number of decisions shown at the start of a long episode.
 const FIRST: usize = 200;
-/// The number of decisions shown from the end of a long episode.
+/// The number of decisions shown at the end of a long episode.
 const LAST: usize = 100;
 /// The cell size of animated boards, in pixels.
 const CELL: u32 = 20;

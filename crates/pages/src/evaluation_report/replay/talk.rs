@@ -5,17 +5,17 @@ use evaluation::client::{Finish, Role};
 use evaluation::log::{Event, Reply, ReplyClass};
 use serde::Serialize;
 
-/// The maximum number of characters of an answer to show.
+/// The maximum length of a displayed answer, in characters.
 const ANSWER: usize = 1_500;
-/// The maximum number of characters of the reasoning to show.
+/// The maximum length of displayed reasoning, in characters.
 const REASONING: usize = 1_500;
-/// The maximum number of characters of a prompt to show.
+/// The maximum length of a displayed prompt, in characters.
 const SHOWN: usize = 6_000;
 
 /// The messages exchanged at a decision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(super) struct Talk {
-    /// The messages that were new to the player, excluding its own answers.
+    /// The messages new to the player, excluding its own answers.
     pub(super) shown: Vec<String>,
     /// The player's answers. There are several answers if the question was repeated.
     pub(super) answers: Vec<Answer>,

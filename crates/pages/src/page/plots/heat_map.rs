@@ -13,7 +13,7 @@ const TOP: f64 = 36.0;
 const LINE: f64 = 15.0;
 /// The maximum width of a character, in pixels.
 const LETTER: f64 = 7.4;
-/// The maximum number of characters per line in a title that is wider than the columns below it.
+/// The maximum number of characters per line in a title wider than the columns below it.
 const LETTERS: usize = 14;
 /// The gap between groups of columns, in pixels.
 const GAP: f64 = 8.0;
@@ -87,7 +87,7 @@ pub(crate) fn group_width(title: &str, columns: usize) -> f64 {
 }
 
 /// Breaks a title above columns into lines. Lines are broken between words, after hyphens, and within words
-/// that are longer than a line.
+/// longer than a line.
 fn title_lines(title: &str, columns: usize) -> Vec<String> {
     let room = ((columns as f64 * CELL[0] / LETTER) as usize).max(LETTERS);
     let mut lines = vec![String::new()];

@@ -23,7 +23,7 @@ const DOTS: usize = 30;
 
 pub(crate) struct Violin<'a> {
     pub(crate) name: &'a str,
-    /// The values in the distribution. Values that are not finite are ignored.
+    /// The values in the distribution. Non-finite values are ignored.
     pub(crate) values: &'a [f64],
 }
 

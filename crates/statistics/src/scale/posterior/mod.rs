@@ -30,8 +30,8 @@ const FOUND: f64 = 1e-5;
 const FOUND_EXPECTED: f64 = 1e-6;
 /// The maximum number of steps to expected values (typically 15 to 60).
 const EXPECTED_STEPS: usize = 200;
-/// The fraction of each change of the variances that is applied. Variances follow the means, so applying full
-/// changes can cause oscillation.
+/// The applied fraction of each change in the variances. Variances follow the means, so applying full changes
+/// can cause oscillation.
 const DAMPING: f64 = 0.7;
 /// The number of steps after which only half of the usual fraction is applied.
 const SETTLING: f64 = 50.0;
@@ -167,9 +167,9 @@ impl<'a> Model<'a> {
         Some(Posterior::new(modes, height - curvature.half_log_determinant(), curvature, &rows, None))
     }
 
-    /// Returns the normal distribution that is nearest to the posterior by relative entropy, given the
-    /// spreads (J. T. Ormerod and M. P. Wand, "Gaussian variational approximate inference for generalized
-    /// linear mixed models", 2012).
+    /// Returns the normal distribution nearest to the posterior by relative entropy, given the spreads (J. T.
+    /// Ormerod and M. P. Wand, "Gaussian variational approximate inference for generalized linear mixed
+    /// models", 2012).
     ///
     /// The posterior is skewed, and its modes are biased towards the middle. The means of the normal
     /// distribution avoid this bias. The shared parameters solve the marginal likelihood equation with
@@ -366,8 +366,8 @@ impl Row {
     }
 }
 
-/// Returns the expected probability of winning and the expected variance of a result, for a normally
-/// distributed logit.
+/// Returns the expected win probability and the expected variance of a result, for a normally distributed
+/// logit.
 fn expected(mean: f64, variance: f64) -> (f64, f64) {
     let sd = variance.max(0.0).sqrt();
     nodes().fold((0.0, 0.0), |(chances, spreads), (z, weight)| {

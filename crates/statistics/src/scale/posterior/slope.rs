@@ -15,7 +15,7 @@ struct Place {
     weight: f64,
     /// The derivative of the weight with respect to the logit, multiplied by the logit's variance.
     bend: f64,
-    /// The covariances between the logit and those of its game's effects for which the logit has a term.
+    /// The covariances between the logit and the game effects that appear as terms of the logit.
     covariances: ArrayVec<f64, 6>,
 }
 

@@ -15,7 +15,7 @@ use bls::signed;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-/// A network's facts that are covered by its chain hash, and its signature scheme. The fields are in the
+/// The facts about a network covered by its chain hash, and its signature scheme. The fields are in the
 /// format served by the network under `/info`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -74,7 +74,7 @@ pub(super) struct Known {
     scheme: &'static str,
 }
 
-/// The networks named in this module: all those that the League of Entropy currently runs.
+/// The networks named in this module: all networks that the League of Entropy currently runs.
 const KNOWN: [Known; 2] = [
     Known {
         name: "drand quicknet",

@@ -89,8 +89,8 @@ impl Args {
         GameOrder { kinds: self.kind.clone(), ..order }
     }
 
-    /// Returns the digest of all inputs that determine the bytes of the result. The digest decides whether
-    /// stored attempts can be used.
+    /// Returns a digest of all inputs that determine the result's bytes. The digest decides whether stored
+    /// attempts can be used.
     fn plan(&self, order: &GameOrder) -> Digest {
         let versions = (engine::SEMANTICS, generators::GENERATION);
         let kinds: Vec<&str> = match self.is_of_kernels() {

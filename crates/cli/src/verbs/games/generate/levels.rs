@@ -82,7 +82,7 @@ fn size(text: &str) -> Result<(usize, usize), String> {
     sides.ok_or_else(|| "expected columns and rows with an x between them, such as 12x9".to_owned())
 }
 
-/// Parses the number of sprites of a type, such as `box=3`.
+/// Parses a type and its number of sprites, such as `box=3`.
 fn count(text: &str) -> Result<(String, usize), String> {
     let parts = text
         .split_once('=')

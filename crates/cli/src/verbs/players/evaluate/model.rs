@@ -264,7 +264,7 @@ impl Aid {
     }
 }
 
-/// The defaults for flags that are rejected for players on which they have no effect.
+/// The defaults for flags that are rejected for players unaffected by them.
 const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("the default is positive");
 const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("the default is positive");
 const TIMEOUT: u64 = 600;
@@ -349,7 +349,7 @@ pub(super) fn prompters(
     subjects.iter().map(prompter).collect()
 }
 
-/// A requested model that is not yet connected.
+/// A requested model, not yet connected.
 pub(crate) struct RequestedModel {
     options: ModelOptions,
     settings: ModelSettings,
@@ -387,7 +387,7 @@ pub(crate) struct Forecast {
     /// The cost in US dollars, assuming that all answers are as long as possible.
     max_cost: Option<f64>,
     /// The number of requests, assuming that every episode lasts as long as the shortest known win of its
-    /// level. `None` if any level has no known win.
+    /// level. `None` if any level lacks a known win.
     estimated_requests: Option<u64>,
     /// The cost of the estimated requests in US dollars.
     estimated_cost: Option<f64>,

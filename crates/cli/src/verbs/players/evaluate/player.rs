@@ -183,8 +183,8 @@ impl RequestedPlayer {
         Ok(contestant.into())
     }
 
-    /// Returns the number of concurrent episodes, which is at most the total number of episodes. Model
-    /// episodes spend most of their time waiting.
+    /// Returns the number of concurrent episodes (at most the total number of episodes). Model episodes spend
+    /// most of their time waiting.
     pub(super) fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let requested = match self {
             RequestedPlayer::Model(_) => args.model.concurrency().get(),

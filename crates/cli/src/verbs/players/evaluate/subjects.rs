@@ -30,7 +30,7 @@ const MAX_CARD: usize = 1 << 24;
 /// The maximum size of a marks file, in bytes.
 const MAX_MARKS: usize = 1 << 26;
 
-/// The games specified by the user, and the part of them that is played.
+/// The games specified by the user, and the selection to play.
 pub(crate) struct Wanted<'a> {
     pub(crate) subjects: &'a [String],
     pub(crate) games: &'a [String],

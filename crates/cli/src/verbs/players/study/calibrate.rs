@@ -159,7 +159,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the examinees that play: all examinees, or those of an earlier scale.
+/// Returns the participating examinees: all examinees, or the examinees of an earlier scale.
 fn examinees(
     earlier: Option<&ScaleFile>,
     path: &Option<PathBuf>,

@@ -45,7 +45,7 @@ impl Leftover {
         Ok(kind.map(|kind| Leftover { path: path.to_path_buf(), kind }))
     }
 
-    /// Returns the kind of leftover, as a keyword for programs and in words.
+    /// Returns the kind of leftover, as a keyword and as a phrase.
     pub(super) fn described(&self) -> (&'static str, String) {
         match &self.kind {
             LeftoverKind::Draft(draft) if draft.finished_jobs == 0 => {
@@ -125,7 +125,7 @@ fn is_page(path: &Path) -> bool {
     drawn.is_some_and(is_drawn) && found.is_file() && is_own(&found) && found.modified().is_ok_and(is_settled)
 }
 
-/// Returns `true` for a scratch folder of the current user's players that has not changed for an hour.
+/// Returns `true` for a scratch folder of the current user's players, unchanged for at least an hour.
 fn is_scratch(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let Ok(found) = fs::symlink_metadata(path) else { return false };

@@ -11,8 +11,8 @@ pub(crate) const LONG: f64 = 30.0;
 /// to measure the machine's speed.
 const PROBED: f64 = 30.0;
 
-/// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns the ratio of
-/// this machine's time to that of the machine on which costs were measured.
+/// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns how many times
+/// slower this machine is than the machine on which costs were measured.
 pub(crate) fn forecast(plan: &Plan<'_>, jobs: &[Job], corpus: &Corpus) -> (Forecast, Option<f64>) {
     let usual = plan.forecast(jobs);
     let slowness = if usual.median >= PROBED { probe::slowness(corpus) } else { None };

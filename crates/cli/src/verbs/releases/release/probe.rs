@@ -6,7 +6,7 @@ use cpu_time::ThreadTime;
 use engine::{Game, Level};
 use snapshots::{Corpus, CorpusGame};
 
-/// The games used for the probe, which are about pushing, chasing and shooting.
+/// The probe's games, about pushing, chasing and shooting.
 const GAMES: [&str; 3] = ["dormouse-millrace", "bellwether-down", "hailglass"];
 /// The number of ticks per episode.
 const TICKS: usize = 200;
@@ -14,11 +14,11 @@ const TICKS: usize = 200;
 const CALLS: u64 = 400;
 /// The number of repetitions. Only the fastest repetition counts, because other work can only slow episodes down.
 const TIMES: u64 = 3;
-/// The time that the episodes take on the machine described in docs/reference/recipes.md, in seconds on one
+/// The duration of the episodes on the machine described in docs/reference/recipes.md, in seconds on one
 /// core, with both cores playing.
 const USUAL: f64 = 0.109;
 
-/// Returns the ratio of this machine's time to that of the machine on which costs were measured, with all
+/// Returns how many times slower this machine is than the machine on which costs were measured, with all
 /// threads in the current pool at work. Returns `None` if the corpus lacks any of the probe's games. Cost:
 /// about a third of a second per thread.
 pub(super) fn slowness(corpus: &Corpus) -> Option<f64> {

@@ -254,8 +254,8 @@ pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     }
 }
 
-/// Converts the error. A folder that does not exist or is not a snapshot is a malformed question, and a disk
-/// failure is an environment failure.
+/// Converts the error. A nonexistent folder or a folder without a snapshot is a malformed question, and a
+/// disk failure is an environment failure.
 impl From<SnapshotError> for Failure {
     fn from(error: SnapshotError) -> Failure {
         match error {

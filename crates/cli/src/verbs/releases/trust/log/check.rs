@@ -177,7 +177,7 @@ fn reached(entries: &[Entry], month: &str) -> String {
     }
 }
 
-/// Returns the sentence about a release that is in the log.
+/// Returns the sentence about a release in the log.
 fn placed(place: &Path, manifest: &Manifest, entries: &[Entry]) -> Option<String> {
     let number = root_of(entries, &manifest.name)?;
     Some(format!(

@@ -47,7 +47,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
     })
 }
 
-/// Returns the games and levels in the results that are not files in their release, or an empty list.
+/// Returns the games and levels in the results that do not belong to their release, or an empty list.
 pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, Failure> {
     let mut problems = Vec::new();
     for Leaf { path, digest } in leaves(folder)? {
@@ -62,8 +62,8 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
     Ok(problems)
 }
 
-/// Returns a results folder's digest: the root of a tree like a release's, over all files in the folder that
-/// are not hidden.
+/// Returns a results folder's digest: the root of a tree like a release's, over all visible files in the
+/// folder.
 pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
     merkle::root(&leaves(folder)?).map_err(|error| malformed!("`{}`: {error}", folder.in_message()))
 }
