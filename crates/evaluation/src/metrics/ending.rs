@@ -8,7 +8,7 @@ use itertools::Itertools;
 use serde::Serialize;
 
 base::named_enum! {
-    /// How an episode without a win ended.
+    /// The kind of ending for an episode without a win.
     pub enum EndingKind {
         /// The avatar was removed or transformed into a different type.
         Died = "died",

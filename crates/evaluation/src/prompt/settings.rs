@@ -10,7 +10,7 @@ use serde_json::Value;
 pub struct PromptSettings {
     /// The prompt style, which determines the parts and their order.
     pub style: PromptStyle,
-    /// Whether a prompt includes earlier turns.
+    /// The mode, which determines whether a prompt includes earlier turns.
     pub mode: Mode,
     /// The form in which the rules are shown.
     pub rules: Rules,
@@ -120,7 +120,7 @@ pub enum PromptStyle {
 }
 
 base::named_enum! {
-    /// Whether a prompt includes earlier turns.
+    /// The mode, which determines whether a prompt includes earlier turns.
     #[derive(Default)]
     pub enum Mode {
         /// Every turn is independent. Earlier turns are not shown.

@@ -85,7 +85,7 @@ pub struct Process {
     config: ProcessConfig,
     running: Option<Running>,
     notices: Notices,
-    /// The track, which determines what the process is told.
+    /// The track, which determines the information sent to the process.
     track: Track,
     /// `true` if the process has received the `hello` message for this level.
     is_greeted: bool,
