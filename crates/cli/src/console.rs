@@ -10,7 +10,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// The output streams of a subcommand.
+/// A subcommand's output streams.
 pub(crate) struct Console {
     json: bool,
     quiet: bool,
@@ -19,7 +19,8 @@ pub(crate) struct Console {
 
 #[derive(Default)]
 struct Output {
-    /// `true` once the reader has left (`arcade … | head`) or a write has failed. After that, nothing more is written.
+    /// `true` once the reader has disconnected (`arcade … | head`) or a write has failed. Nothing more is
+    /// written afterwards.
     is_closed: bool,
     failure: Option<io::Error>,
     /// `true` once a document has been written. A run writes at most one document.
@@ -47,21 +48,22 @@ impl Console {
         Console { json, quiet, output: Mutex::default() }
     }
 
-    /// Writes to standard output. If the reader leaves early, the subcommand still runs to its end and keeps its exit status.
-    /// [`finish`](Console::finish) reports a full device, after the subcommand has written its files.
+    /// Writes to standard output. If the reader disconnects early, the subcommand still runs to its end and
+    /// keeps its exit status. [`finish`](Console::finish) reports a full device, after the subcommand has
+    /// written its files.
     fn out(&self, text: std::fmt::Arguments<'_>, is_document: bool) {
         let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
         output.is_documented |= is_document;
         output.write(&mut io::stdout().lock(), text);
     }
 
-    /// Records the result of a library's own write to standard output.
+    /// Records the result of a write to standard output by a library.
     pub(crate) fn printed(&self, result: io::Result<()>) {
         let result = result.and_then(|()| io::stdout().flush());
         self.output.lock().unwrap_or_else(PoisonError::into_inner).note(result);
     }
 
-    /// Reports the failure, if there is one, and returns the exit status for the subcommand's answer.
+    /// Reports the failure, if any, and returns the exit status for the subcommand's answer.
     pub(crate) fn finish(&self, answer: Answer) -> u8 {
         let status = match answer {
             Ok(true) => 0,
@@ -91,15 +93,15 @@ impl Console {
         self.quiet
     }
 
-    /// Prints the answer for people, unless the user requested JSON.
+    /// Prints the human-readable answer, unless the user requested JSON.
     pub(crate) fn say(&self, text: impl Display) {
         if !self.json {
             self.out(format_args!("{}\n", shown(&text.to_string())), false);
         }
     }
 
-    /// Prints the content of a file for people, unchanged but safe for a terminal. Prints nothing if the user requested
-    /// JSON.
+    /// Prints a file's content for people, unchanged except for characters that are unsafe on a terminal.
+    /// Prints nothing if the user requested JSON.
     pub(crate) fn file(&self, content: &str) {
         if !self.json {
             match io::stdout().is_terminal() {
@@ -109,7 +111,7 @@ impl Console {
         }
     }
 
-    /// Prints the answer for programs if the user requested JSON.
+    /// Prints the machine-readable answer if the user requested JSON.
     pub(crate) fn document(&self, value: &impl Serialize) -> Result<(), Failure> {
         if self.json {
             let text = serde_json::to_string_pretty(value)
@@ -119,8 +121,8 @@ impl Console {
         Ok(())
     }
 
-    /// Prints a line of JSON for people and programs. Subcommands that continue after their answer use this function
-    /// for their output.
+    /// Prints a line of JSON for people and programs. Used by subcommands that keep running after their
+    /// answer.
     pub(crate) fn line(&self, value: &serde_json::Value) {
         self.json(&value.to_string());
     }
@@ -142,14 +144,14 @@ impl Console {
         Arc::new(move |text| remarks.remark(text))
     }
 
-    /// Prints the failure, even if the user requested quiet output. Also prints it as a document if the user requested
-    /// JSON and the subcommand has written no document.
+    /// Prints the failure, even if the user requested quiet output. Also prints the failure as a document if
+    /// the user requested JSON and the subcommand has not written a document yet.
     pub(crate) fn error(&self, failure: &Failure) {
         self.report(failure);
         self.error_document(failure);
     }
 
-    /// Prints the failure for programs if the user requested JSON and no document has been written.
+    /// Prints the failure as a document if the user requested JSON and no document has been written yet.
     pub(crate) fn error_document(&self, failure: &Failure) {
         let is_documented = self.output.lock().unwrap_or_else(PoisonError::into_inner).is_documented;
         if self.json && !is_documented {
@@ -161,7 +163,7 @@ impl Console {
         let _ = writeln!(io::stderr(), "error: {}", shown(&failure.to_string()));
     }
 
-    /// Returns a progress bar on standard error, which is hidden unless standard error is a terminal.
+    /// Returns a progress bar on standard error. The bar is hidden unless standard error is a terminal.
     pub(crate) fn progress(&self, length: u64, what: &'static str) -> ProgressBar {
         let bar = ProgressBar::with_draw_target(
             Some(length),
@@ -181,8 +183,8 @@ impl Console {
     }
 }
 
-/// The elapsed time, for notes. No recorded output depends on this time. `tests/tests/it/tidy/clocks.rs` lists all
-/// readers of clocks.
+/// The elapsed time, for notes. No recorded output depends on the elapsed time.
+/// `tests/tests/it/tidy/clocks.rs` lists all code that reads clocks.
 pub(crate) struct Stopwatch(Instant);
 
 impl Stopwatch {
@@ -202,7 +204,7 @@ pub(crate) fn warn(text: impl Display) {
     let _ = writeln!(io::stderr(), "note: {}", shown(&text.to_string()));
 }
 
-/// Escapes the characters that [`visible_lines`] escapes, in the notation of JSON. In a JSON document, such characters
+/// Escapes the characters escaped by [`visible_lines`], in JSON notation. In a JSON document, such characters
 /// occur only in strings.
 fn in_ascii_escapes(text: &str) -> Cow<'_, str> {
     if *visible_lines(text) == *text {
@@ -222,7 +224,7 @@ fn shown(text: &str) -> Cow<'_, str> {
     escaped(text, &if is_terminal { editor::colours() } else { Vec::new() })
 }
 
-/// Escapes the invisible characters of a text like [`visible_lines`], except in the sequences in `kept`.
+/// Escapes a text's invisible characters like [`visible_lines`], except in the sequences in `kept`.
 fn escaped<'a>(text: &'a str, kept: &[String]) -> Cow<'a, str> {
     let is_escaped = |character: char| is_invisible(character) && !matches!(character, '\n' | '\t');
     if !text.contains(is_escaped) {

@@ -1,4 +1,4 @@
-//! The failures of a subcommand and their exit statuses.
+//! A subcommand's failures and their exit statuses.
 
 use base::MessagePath;
 use engine::Diagnostic;
@@ -18,22 +18,22 @@ use terminal::PlayError;
 pub(crate) const NO: u8 = 1;
 /// The exit status for a malformed question.
 pub(crate) const MALFORMED: u8 = 2;
-/// The exit status for a failure of the environment: I/O, network or a full disk.
+/// The exit status for an environment failure: I/O, network or a full disk.
 pub(crate) const ENVIRONMENT: u8 = 3;
 
-/// The reasons why a subcommand has no answer.
+/// The reason why a subcommand has no answer.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// An error in the usage, in VGDL or in a recipe.
+    /// An error in usage, in VGDL or in a recipe.
     Malformed(anyhow::Error),
-    /// A failure of I/O, of the network, or a full disk.
+    /// A failure of I/O or the network, or a full disk.
     Environment(anyhow::Error),
 }
 
-/// The problems in a file, as an error.
+/// A file's problems, as an error.
 #[derive(Debug)]
 pub(crate) struct Problems {
-    /// The line that states the number of problems.
+    /// The line with the number of problems.
     pub(crate) summary: String,
     pub(crate) placed: Vec<Placed>,
     pub(crate) text: String,
@@ -57,17 +57,17 @@ pub(crate) struct Placed {
     pub(crate) problem: Diagnostic,
 }
 
-/// Creates the failure of a malformed question, with a message formatted as by `format!`.
+/// Creates the failure for a malformed question, with a message formatted as by `format!`.
 macro_rules! malformed {
     ($($message:tt)*) => { $crate::failure::Failure::malformed(format_args!($($message)*)) };
 }
 
-/// Returns from the enclosing function with the failure of a malformed question.
+/// Returns from the enclosing function with the failure for a malformed question.
 macro_rules! bail {
     ($($message:tt)*) => { return Err(malformed!($($message)*)) };
 }
 
-/// The answer of a subcommand: yes, no or a failure.
+/// A subcommand's answer: yes, no or a failure.
 pub(crate) type Answer = Result<bool, Failure>;
 
 impl Failure {
@@ -79,7 +79,7 @@ impl Failure {
         Failure::Environment(error.into().context(what.to_string()))
     }
 
-    /// Returns the failure, with advice to resume if the environment stopped the work.
+    /// Returns the failure, with advice on how to resume if the environment stopped the work.
     pub(crate) fn resumable(self, what: &str) -> Failure {
         match self {
             Failure::Environment(error) => Failure::environment(
@@ -90,8 +90,8 @@ impl Failure {
         }
     }
 
-    /// Returns the failure of reading the file at `path`. Either the user specified a missing file, or the system
-    /// denied access.
+    /// Returns the failure for reading the file at `path`. Either the user specified a missing file, or the
+    /// system denied access.
     pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
         let name = path.in_message();
         match error.kind() {
@@ -108,8 +108,8 @@ impl Failure {
         }
     }
 
-    /// Returns the failure of writing the file at `path`. Either the user specified an impossible path, or the system
-    /// denied access.
+    /// Returns the failure for writing the file at `path`. Either the user specified an impossible path, or
+    /// the system denied access.
     pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
         let name = path.in_message();
         match error.kind() {
@@ -131,7 +131,8 @@ impl Failure {
         }
     }
 
-    /// Returns the failure as a document for programs. `problems` in it locates each problem in a user's file.
+    /// Returns the failure as a document for programs. The field `problems` locates each problem in a user's
+    /// file.
     pub(crate) fn document(&self) -> Value {
         let (kind, error) = match self {
             Failure::Malformed(error) => ("malformed", error),
@@ -147,7 +148,7 @@ impl Failure {
     }
 }
 
-/// Converts errors about a release into malformed questions, unless the snapshot itself is at fault.
+/// Converts release errors into malformed questions, unless the snapshot itself is at fault.
 macro_rules! from_snapshot_errors {
     ($($error:ident),*) => {$(
         impl From<$error> for Failure {
@@ -193,7 +194,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Returns advice for this kind of error; `None` if there is no advice.
+/// Returns advice for this kind of error, or `None` if there is no advice.
 fn advice(kind: ErrorKind) -> Option<&'static str> {
     match kind {
         ErrorKind::PermissionDenied => Some("check the permissions of the file and of the folders above it"),

@@ -1,10 +1,10 @@
 //! Signal handling. On Ctrl-C and similar signals, resumable work prints a hint before the program ends.
 //!
-//! A subcommand that keeps its work on disk calls [`watch`] before the work starts, and [`defer`] when the work is
-//! done. The first of SIGINT, SIGTERM, SIGHUP and SIGQUIT then prints a hint about `--resume` and ends the program with
-//! status 128 + signal, as in shells. A second signal ends the program at once. A signal that was ignored when the
-//! program started, as with `nohup`, stays ignored. SIGKILL cannot be caught, so the files on disk must always suffice
-//! to resume.
+//! A subcommand that stores its work on disk calls [`watch`] before the work starts, and [`defer`] when the
+//! work is done. The first of SIGINT, SIGTERM, SIGHUP and SIGQUIT then prints a hint about `--resume` and
+//! ends the program with status 128 + signal, as in shells. A second signal ends the program immediately. A
+//! signal that was ignored when the program started, as with `nohup`, stays ignored. SIGKILL cannot be
+//! caught, so the files on disk must always suffice to resume.
 
 #[cfg(unix)]
 mod unix {
@@ -17,8 +17,8 @@ mod unix {
     /// `true` if a signal is about to end the program.
     static ENDING: AtomicBool = AtomicBool::new(false);
 
-    /// Catches the signals from now on. On a signal, `last` runs first and may take some seconds. Then `hint` is written to
-    /// standard error.
+    /// Starts catching the signals. On a signal, `last` runs first and may take several seconds. Then `hint`
+    /// is written to standard error.
     pub(crate) fn watch(last: impl FnOnce() + Send + 'static, hint: String) {
         let ignored = ignored();
         let caught =
@@ -50,8 +50,8 @@ mod unix {
         }
     }
 
-    /// Returns the signals that are already ignored. If the system does not report them, returns the signals that
-    /// shells ignore for background programs.
+    /// Returns the signals that are already ignored. If the system does not report ignored signals, returns
+    /// the signals that shells ignore for background programs.
     fn ignored() -> Vec<i32> {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -65,10 +65,10 @@ mod unix {
 #[cfg(unix)]
 pub(crate) use unix::{defer, watch};
 
-/// Has no effect on systems other than Unix, which end the program silently.
+/// Has no effect on non-Unix systems, where the program ends silently.
 #[cfg(not(unix))]
 pub(crate) fn watch(_: impl FnOnce() + Send + 'static, _: String) {}
 
-/// Has no effect on systems other than Unix.
+/// Has no effect on non-Unix systems.
 #[cfg(not(unix))]
 pub(crate) fn defer() {}

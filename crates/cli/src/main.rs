@@ -1,4 +1,4 @@
-//! The `arcade` binary. Each subcommand has its own module. Everything else is in the library crates.
+//! The `arcade` binary. Each subcommand has its own module. All other code is in the library crates.
 
 #![allow(
     rustdoc::broken_intra_doc_links,
@@ -48,8 +48,8 @@ struct Cli {
     limits: flags::threads::Limits,
 }
 
-/// Declares the subcommands, in the groups and the order of the help. Each entry has the variant, and the module with
-/// its `Args` and `run`. The short help only lists the names of the subcommands after `more`.
+/// Declares the subcommands, in the groups and the order of the help. Each entry contains the variant, and
+/// the module with its `Args` and `run`. The short help lists the subcommands after `more` only by name.
 macro_rules! verbs {
     ($($group:literal in $folder:ident {
         $($verb:ident: $module:ident),* $(,)?; more $($(#[$attribute:meta])* $rare:ident: $other:ident),* $(,)?
@@ -59,8 +59,8 @@ macro_rules! verbs {
             $($($verb(Box<verbs::$folder::$module::Args>),)* $($(#[$attribute])* $rare(Box<verbs::$folder::$other::Args>),)*)*
         }
 
-        /// The groups of the help. Each group has a title, the number of subcommands that the short help describes, and
-        /// the number that it only lists.
+        /// The help groups. Each group has a title, the number of subcommands that the short help describes,
+        /// and the number that it lists only by name.
         const GROUPS: &[(&str, usize, usize)] =
             &[$(($group, [$(stringify!($verb)),*].len(), [$(stringify!($rare)),*].len())),*];
 

@@ -1,11 +1,11 @@
-//! The players that measure a release's marks. They are built like the players of evaluations.
+//! The players that measure a release's marks, built in the same way as the players in evaluations.
 
 use base::Seed;
 use evaluation::LevelMark;
 use evaluation::reference::{ReferencePlayer, ReferencePlays, SEED};
 use snapshots::marks::{MarkPlayers, Marks, MarksPart, Wins};
 
-/// The players of marks, looked up by the names that `arcade evaluate --player` accepts.
+/// The players for marks, looked up by the names accepted by `arcade evaluate --player`.
 #[derive(Debug)]
 pub(crate) struct Players;
 
@@ -21,7 +21,7 @@ impl MarkPlayers for Players {
     }
 }
 
-/// Returns the marks of the game with this ID in the form in which results store them.
+/// Returns the marks for the game with the given ID, in the format stored in results.
 pub(crate) fn of_game(marks: &Marks, id: &str) -> Vec<LevelMark> {
     let levels = marks.games.iter().find(|game| game.id == id).map_or(&[][..], |game| &game.levels);
     let asked = &marks.asked;

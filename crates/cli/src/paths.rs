@@ -1,4 +1,4 @@
-//! Paths: their text form, and the lookup of files and folders.
+//! Paths: their textual form, and the lookup of files and folders.
 
 use crate::failure::Failure;
 use clap::builder::{PathBufValueParser, TypedValueParser};
@@ -8,14 +8,14 @@ use std::fs::{self, Metadata};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Returns the path as text for a JSON document. Bytes that are not UTF-8 become U+FFFD. No path may go into a document
-/// directly, because `json!` panics on a path that is not UTF-8.
+/// Returns the path as text for a JSON document. Invalid UTF-8 is replaced with U+FFFD. Paths must not be
+/// inserted into a document directly, because `json!` panics on a non-UTF-8 path.
 pub(crate) fn in_json(path: &Path) -> Cow<'_, str> {
     path.to_string_lossy()
 }
 
-/// Returns the metadata of the file or folder at `path`, following links; `None` if nothing exists at `path`. A folder
-/// without permission to enter it is a failure, not an absence.
+/// Returns the metadata of the file or folder at `path`, following links. Returns `None` if nothing exists at
+/// `path`. A folder that denies access is a failure, not an absence.
 pub(crate) fn metadata(path: &Path) -> Result<Option<Metadata>, Failure> {
     match fs::metadata(path) {
         Ok(found) => Ok(Some(found)),
@@ -23,7 +23,7 @@ pub(crate) fn metadata(path: &Path) -> Result<Option<Metadata>, Failure> {
     }
 }
 
-/// Returns the folder of a release. This is `place` itself, or its folder `public` if `place` holds the two parts of a
+/// Returns a release's folder: `place` itself, or its folder `public` if `place` contains the two parts of a
 /// sealed release.
 pub(crate) fn release(place: PathBuf) -> PathBuf {
     let public = place.join("public");

@@ -8,8 +8,8 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// Rejects a path to write to if the path lies in a release or in the withheld part of a release, except in the
-/// release's `papers/` folder. Also rejects `-`, which stands for standard output in subcommands that can write there.
+/// Rejects an output path that lies in a release or in a release's withheld part, except in the release's
+/// `papers/` folder. Also rejects `-`, which stands for standard output in subcommands that can write there.
 pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     if place == Path::new("-") {
         bail!(
@@ -33,7 +33,7 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The first bytes of a manifest, which is canonical JSON. Other programs may use the same file name.
+/// The first bytes of a manifest in canonical JSON. Other programs may use the same file name.
 const MANIFEST_START: &[u8] = b"{\n  \"canary\": ";
 
 /// Returns `true` if the folder contains a release's manifest.
@@ -42,13 +42,13 @@ fn is_release(folder: &Path) -> bool {
     start.is_ok_and(|start| start == MANIFEST_START)
 }
 
-/// Starts the draft of a folder or file outside any release.
+/// Starts the draft for a folder or file outside any release.
 pub(crate) fn draft(out: &Path) -> Result<Draft, Failure> {
     check(out)?;
     Draft::create(out).map_err(Failure::from)
 }
 
-/// Writes the files of a report into a draft, publishes the draft, and returns the names of the files.
+/// Writes a report's files into a draft, publishes the draft, and returns the file names.
 pub(crate) fn publish(draft: Draft, files: Vec<pages::File>) -> Result<Vec<String>, Failure> {
     for file in &files {
         draft.write_of_any_size(&file.name, &file.bytes)?;
@@ -57,13 +57,13 @@ pub(crate) fn publish(draft: Draft, files: Vec<pages::File>) -> Result<Vec<Strin
     Ok(files.into_iter().map(|file| file.name).collect())
 }
 
-/// Starts a draft like [`draft`], keeping the finished jobs of an interrupted draft.
+/// Starts a draft like [`draft`], keeping the finished jobs from an interrupted draft.
 pub(crate) fn resumed(out: &Path) -> Result<Draft, Failure> {
     check(out)?;
     Draft::resume(out).map_err(Failure::from)
 }
 
-/// Returns the absolute path, following links in the existing part of the path.
+/// Returns the absolute path, following links in the path's existing part.
 fn resolved(place: &Path) -> PathBuf {
     for above in place.ancestors() {
         let known = if above.as_os_str().is_empty() { Path::new(".") } else { above };

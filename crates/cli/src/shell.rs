@@ -1,16 +1,16 @@
-//! Commands that messages suggest, ready to be pasted into a shell.
+//! Suggested commands in messages, ready to be pasted into a shell.
 
 use itertools::Itertools;
 use std::ffi::OsStr;
 
-/// Returns an argument, quoted for a shell if it contains a space or any other special character. Text that is not
-/// Unicode is shown approximately.
+/// Returns an argument, quoted for a shell if it contains a space or any other special character. Non-Unicode
+/// text is shown approximately.
 pub(crate) fn quoted(argument: impl AsRef<OsStr>) -> String {
     let text = argument.as_ref().to_string_lossy();
     shlex::try_quote(&text).map_or_else(|_| text.replace('\0', ""), |quoted| quoted.into_owned())
 }
 
-/// Returns the command line with these arguments after `arcade`.
+/// Returns the command line with the given arguments after `arcade`.
 pub(crate) fn command<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> String {
     let arguments = arguments.into_iter().map(quoted);
     ["arcade".to_owned()].into_iter().chain(arguments).join(" ")

@@ -1,4 +1,4 @@
-//! Parsing of the command line, and its error messages.
+//! Parsing of the command line, with its error messages.
 
 use crate::Cli;
 use crate::console::{self, Console};
@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::num::{IntErrorKind, ParseIntError};
 
-/// Returns the command line with all its subcommands and a help text that fits on one screen.
+/// Returns the command-line parser with all subcommands and a help text that fits on one screen.
 pub(crate) fn command() -> Command {
     let command = numeric_flags_take_negative_numbers(Cli::command());
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
@@ -27,7 +27,7 @@ pub(crate) fn command() -> Command {
     ))
 }
 
-/// Returns the command with the help of `arcade help --all`.
+/// Returns the command-line parser with the help text of `arcade help --all`.
 fn help_of_all() -> Command {
     let command = command();
     let verbs = verbs_in_full(&command);
@@ -39,7 +39,7 @@ fn help_of_all() -> Command {
 /// The width of the help text, in columns.
 const COLUMNS: usize = 100;
 
-/// Returns the subcommands that users need first, in their groups, and the names of all other subcommands.
+/// Returns the subcommands that users need first, by group, and the names of all other subcommands.
 fn verbs_in_short(command: &Command) -> String {
     let mut verbs = command.get_subcommands();
     let mut groups = Vec::new();
@@ -64,7 +64,7 @@ fn verbs_in_short(command: &Command) -> String {
     text
 }
 
-/// Returns all subcommands in their groups.
+/// Returns all subcommands, by group.
 fn verbs_in_full(command: &Command) -> String {
     let mut verbs = command.get_subcommands();
     let width = command.get_subcommands().map(|verb| verb.get_name().len()).max().unwrap_or_default();
@@ -85,7 +85,7 @@ fn first_clause(verb: &Command) -> String {
     about[..end.unwrap_or(about.len())].to_owned()
 }
 
-/// Adds a subcommand and its description, which is wrapped in its own column.
+/// Adds a subcommand and its description, wrapped in its own column.
 fn row(text: &mut String, name: &str, width: usize, description: &str) {
     let mut line = format!("  {name:<width$} ");
     for word in description.split_whitespace() {
@@ -98,16 +98,17 @@ fn row(text: &mut String, name: &str, width: usize, description: &str) {
     let _ = writeln!(text, "{line}");
 }
 
-/// The groups into which subcommands of version 0.13 have moved. The old spellings still work in version 0.14.
+/// The groups into which subcommands from version 0.13 have moved. The old spellings still work in version
+/// 0.14.
 const MOVED: [(&str, &[&str]); 2] = [
     ("trust", &["keygen", "keys", "sign", "log"]),
     ("study", &["calibrate", "scale", "timeline", "contamination"]),
 ];
 
-/// The subcommand of version 0.13 that is now a task for developers.
+/// The subcommand from version 0.13 that has become a task for developers.
 const CONFORMANCE: &str = "conformance";
 
-/// Returns the index of a moved subcommand among the arguments, and the group that it has moved to.
+/// Returns the index of a moved subcommand among the arguments, and its new group.
 fn moved(arguments: &[OsString]) -> Option<(usize, &'static str)> {
     let is_verb = |argument: &OsString| argument != "help" && !argument.to_string_lossy().starts_with('-');
     let at = 1 + arguments.iter().skip(1).position(is_verb)?;
@@ -115,7 +116,7 @@ fn moved(arguments: &[OsString]) -> Option<(usize, &'static str)> {
     Some((at, group.0))
 }
 
-/// Parses the arguments, or returns the exit status of their rejection. A request for help is not an error.
+/// Parses the arguments, or returns the exit status if they are rejected. A request for help is not an error.
 pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
     let mut arguments = arguments.to_vec();
     let is_quiet = arguments.iter().any(|argument| argument == "-q" || argument == "--quiet");
@@ -160,7 +161,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
     })
 }
 
-/// Removes hidden subcommands from the suggestions of an error.
+/// Removes hidden subcommands from an error's suggestions.
 fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     let Some(ContextValue::Strings(verbs)) = error.get(ContextKind::ValidSubcommand) else { return error };
     let command = command();
@@ -170,7 +171,7 @@ fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Words for which the command line has a different subcommand. Each row has a subcommand and its words.
+/// Words with a different name on the command line. Each row contains a subcommand and its words.
 const OTHER_VERBS: [(&str, &[&str]); 6] = [
     ("new", &["create", "make", "init", "init-game", "new-game", "begin", "start"]),
     ("validate", &["check", "test", "lint", "judge"]),
@@ -180,7 +181,7 @@ const OTHER_VERBS: [(&str, &[&str]); 6] = [
     ("fmt", &["format", "convert"]),
 ];
 
-/// Suggests the subcommand that does what an unknown word means in other programs, if `arcade` has such a subcommand.
+/// Suggests the `arcade` subcommand that corresponds to an unknown word's meaning in other programs, if any.
 fn with_own_verb(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
     let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidSubcommand) else { return error };
     let Some((verb, _)) = OTHER_VERBS.iter().find(|(_, words)| words.contains(&unknown.as_str())) else {
@@ -199,13 +200,13 @@ fn with_own_verb(mut error: clap::Error, arguments: &[OsString]) -> clap::Error 
     error
 }
 
-/// Returns `true` if `--json` is among the flags. If parsing fails, the arguments are the only source of this setting.
+/// Returns `true` if `--json` is among the flags. If parsing fails, only the arguments reveal this setting.
 fn is_json_wanted(arguments: &[OsString]) -> bool {
     let flags = arguments.iter().take_while(|argument| *argument != OsStr::new("--"));
     flags.into_iter().any(|argument| argument == OsStr::new("--json"))
 }
 
-/// Treats `--budget -5` as an invalid number instead of an unknown flag.
+/// Makes `--budget -5` an invalid number instead of an unknown flag.
 fn numeric_flags_take_negative_numbers(command: Command) -> Command {
     let numbers = [
         TypeId::of::<u16>(),
@@ -221,7 +222,8 @@ fn numeric_flags_take_negative_numbers(command: Command) -> Command {
     command.mut_subcommands(numeric_flags_take_negative_numbers)
 }
 
-/// Returns a plain message for an invalid number, because clap's message is "invalid digit found in string".
+/// Returns a plain message for an invalid number. The message from clap would be "invalid digit found in
+/// string".
 fn in_words(error: &clap::Error) -> Option<String> {
     if error.kind() != ErrorKind::ValueValidation {
         return None;
@@ -245,7 +247,7 @@ fn in_words(error: &clap::Error) -> Option<String> {
     ))
 }
 
-/// Returns the flags that have the meaning of an unknown flag, instead of a flag that only looks similar.
+/// Returns the flags with the meaning of an unknown flag, rather than a flag that only looks similar.
 fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let is_unknown = error.kind() == ErrorKind::UnknownArgument;
     let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg).filter(|_| is_unknown) else {
@@ -275,7 +277,8 @@ pub(crate) mod tests {
     use super::*;
     use crate::book::manual;
 
-    /// Calls `look` with the path of every subcommand, such as `arcade recipes show`, and the subcommand itself.
+    /// Calls `look` with the path of every subcommand, such as `arcade recipes show`, and the subcommand
+    /// itself.
     pub(crate) fn for_each_verb(look: &mut dyn FnMut(&str, &Command)) {
         fn walk(path: &str, command: &Command, look: &mut dyn FnMut(&str, &Command)) {
             look(path, command);

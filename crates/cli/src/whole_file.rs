@@ -1,4 +1,4 @@
-//! Writing of single files that the user specifies. Each file is either complete or unchanged.
+//! Writes single files specified by the user. Each file is either complete or unchanged.
 
 use crate::failure::Failure;
 use crate::protected;
@@ -8,8 +8,8 @@ use std::fs::{self, Metadata, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a whole file like [`disk::write`], except that paths which [`check`] rejects are rejected. Devices and the
-/// streams of this process (`/dev/stdout`) are written in place.
+/// Writes an entire file like [`disk::write`], but rejects the paths that [`check`] rejects. Devices and the
+/// process's own streams (`/dev/stdout`) are written in place.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     protected::check(path)?;
     let written = match Place::of(path)? {
@@ -21,8 +21,8 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     written.map_err(|error| Failure::write(path, error))
 }
 
-/// Rejects, before the work starts, a path that [`write`] would reject after the work, and each of the `inputs` of the
-/// same command.
+/// Rejects, before the work starts, a path that [`write`] would reject after the work. Also rejects each of
+/// the command's `inputs`.
 pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     protected::check(path)?;
     Place::of(path)?;
@@ -39,17 +39,17 @@ pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     }
 }
 
-/// The kind of file that a path leads to.
+/// The kind of file to which a path leads.
 enum Place {
     /// A regular file, or a path where nothing exists yet.
     File,
-    /// A device, or a stream of this process.
+    /// A device, or one of the process's streams.
     Stream,
 }
 
 impl Place {
-    /// Examines a path that the user specified. Other users who can write to its folder may have put a link to a
-    /// different file there, or a pipe, which would block when opened.
+    /// Examines a path specified by the user. Other users with write access to its folder may have placed a
+    /// link to a different file there, or a pipe, which would block when opened.
     fn of(path: &Path) -> Result<Place, Failure> {
         let name = path.in_message();
         if is_own_stream(path) {
@@ -74,7 +74,8 @@ impl Place {
     }
 }
 
-/// Returns `true` if a path denotes a stream that this process was started with. Such paths are links on some systems.
+/// Returns `true` if a path denotes one of the streams with which the process was started. On some systems,
+/// such paths are links.
 fn is_own_stream(path: &Path) -> bool {
     let is_numbered =
         ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.parent() == Some(Path::new(folder)));
@@ -94,7 +95,8 @@ fn is_character_device(found: &Metadata) -> bool {
     }
 }
 
-/// Returns the file that a link leads to, which need not exist; `None` if the link leads back to itself.
+/// Returns the file to which a link leads, which need not exist. Returns `None` if the link leads back to
+/// itself.
 fn target(link: &Path) -> Option<PathBuf> {
     match fs::canonicalize(link) {
         Err(error) if error.kind() == ErrorKind::NotFound => {

@@ -6,18 +6,18 @@ use std::str::FromStr;
 
 /// The number of actions that a player commits to at each decision.
 ///
-/// The actions are played one per tick without further decisions, and their effects are shown at the next
-/// decision. The largest commitment with which a player still wins measures how far the player foresees.
+/// The actions are played one per tick without further decisions. Their effects become visible at the next
+/// decision. The largest commitment with which a player still wins measures how far ahead the player plans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Commitment {
-    /// A fixed number of actions. With a commitment of one action, the player decides on every action.
+    /// A fixed number of actions. With a commitment of one, the player chooses every action separately.
     Actions(NonZeroU64),
-    /// All actions to the end of the episode, so that an episode has one decision.
+    /// All remaining actions, so that an episode consists of a single decision.
     All,
 }
 
 impl Commitment {
-    /// The commitment to one action per decision.
+    /// The commitment of one action per decision.
     pub const ONE: Commitment = Commitment::Actions(NonZeroU64::MIN);
 
     /// Returns `true` if the player commits to one action per decision.
@@ -25,7 +25,7 @@ impl Commitment {
         *self == Commitment::ONE
     }
 
-    /// Returns the number of actions that a decision covers if the episode has `left` more ticks.
+    /// Returns the number of actions in a decision when the episode has `left` ticks remaining.
     pub fn due(self, left: u64) -> u64 {
         match self {
             Commitment::Actions(actions) => left.min(actions.get()),
@@ -33,7 +33,8 @@ impl Commitment {
         }
     }
 
-    /// Returns the commitment in the notation of results, such as `commit=10`, or `None` for the default.
+    /// Returns the commitment in the notation used in results, such as `commit=10`, or `None` for the
+    /// default.
     pub fn aid(self) -> Option<String> {
         (!self.is_one()).then(|| format!("commit={self}"))
     }

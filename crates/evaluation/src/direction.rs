@@ -1,8 +1,8 @@
-//! The names of directions.
+//! Direction names.
 
 use engine::Direction;
 
-/// Returns `up`, `left`, `down` or `right`, or `None` for any other direction.
+/// Returns `up`, `left`, `down` or `right`, or `None` for other directions.
 pub(crate) fn direction_name(direction: Direction) -> Option<&'static str> {
     let names = [
         (Direction::UP, "up"),

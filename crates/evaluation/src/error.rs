@@ -1,35 +1,35 @@
-//! The error type of this crate.
+//! The crate's error type.
 
 use base::MessagePath;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// The reason why an evaluation cannot be set up, continued or read.
+/// The reason why an evaluation cannot be created, continued or read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EvaluationError {
-    /// A file or folder cannot be accessed.
+    /// Access to a file or folder failed.
     #[error("cannot {action} {}", path.in_message())]
     Io {
         /// The operation that failed.
         action: &'static str,
-        /// The path of the file or folder.
+        /// The path to the file or folder.
         path: PathBuf,
-        /// The error of the operating system.
+        /// The operating system's error.
         source: std::io::Error,
     },
-    /// The request is malformed. The message states the cause and the next step.
+    /// The request is malformed. The message contains the cause and the next step.
     #[error("{0}")]
     Malformed(String),
 }
 
 impl EvaluationError {
-    /// Returns the error for a file or folder whose content cannot be used.
+    /// Returns the error for a file or folder with invalid content.
     pub(crate) fn malformed(path: &Path, what: impl fmt::Display) -> EvaluationError {
         EvaluationError::Malformed(format!("{}: {what}", path.in_message()))
     }
 
-    /// Returns a closure for `map_err` that converts the I/O error of an operation on a path.
+    /// Returns a closure for `map_err` that converts an I/O error for an operation on a path.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> EvaluationError {
         let path = path.to_owned();
         move |source| EvaluationError::Io { action, path, source }

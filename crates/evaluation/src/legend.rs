@@ -1,5 +1,5 @@
-//! The meanings of the characters on a board. Each game has one table, which is the same for all levels,
-//! states and episodes.
+//! The meanings of the characters on a board. Each game has a single table for all levels, states and
+//! episodes.
 
 use crate::direction::direction_name;
 use base::Seed;
@@ -8,37 +8,37 @@ use engine::{Analysis, SpriteType};
 use render::{EMPTY, Glyph, Looks, Symbols};
 use std::collections::BTreeMap;
 
-/// The character that stands for the avatar in all of its states.
+/// The character for the avatar in all of its states.
 pub const AVATAR: char = '@';
 
 /// The characters from which shuffled symbols are drawn.
 const POOL: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-/// The characters for types whose names contain no free letter.
+/// The characters for types whose names contain no unused letter.
 const SPARE: &str = "+*%&$=~^?!:;|/abcdefghijklmnopqrstuvwxyz0123456789";
 
 /// The options for assigning characters to sprite types.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LegendOptions {
-    /// `true` if each state of the avatar has its own character instead of [`AVATAR`], so that the player must
-    /// keep track of the avatar's current character.
+    /// `true` if each avatar state has its own character instead of [`AVATAR`], so that the player must track
+    /// the avatar's current character.
     pub tracking: bool,
-    /// The number of the table of random letters and digits that replace the characters, so that no character
-    /// carries a meaning by itself. `None` keeps the original characters.
+    /// The number of the table that replaces all characters with random letters and digits, so that no
+    /// character is meaningful by itself. `None` keeps the original characters.
     pub shuffled: Option<u64>,
 }
 
-/// The role of a sprite type on a board, from the point of view of a reader.
+/// The role of a sprite type on the board, from a reader's point of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryRole {
     /// The sprite that the player controls.
     Avatar,
-    /// A type that blocks the way permanently.
+    /// A type that is a permanent obstacle.
     Wall,
-    /// The ground under the other sprites, which encodings do not show.
+    /// The ground under the other sprites, omitted from encodings.
     Floor,
-    /// A type that stays in place and offers no gain, such as soil, cover, or sprites that shots or other
-    /// sprites break. Its positions would make lists too long.
+    /// A stationary type that offers no gain, such as soil, cover, or sprites that shots or other sprites
+    /// break. Lists of its positions would be too long.
     Scenery,
     /// Any other type.
     Thing,
@@ -49,27 +49,27 @@ pub enum EntryRole {
 pub struct Entry {
     /// The name of the sprite type.
     pub name: String,
-    /// The character of the sprite type, which is [`EMPTY`] for floors.
+    /// The character of the sprite type, or [`EMPTY`] for floors.
     pub symbol: char,
     /// The role of the sprite type.
     pub role: EntryRole,
-    /// `true` if the type's sprites move straight ahead and the rules alone do not determine their direction,
-    /// because something turns some of them.
+    /// `true` if the type's sprites move straight ahead in directions that the rules alone do not determine,
+    /// because some of the sprites are turned.
     pub is_turned: bool,
 }
 
-/// The table of characters for one game. Only the states of the avatar, or floors, can share a character.
+/// A game's table of characters. Only floors, or the avatar's states, can share a character.
 #[derive(Clone, Debug)]
 pub struct Legend {
     looks: Looks,
-    /// The entries of the table. The avatar is first, and the other types follow in the order of the
-    /// registry, so that the order does not reveal a type's purpose or importance.
+    /// The table's entries. The avatar is first, and the other types follow in registry order, so that the
+    /// order does not reveal a type's purpose or importance.
     entries: Vec<Entry>,
     places: BTreeMap<String, usize>,
 }
 
 impl Legend {
-    /// Builds the table of an analysed game. The same game and options always give the same table.
+    /// Builds the table for an analysed game. The same game and options always give the same table.
     pub fn new(analysis: &Analysis, options: &LegendOptions) -> Legend {
         let (game, looks) = (analysis.game(), Looks::of_rules(analysis));
         let symbols = Symbols::of(analysis, &looks);
@@ -99,7 +99,7 @@ impl Legend {
         Legend { looks, entries, places }
     }
 
-    /// Returns the visible sprite types of the game, avatar first.
+    /// Returns the game's visible sprite types, avatar first.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }
@@ -109,7 +109,7 @@ impl Legend {
         self.places.get(name).map(|&at| &self.entries[at])
     }
 
-    /// Returns the appearance of the sprite types in images.
+    /// Returns the sprite types' appearance in images.
     pub fn looks(&self) -> &Looks {
         &self.looks
     }
@@ -119,7 +119,7 @@ impl Legend {
         self.entry(name).is_some_and(|entry| entry.role != EntryRole::Floor)
     }
 
-    /// Returns one line for each character, with the character, a space, and the names of its types.
+    /// Returns one line per character: the character, a space, and the names of its types.
     pub fn lines(&self) -> Vec<String> {
         let names = |role: EntryRole| {
             let all = self.entries.iter().filter(move |entry| entry.role == role);
@@ -144,7 +144,7 @@ impl Legend {
         lines
     }
 
-    /// Returns `true` if all states of the avatar share one character.
+    /// Returns `true` if all avatar states share one character.
     fn is_united(&self) -> bool {
         let mut avatars = self.entries.iter().filter(|entry| entry.role == EntryRole::Avatar);
         let first = avatars.next().map(|entry| entry.symbol);
@@ -152,7 +152,7 @@ impl Legend {
     }
 }
 
-/// Returns `true` if a type stays in place and offers no gain.
+/// Returns `true` if a type is stationary and offers no gain.
 fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
     let facts = analysis.facts(stype);
     let is_counted = analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype));
@@ -163,8 +163,8 @@ fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
         && matches!(role, Role::Soil | Role::Cover | Role::Breakable | Role::Refuge | Role::Floor)
 }
 
-/// Returns `true` if a type's sprites move straight ahead but not always in the direction given by the rules,
-/// or if they stand still and are turned.
+/// Returns `true` if a type's sprites move straight ahead in directions not fixed by the rules, or stand
+/// still and are turned.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let motion = analysis.facts(stype).motion;
     let turns = |effect: &EffectSummary| match effect {
@@ -190,8 +190,8 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     }
 }
 
-/// Gives all states of the avatar the character [`AVATAR`]. A type that already had this character gets a
-/// freed character.
+/// Assigns the character [`AVATAR`] to all avatar states. A type that already had this character gets one
+/// that has become unused.
 fn unite_avatars(entries: &mut [Entry]) {
     let is_avatar = |entry: &&Entry| entry.role == EntryRole::Avatar;
     let Some(free) = entries.iter().find(is_avatar).map(|entry| entry.symbol) else { return };
@@ -204,8 +204,8 @@ fn unite_avatars(entries: &mut [Entry]) {
     }
 }
 
-/// Gives a new character to each type whose letter differs only in case from the letter of an earlier entry.
-/// The new character is a letter of the type's name or a spare character.
+/// Assigns a new character to each type whose letter differs only in case from an earlier entry's letter. The
+/// new character is a letter from the type's name or a spare character.
 fn separate_cases(entries: &mut [Entry]) {
     for at in 1..entries.len() {
         let own = entries[at].symbol;
@@ -221,7 +221,7 @@ fn separate_cases(entries: &mut [Entry]) {
     }
 }
 
-/// Replaces the characters with random characters. Entries that shared a character share one again.
+/// Replaces the characters with random characters. Entries that shared a character still share one.
 fn shuffle(entries: &mut [Entry], number: u64) {
     let mut pool: Vec<char> = POOL.chars().collect();
     Seed::from_text("shuffled symbols").child("symbols", number).sampler().shuffle(&mut pool);

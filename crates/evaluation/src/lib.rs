@@ -1,9 +1,9 @@
 //! Evaluation of language models and other players on games: observations, answers, logs and metrics.
 //!
 //! A [`Subject`] is a game with its levels. An [`Agent`] is shown a [`Turn`], never a state, and answers with
-//! a [`Choice`]. The messages in both directions are recorded in the [`Journal`] of the episode. The journal
-//! is an append-only log of [`Event`]s. Every metric is recomputed from the log, and the episode can be
-//! replayed from it exactly. Models are reached through [`client::Model`].
+//! a [`Choice`]. The messages in both directions are recorded in the episode's [`Journal`], an append-only
+//! log of [`Event`]s. Every metric is recomputed from the log, and the episode can be replayed from it
+//! exactly. Models are accessed through [`client::Model`].
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 pub mod answer;

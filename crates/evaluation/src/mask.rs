@@ -1,4 +1,4 @@
-//! Masks games: the rules stay unchanged, but all names become meaningless.
+//! Masks games: replaces all names with meaningless ones, and leaves the rules unchanged.
 
 use crate::error::EvaluationError;
 use base::{Digest, Seed};
@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 /// A renaming that hides the names of a game's sprite types.
 #[derive(Clone, Debug)]
 pub(crate) struct Mask {
-    /// The renamed game. Its sprite types keep their positions in the registry.
+    /// The renamed game. The renamed sprite types keep their positions in the registry.
     pub(crate) game: Game,
-    /// `true` if the order of the names is hidden too.
+    /// `true` if the order of names is also hidden.
     is_neutral: bool,
     names: BTreeMap<String, String>,
 }
@@ -21,8 +21,8 @@ impl Mask {
     /// Comments, colours and images are removed.
     ///
     /// # Errors
-    /// Returns an error if the game does not compile under different names. Such a game was loaded with
-    /// faults that only the reference engine tolerates.
+    /// Returns an error if the game does not compile under different names. Such a game contains faults that
+    /// only the reference engine tolerates.
     pub(crate) fn of(game: &Game) -> Result<Mask, EvaluationError> {
         let description = game.description();
         let seed = Seed::from_text(&game.digest().to_string());
@@ -36,8 +36,8 @@ impl Mask {
         Ok(Mask { game, is_neutral: false, names })
     }
 
-    /// Renames all sprite types, including types whose names the engine knows, to `t1`, `t2` and so on. The
-    /// order is derived from the game's digest. Levels of the game remain valid.
+    /// Renames all sprite types to `t1`, `t2` and so on, including types whose names are built into the
+    /// engine. The order is derived from the game's digest. The game's levels remain valid.
     pub(crate) fn neutral(game: &Game) -> Mask {
         let own: Vec<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
         let seed = Seed::from_text(&game.digest().to_string());
@@ -45,7 +45,7 @@ impl Mask {
         Mask { game: game.under_names(&names), is_neutral: true, names }
     }
 
-    /// Returns the number from which neutral characters are drawn. The number differs between games.
+    /// Returns the number that selects the neutral characters. The number differs between games.
     pub(crate) fn neutral_characters(game: &Game) -> u64 {
         Seed::from_text(&game.digest().to_string()).child("neutral characters", 0).sampler().bits()
     }
@@ -55,7 +55,7 @@ impl Mask {
         self.names.get(own).map_or(own, String::as_str)
     }
 
-    /// Returns an observation in which all names are replaced.
+    /// Returns the observation with all names replaced.
     pub(crate) fn observation(&self, seen: &Observation) -> Observation {
         let mut masked = seen.clone();
         let avatar = masked.avatar.iter_mut().map(|avatar| &mut avatar.name);
@@ -73,7 +73,7 @@ impl Mask {
     }
 }
 
-/// Returns a digest of the rules without the names of types, characters of levels, colours, images and comments.
+/// Returns a digest of the rules that ignores type names, level characters, colours, images and comments.
 /// Games with the same lines in the same order under different names have the same digest.
 pub(crate) fn nameless(description: &Description) -> Digest {
     let own = description.own_names().into_iter().zip(1..);
@@ -96,7 +96,7 @@ fn strip(description: &mut Description, keys: &[&str]) {
     sprites(&mut description.sprites, keys);
 }
 
-/// Returns the rules without the names of images, which would reveal the roles of sprite types.
+/// Returns the rules without image names, which would reveal the sprite types' roles.
 pub(crate) fn without_pictures(description: &Description) -> Description {
     let mut description = description.clone();
     strip(&mut description, &["img", "autotiling", "randomtiling"]);
@@ -111,8 +111,7 @@ mod tests {
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    t3 > Immovable\n    bug > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    g > t3\n    b > bug\n  InteractionSet\n    avatar wall > stepBack\n    t3 avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=t3 win=True\n";
 
-    /// Neutral names replace all type names, including a name that already looks neutral, and change nothing
-    /// else.
+    /// Neutral names replace all type names, even names that already look neutral, and nothing else changes.
     #[test]
     fn neutral_names_change_nothing_else() {
         let game = Game::from_source(GAME).unwrap();

@@ -1,5 +1,4 @@
-//! Predictions about the effect of touching each type of sprite in a game, and their comparison with the
-//! rules.
+//! Predictions about the effects of touching each sprite type in a game, and their comparison with the rules.
 
 use crate::prompt::kinds_at_start;
 use crate::subject::Subject;
@@ -10,21 +9,21 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 base::named_enum! {
-    /// A fact about touching a sprite type, which a player can predict.
+    /// A predictable fact about touching a sprite type.
     pub enum TouchFact {
         /// Touching the sprite kills the avatar, at least while the avatar holds nothing.
         Kills = "kills",
         /// The avatar cannot enter the sprite's cell, at least while the avatar holds nothing.
         Stops = "stops",
-        /// The sprite disappears or turns into a different type, at once or when the avatar holds the
-        /// required resource.
+        /// The sprite disappears or turns into a different type, either immediately or when the avatar holds
+        /// the required resource.
         Goes = "goes",
-        /// The score changes, at once or when the avatar holds the required resource.
+        /// The score changes, either immediately or when the avatar holds the required resource.
         Scores = "scores",
     }
 }
 
-/// The sprite types for which each fact is predicted, by the game's own names.
+/// The sprite types for which each fact is predicted, under the game's own names.
 pub type Predicted = BTreeMap<TouchFact, BTreeSet<String>>;
 
 /// The result of comparing predictions with the rules.
@@ -35,30 +34,30 @@ pub struct Grade {
     pub right: u64,
     /// The number of pairs of types and facts that the rules determine.
     pub of: u64,
-    /// The insight, which is a mean over facts. For each fact, the value is the fraction of predicted types
-    /// among the types for which the fact is true, minus the fraction of predicted types among all other
-    /// types.
+    /// The insight: a mean over facts. For each fact, the value is the fraction of types predicted among the
+    /// types for which the fact is true, minus the fraction predicted among all other types.
     ///
-    /// A fact counts only if it is true for some types and false for others. The insight is between −1 and 1.
-    /// It is 0 for predictions without knowledge, and 1 if everything is correct. `None` if no fact counts.
+    /// A fact counts only if it is true for some types and false for others. Its range is −1 to 1. The
+    /// insight is 0 for predictions made without knowledge, and 1 for entirely correct predictions. The
+    /// insight is `None` if none of the facts count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub insight: Option<f64>,
 }
 
-/// The sprite types of a game, except avatars and floors, by the effect of a touch. The effects are those for
-/// a player who does not know the rules and must learn them by touching.
+/// A game's sprite types, except avatars and floors, grouped by the effect of a touch. The effects are stated
+/// for a player who does not know the rules and must learn them by touching.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Trials {
-    /// The types that hurt the avatar or cost points when they are touched.
+    /// The types that hurt the avatar or cost points when touched.
     pub costly: Vec<String>,
-    /// The types whose touch has an effect only if the avatar holds the required resource.
+    /// The types that have an effect when touched only if the avatar holds the required resource.
     pub gated: Vec<String>,
-    /// The decoys, which are neither walls nor floors, but have no effect when they are touched.
+    /// The decoys: types other than walls and floors that have no effect when touched.
     pub idle: Vec<String>,
 }
 
 impl Trials {
-    /// Returns the trials for the sprite types that are present at the start of a game's levels.
+    /// Returns the trials for the sprite types present at the start of a game's levels.
     pub fn of(subject: &Subject) -> Trials {
         let analysis = &subject.analysis;
         let mut trials = Trials::default();
@@ -78,11 +77,10 @@ impl Trials {
     }
 }
 
-/// Returns whether a fact is true for a sprite type according to the rules, or `None` if the fact depends on
-/// more than the avatar's type and possessions.
+/// Returns whether a fact is true for a sprite type according to the rules. Returns `None` if the fact
+/// depends on more than the avatar's type and possessions.
 ///
-/// If the avatar can be of several types, each type is considered, and `None` is returned if the results
-/// differ.
+/// If the avatar can have several types, each type is considered. Returns `None` if the results differ.
 pub fn truth(analysis: &Analysis, kind: SpriteType, fact: TouchFact) -> Option<bool> {
     let each = analysis.avatars().iter().map(|avatar| fact_of(analysis.touch(avatar.stype, kind), fact));
     each.dedup().exactly_one().ok().flatten()
@@ -111,8 +109,8 @@ fn fact_of(touch: &Touch, fact: TouchFact) -> Option<bool> {
     }
 }
 
-/// Grades predictions about sprite types. Names that are not in the game, and types that were not in the
-/// question, are ignored.
+/// Grades predictions about sprite types. Ignores names missing from the game, and types missing from the
+/// question.
 pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Grade {
     let mut grade = Grade::default();
     let mut insights = Vec::new();
@@ -135,8 +133,8 @@ pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Gr
     grade
 }
 
-/// Reads the answer to the question about sprite types. The last line for each fact counts, such as
-/// `KILLS: t1, t4` or `STOPS: none`. `names` maps the names in the question to the game's own names.
+/// Reads an answer about sprite types. For each fact, the last line such as `KILLS: t1, t4` or `STOPS: none`
+/// counts. `names` maps the names in the question to the game's own names.
 ///
 /// Emphasis, list markers, unknown types and text outside the lines are ignored. A semicolon also ends a
 /// line.
@@ -176,7 +174,7 @@ pub fn read(answer: &str, names: &BTreeMap<String, String>) -> Result<Predicted,
     Ok(predicted)
 }
 
-/// Returns `true` if a word has the form of a type name in a question.
+/// Returns `true` if a word has the format of a type name in a question.
 fn is_kind(word: &str) -> bool {
     word.strip_prefix('t').is_some_and(|rest| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit()))
 }

@@ -1,4 +1,4 @@
-//! A game with its levels, ready to be played.
+//! A playable game with its levels.
 
 use crate::commitment::Commitment;
 use base::Seed;
@@ -7,30 +7,30 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// A game with its levels, and with known facts that its rules do not contain.
+/// A game with its levels, and known facts beyond its rules.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// The ID of the game in logs and tables. The ID is usable as a file name, without path separators.
+    /// The game's ID in logs and tables. The ID is usable as a file name, without path separators.
     pub id: String,
-    /// The source text of the game.
+    /// The game's source text.
     pub source: String,
     /// The compiled game.
     pub game: Game,
     /// The analysis of the game's rules.
     pub analysis: Analysis,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<SubjectLevel>,
-    /// The known facts that the rules do not contain.
+    /// The known facts beyond the rules.
     pub facts: SubjectFacts,
 }
 
 impl Subject {
     /// Builds a subject from the texts of a game and its levels. Each level is given with its number, its
-    /// text, and the number of ticks of its shortest win if the win is proved to be optimal. If `facts`
-    /// contains no taxonomy, the taxonomy is derived from the rules.
+    /// text, and the length of its shortest win in ticks, if proved optimal. If `facts` contains no taxonomy,
+    /// the taxonomy is derived from the rules.
     ///
     /// # Errors
-    /// Returns the problems of the game if it does not compile. Otherwise, returns the problems of the first
+    /// Returns the game's problems if the game does not compile. Otherwise, returns the problems of the first
     /// level that does not compile.
     pub fn read(
         id: &str,
@@ -67,51 +67,51 @@ impl Subject {
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{}{problems}", level.map_or(String::new(), |number| format!("level {number}: ")))]
 pub struct Unreadable {
-    /// The number of the level, or `None` if the game does not compile.
+    /// The level number, or `None` if the game does not compile.
     pub level: Option<usize>,
-    /// The problems that were found.
+    /// The problems found.
     pub problems: Diagnostics,
 }
 
 /// A level of a [`Subject`].
 #[derive(Clone, Debug)]
 pub struct SubjectLevel {
-    /// The number of the level in the game.
+    /// The level's number in the game.
     pub number: usize,
-    /// The text of the level.
+    /// The level text.
     pub text: String,
     /// The level, checked against its game.
     pub level: Level,
-    /// The number of ticks in the shortest win, if the win is proved to be optimal.
+    /// The length of the shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,
     /// The hash of the level's first state under a fixed seed, once it has been computed.
     first: OnceLock<StateHash>,
 }
 
-/// The facts about a game that reports state in addition to the results.
+/// The facts about a game that reports state in addition to results.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectFacts {
-    /// The title of the game in its own theme.
+    /// The game's title in its own theme.
     pub title: String,
-    /// The kind of game that its release or its card states, such as `shooter`. The text is empty if the kind
+    /// The kind of game stated by its release or its card, such as `shooter`. The text is empty if the kind
     /// is unknown.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub kind: String,
-    /// The kind of game according to its rules, as one sentence for each aspect of the taxonomy
+    /// The kind of game according to its rules, with one sentence per aspect of the taxonomy
     /// (`engine::describe::Guide::kind`).
     pub taxonomy: Vec<String>,
-    /// `true` if faults in the game are tolerated, as the reference engine tolerates them.
+    /// `true` if the game's faults are tolerated, as in the reference engine.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub as_reference: bool,
-    /// The reference results for the played levels, which the release contains.
+    /// The release's reference results for the played levels.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<LevelMark>,
     /// The name of the game's release.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<String>,
-    /// The number of ticks in the shortest known win of each level, by the level's number. Levels for which
-    /// the release states no win are missing.
+    /// The length of each level's shortest known win in ticks, by level number. Levels without a win in the
+    /// release are missing.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub known_wins: BTreeMap<usize, u64>,
 }
@@ -120,11 +120,11 @@ pub struct SubjectFacts {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelMark {
-    /// The number of the level.
+    /// The level number.
     pub level: usize,
-    /// The tier of the level, from 1 to 4, which measures how far ahead a winner must see.
+    /// The level's tier, from 1 to 4, which measures how far ahead a winner must look.
     pub tier: u8,
-    /// The name of the reference player.
+    /// The reference player's name.
     pub player: String,
     /// The number of actions that the player commits to at each decision.
     pub commit: Commitment,

@@ -1,4 +1,4 @@
-//! Counts the tokens of texts.
+//! Counts tokens in texts.
 
 use crate::answer::boundary;
 use tiktoken_rs::o200k_base_singleton;
@@ -6,15 +6,15 @@ use tiktoken_rs::o200k_base_singleton;
 /// The approximate number of tokens that providers count for a message in addition to its text.
 pub const PER_MESSAGE: u64 = 4;
 
-/// The number of bytes that are counted at once. No token of the vocabulary is longer. The limit keeps texts
-/// without spaces as cheap to count as other texts.
+/// The number of bytes counted at a time. No token in the vocabulary is longer. The limit makes texts without
+/// spaces as cheap to count as other texts.
 const PIECE: usize = 4096;
 
-/// Counts the tokens of a text in the embedded vocabulary `o200k_base`.
+/// Counts a text's tokens in the embedded vocabulary `o200k_base`.
 ///
-/// Every model family has its own vocabulary, whose counts are within about 20% of this count. Words that
-/// look like control tokens are counted as words. Cost: O(bytes). The first call in a process loads the
-/// vocabulary, which takes about 0.2 s.
+/// Every model family has its own vocabulary, whose counts are within about 20% of this count. Text that
+/// looks like control tokens is counted as ordinary text. Cost: O(bytes). The first call in a process loads
+/// the vocabulary, which takes about 0.2 s.
 pub fn count(text: &str) -> u64 {
     let vocabulary = o200k_base_singleton();
     let mut rest = text;
@@ -30,7 +30,7 @@ pub fn count(text: &str) -> u64 {
     tokens
 }
 
-/// Estimates the number of tokens for an image of the given size, with one token per patch of 28 × 28 pixels.
+/// Estimates the number of tokens for an image of the given size: one token per patch of 28 × 28 pixels.
 pub fn of_picture(width: u32, height: u32) -> u64 {
     u64::from(width.div_ceil(28)) * u64::from(height.div_ceil(28))
 }

@@ -1,5 +1,4 @@
-//! Tracks. A track is a named and versioned bundle of prompt settings. Results on different tracks are never
-//! mixed.
+//! Tracks. A track is a named, versioned set of prompt settings. Results on different tracks are never mixed.
 
 use crate::prompt::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
 use std::fmt;
@@ -21,15 +20,15 @@ base::named_enum! {
 }
 
 impl Track {
-    /// Returns the version of the track, which is raised whenever its settings or the texts of its own
-    /// prompts change.
+    /// Returns the track's version. The version is incremented whenever the track's settings or its own
+    /// prompt texts change.
     pub const fn version(self) -> u32 {
         match self {
             Track::Told | Track::Masked | Track::Discover | Track::Vision => 1,
         }
     }
 
-    /// Returns the prompt settings of the track. The mode and the token budget of a conversation can be
+    /// Returns the track's prompt settings. The mode and the token budget of a conversation can be
     /// overridden, except for the mode of [`Track::Discover`].
     pub fn settings(self) -> PromptSettings {
         let told = PromptSettings::default();
@@ -54,8 +53,8 @@ impl Track {
         }
     }
 
-    /// Returns the maximum number of levels of a game that are played in one conversation. The number is 1 if
-    /// levels are played alone.
+    /// Returns the maximum number of a game's levels played in one conversation, or 1 if levels are played
+    /// alone.
     pub const fn series(self) -> u64 {
         match self {
             Track::Discover => 3,
@@ -63,19 +62,18 @@ impl Track {
         }
     }
 
-    /// Returns the name and version of the track in the notation of results, such as `masked@1`.
+    /// Returns the track's name and version as written in results, such as `masked@1`.
     pub fn id(self) -> String {
         format!("{}@{}", self.name(), self.version())
     }
 
-    /// Returns the difference from players on other tracks in the notation of results, such as
-    /// `track=masked@1`.
+    /// Returns the difference from players on other tracks as written in results, such as `track=masked@1`.
     pub fn aid(self) -> String {
         format!("{AID}{}", self.id())
     }
 }
 
-/// The prefix of the aid that states the track of a player.
+/// The prefix of the aid that states a player's track.
 pub(crate) const AID: &str = "track=";
 
 impl fmt::Display for Track {
@@ -84,11 +82,11 @@ impl fmt::Display for Track {
     }
 }
 
-/// The position of a level in a series of levels that are played in one conversation.
+/// A level's position in a series of levels played in one conversation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SeriesPlace {
-    /// The number of levels before this level in the series.
+    /// The number of earlier levels in the series.
     pub index: u64,
     /// The number of levels in the series.
     pub of: u64,
@@ -97,7 +95,7 @@ pub struct SeriesPlace {
 impl SeriesPlace {
     /// Divides `levels` levels into series of at most `most` levels, and returns the position of each level.
     /// The series are as even as possible, with the longer series first. The position is `None` for a level
-    /// that is played alone.
+    /// played alone.
     pub(crate) fn all(levels: usize, most: u64) -> Vec<Option<SeriesPlace>> {
         let count = (levels as u64).div_ceil(most.max(1)).max(1);
         let (each, more) = (levels as u64 / count, levels as u64 % count);

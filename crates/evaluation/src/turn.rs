@@ -1,4 +1,4 @@
-//! The view of a player at one decision.
+//! A player's view at one decision.
 
 use crate::commitment::Commitment;
 use crate::run::Task;
@@ -7,13 +7,13 @@ use crate::track::SeriesPlace;
 use engine::analysis::Avatar;
 use engine::{Action, Analysis, Game, Observation, State};
 
-/// A player's view at one decision, which consists of the facts of the whole episode and an observation of
-/// the current state. The state itself is never shown, because a player could use it to look into the future.
+/// A player's view at one decision: the facts about the entire episode, and an observation of the current
+/// state. The state itself is never shown, because a player could use it to look into the future.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn<'a> {
     /// The game of the episode. A player may read its rules, but not its levels.
     pub subject: &'a Subject,
-    /// The number of the level, which is used in logs.
+    /// The level number, for use in logs.
     pub level: usize,
     /// The number of actions played before this decision.
     pub number: u64,
@@ -29,15 +29,15 @@ pub struct Turn<'a> {
     pub played: &'a [Played],
     /// The available actions, with [`Action::Nil`] first.
     pub actions: &'a [Action],
-    /// The level's position in a series that is played in one conversation, or `None` if the level is played
+    /// The level's position in a series of levels played in one conversation, or `None` for a level played
     /// alone.
     pub series: Option<SeriesView<'a>>,
 }
 
-/// The position of a level in a series, with the end of the previous level.
+/// A level's position in a series, with the end of the previous level.
 #[derive(Clone, Copy, Debug)]
 pub struct SeriesView<'a> {
-    /// The position of the level in the series.
+    /// The level's position in the series.
     pub place: SeriesPlace,
     /// The end of the previous level, or `None` for the first level.
     pub previous: Option<&'a LevelEnd>,
@@ -59,13 +59,13 @@ pub struct LevelEnd {
 pub struct Before<'a> {
     /// The observation before the action.
     pub observation: &'a Observation,
-    /// The action that was played.
+    /// The action played.
     pub action: Action,
-    /// The change of the score caused by the action.
+    /// The change in score caused by the action.
     pub reward: f64,
 }
 
-/// An action of a commitment and its result.
+/// An action in a commitment, with its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
     /// The requested action, or [`Action::Nil`] if the player stated too few actions.
@@ -74,11 +74,11 @@ pub struct Played {
     pub is_unavailable: bool,
     /// The avatar's column and row after the action, if there is an avatar.
     pub avatar: Option<(i32, i32)>,
-    /// The change of the score caused by the action.
+    /// The change in score caused by the action.
     pub reward: f64,
 }
 
-/// The part of an episode's recent past that the next turn shows.
+/// The part of an episode's recent past shown in the next turn.
 #[derive(Debug, Default)]
 pub(crate) struct Recent {
     /// The observation before the last action, the action and its reward.
@@ -88,7 +88,7 @@ pub(crate) struct Recent {
 }
 
 impl<'a> Turn<'a> {
-    /// Creates the turn of an episode after `number` actions.
+    /// Creates an episode's turn after `number` actions.
     pub(crate) fn of(
         task: &Task<'a>,
         number: u64,
@@ -108,13 +108,13 @@ impl<'a> Turn<'a> {
         Turn { subject, level, number, limit, commit, observation, before, played, actions, series }
     }
 
-    /// Returns the number of actions that the decision covers, which is at least one.
+    /// Returns the number of actions in the decision (at least one).
     pub fn due(&self) -> u64 {
         self.commit.due(self.limit.saturating_sub(self.number)).max(1)
     }
 }
 
-/// The start of an episode as seen by a player. It is used to inspect prompts without playing.
+/// The start of an episode as seen by a player, used to inspect prompts without playing.
 #[derive(Clone, Debug)]
 pub struct Observed {
     observation: Observation,
@@ -122,28 +122,28 @@ pub struct Observed {
 }
 
 impl Observed {
-    /// Observes the first state of an episode.
+    /// Observes an episode's first state.
     pub fn first(task: &Task<'_>) -> Observed {
         let game = &task.subject.game;
         let state = game.start(&task.level.level, task.chance());
         Observed { observation: game.observe(&state), actions: choices(game, &state) }
     }
 
-    /// Returns the first turn of the episode.
+    /// Returns the episode's first turn.
     pub fn turn<'a>(&'a self, task: &Task<'a>) -> Turn<'a> {
         const NONE: &Recent = &Recent { last: None, played: Vec::new() };
         Turn::of(task, 0, &self.observation, NONE, &self.actions, None)
     }
 }
 
-/// Returns the actions available in a state. They consist of doing nothing and the available keys.
+/// Returns the actions available in a state: doing nothing, and the available keys.
 pub(crate) fn choices(game: &Game, state: &State) -> Vec<Action> {
     let keys = game.actions(state).iter().copied().filter(|&action| action != Action::Nil);
     std::iter::once(Action::Nil).chain(keys).collect()
 }
 
-/// Returns `true` if an action can have an effect in a game. If nothing can be shot, the use key has no
-/// effect.
+/// Returns `true` if an action can have an effect in a game. For example, the use key has no effect if
+/// nothing can be shot.
 pub fn is_of_use(analysis: &Analysis, action: Action) -> bool {
     let game = analysis.game();
     let by = |avatar: &Avatar| {

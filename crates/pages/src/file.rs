@@ -1,14 +1,14 @@
-//! The files of reports, and the errors of rendering reports.
+//! Report files, and report rendering errors.
 
 use evaluation::EvaluationError;
 use std::error::Error;
 
-/// A file of a report.
+/// A report file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
     /// The path relative to the report's folder, with `/` as the separator.
     pub name: String,
-    /// The content of the file.
+    /// The file's content.
     pub bytes: Vec<u8>,
 }
 
@@ -21,7 +21,7 @@ impl File {
 /// The reason why a report cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum PageError {
-    /// The log of an episode cannot be read.
+    /// An episode's log cannot be read.
     #[error(transparent)]
     Evaluation(#[from] EvaluationError),
     /// An image or a page cannot be rendered.

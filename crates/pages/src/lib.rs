@@ -1,7 +1,7 @@
 //! Renders reports as files: self-contained pages with plots, and the same numbers as JSON, CSV and LaTeX.
 //!
-//! `forge` and `evaluation` provide the data of a report, and this crate converts the data to text and
-//! images. The crate uses no clock and no file system. Every function returns [`File`]s, and the same report
+//! `forge` and `evaluation` provide the report data, and this crate converts the data to text and images. The
+//! crate uses neither a clock nor the file system. Every function returns [`File`]s, and the same report
 //! gives the same bytes.
 
 mod evaluation_report;

@@ -1,11 +1,11 @@
-//! The corpus games embedded in the extension, and the file names used by other games.
+//! The corpus games embedded in the extension, and functions for the file names of other games.
 
 use include_dir::{Dir, include_dir};
 use pyo3::prelude::*;
 
 static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../corpora");
 
-/// The name, the rules, the levels and the card of a game.
+/// A game's name, rules, levels and card.
 type CorpusGame = (String, String, Vec<String>, String);
 
 /// Returns the corpus games. Each game is given by its name, its rules, its levels and the text of its
@@ -24,24 +24,24 @@ pub(crate) fn corpus() -> Vec<CorpusGame> {
     games
 }
 
-/// The name of a game's file, followed by its levels with their numbers.
+/// The name of a game file, followed by its levels with their numbers.
 type GameFiles = (String, Vec<(usize, String)>);
 
-/// Finds games in a folder, given the names of the folder's files.
+/// Finds games in a folder, given the folder's file names.
 #[pyfunction]
 pub(crate) fn games_of_files(names: Vec<String>) -> Vec<GameFiles> {
     let games = engine::layout::games(names.iter().map(String::as_str));
     games.into_iter().map(|game| (game.source, game.levels)).collect()
 }
 
-/// Returns the levels of a game with their numbers, given the names of the files in its folder.
+/// Returns a game's levels with their numbers, given the file names in its folder.
 #[pyfunction]
 pub(crate) fn levels_of_files(source: &str, names: Vec<String>) -> Vec<(usize, String)> {
     engine::layout::levels(source, names.iter().map(String::as_str))
 }
 
-/// Returns the name of the game's file to which a level belongs, given the names of the files in the level's
-/// folder. Returns `None` if `level` is not the name of a level's file.
+/// Returns the name of the game file for a level, given the file names in the level's folder. Returns `None`
+/// if `level` is not the name of a level file.
 #[pyfunction]
 pub(crate) fn game_of_level(level: &str, names: Vec<String>) -> Option<String> {
     engine::layout::level_number(level)?;

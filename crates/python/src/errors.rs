@@ -1,4 +1,4 @@
-//! The exceptions of the package, and conversions from errors.
+//! The package's exceptions, and conversions from Rust errors.
 
 use editor::{Source, in_words};
 use engine::{Diagnostic, Severity, line_and_column};
@@ -43,7 +43,7 @@ pub(crate) fn invalid(message: impl Display) -> PyErr {
     PyValueError::new_err(message.to_string())
 }
 
-/// Creates a [`VgdlError`] with the problems of a text. `name` is the name of the text in messages.
+/// Creates a [`VgdlError`] with the problems of a text. `name` identifies the text in messages.
 pub(crate) fn malformed(py: Python<'_>, name: &str, text: &str, problems: &[Diagnostic]) -> PyErr {
     let source = Source { name, text, is_coloured: std::io::stderr().is_terminal() };
     let error = VgdlError::new_err(in_words(source, problems));

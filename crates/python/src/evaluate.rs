@@ -1,4 +1,4 @@
-//! Evaluated episodes. The suite plays the episodes with its own prompts, answer parser and logs, and gets
+//! Evaluated episodes. The suite plays the episodes with its own prompts, answer parser and logs, and obtains
 //! the model's answers from Python.
 //!
 //! A series of episodes runs on its own thread. The thread sends each request to Python over a channel, and
@@ -27,22 +27,20 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread;
 
-/// The number of a level, its text, and the number of ticks of its shortest win if the win is proved to be
-/// optimal.
+/// A level's number, its text, and the length of its shortest win in ticks, if proved optimal.
 type LevelText = (usize, String, Option<usize>);
 
-/// The role of a message, its text, and optionally an image in PNG format.
+/// A message's role, its text, and optionally an image in PNG format.
 type Message<'py> = (&'static str, String, Option<Bound<'py, PyBytes>>);
 
-/// A series of episodes, which consists of a single level, or of several levels of a game in one
-/// conversation.
+/// A series of episodes: a single level, or several of a game's levels in one conversation.
 #[derive(Clone)]
 struct Order {
     subject: Arc<Subject>,
     settings: Settings,
     prompts: PromptSettings,
     run: u64,
-    /// The index of the series among the series of the same game and run.
+    /// The index of the series among those of the same game and run.
     first: usize,
     reasks: u32,
 }
@@ -53,7 +51,7 @@ enum Report {
     Done(Result<Vec<Played>, String>),
 }
 
-/// An episode that has ended, and its log.
+/// An ended episode, with its log.
 struct Played {
     level: usize,
     level_digest: String,
@@ -82,7 +80,7 @@ impl Model for Remote {
     }
 }
 
-/// The episodes of a series that a model plays. A series is a single level, or several levels that a track
+/// The episodes in a series played by a model. A series is a single level, or several levels that a track
 /// plays in one conversation.
 ///
 /// Python repeatedly takes the next request, obtains an answer, and returns it, until there are no further
@@ -98,7 +96,7 @@ pub(crate) struct Series {
 }
 
 impl Order {
-    /// Returns the episodes of the series.
+    /// Returns the episodes in the series.
     fn tasks(&self) -> Vec<Task<'_>> {
         let all = tasks(&self.settings, std::slice::from_ref(&*self.subject));
         let own: Vec<Task<'_>> = all.into_iter().filter(|task| task.run == self.run).collect();
@@ -149,7 +147,7 @@ fn subject(game: &Game, id: &str, levels: &[LevelText]) -> PyResult<Subject> {
     Subject::read(id, &game.0.source, levels, facts).map_err(failed)
 }
 
-/// Returns the settings of an evaluation of one game.
+/// Returns the evaluation settings for one game.
 fn settings_of(
     subject: &Subject,
     seed: &str,
@@ -193,7 +191,7 @@ fn track_named(name: Option<&str>) -> PyResult<Option<Track>> {
     name.map(named).transpose()
 }
 
-/// Returns the prompt settings of a track, or the settings that a JSON object describes.
+/// Returns the prompt settings from a track, or from a JSON object.
 fn prompts_of(track: Option<Track>, prompts: Option<&str>) -> PyResult<PromptSettings> {
     match prompts {
         Some(prompts) => {
@@ -273,7 +271,7 @@ impl Series {
         })
     }
 
-    /// Returns the numbers of the levels in each series of a game, in the order of play.
+    /// Returns the level numbers in each of a game's series, in playing order.
     #[staticmethod]
     #[pyo3(signature = (game, id, levels, *, track = None))]
     fn plan(game: &Game, id: &str, levels: Vec<LevelText>, track: Option<&str>) -> PyResult<Vec<Vec<usize>>> {
@@ -285,7 +283,7 @@ impl Series {
         Ok(all.chunk_by(is_next).map(numbers).collect())
     }
 
-    /// The seeds of the games' randomness, for each episode of the series.
+    /// The seeds for the games' randomness, one per episode in the series.
     #[getter]
     fn seeds(&self) -> Vec<String> {
         self.order.tasks().iter().map(|task| task.chance().to_string()).collect()
@@ -297,8 +295,8 @@ impl Series {
         self.folder.clone()
     }
 
-    /// Returns the next request, or `None` once all episodes are over. A request is a list of messages, each
-    /// with its role, text and image.
+    /// Returns the next request, or `None` once all episodes have ended. A request is a list of messages,
+    /// each with its role, text and image.
     fn next_request<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Vec<Message<'py>>>> {
         if self.results.is_some() {
             return Ok(None);
@@ -372,8 +370,8 @@ impl Series {
         self.reply(Err(ChatError { kind, message, failures: Vec::new() }))
     }
 
-    /// Returns the episodes that were begun, each as a dictionary that includes the log. This method may be
-    /// called once there are no further requests.
+    /// Returns the started episodes, each as a dictionary that includes the log. May be called once there are
+    /// no further requests.
     fn results<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let Some(results) = &self.results else { return Err(invalid("the episodes are not over yet")) };
         let entry = |played: &Played| {
@@ -406,7 +404,7 @@ impl Series {
     }
 }
 
-/// Parses the events of a log from JSON lines.
+/// Parses a log's events from JSON lines.
 fn events(log: &str) -> PyResult<Vec<Event>> {
     let event = |(number, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
@@ -417,7 +415,7 @@ fn events(log: &str) -> PyResult<Vec<Event>> {
 }
 
 /// Replays a log on its game, and compares every state hash, score and outcome. If `seed` and `max_steps` are
-/// given, the log must also belong to the specified episode. In this case, the level, the run, the seed of
+/// given, the log must also belong to the specified episode. In this case, the level, the run, the seed for
 /// the game's randomness, the step limit, the commitment and the track are checked.
 ///
 /// Returns JSON with the actions, the outcome, the score, the number of steps and the last state hash. A flag
@@ -476,7 +474,8 @@ pub(crate) fn replay_log(
     serde_json::to_string(&document).map_err(failed)
 }
 
-/// Replays the log of an episode, and returns its metrics as JSON, in the format of `arcade report --json`.
+/// Replays an episode's log, and returns the episode's metrics as JSON, in the format of `arcade report
+/// --json`.
 #[pyfunction]
 pub(crate) fn metrics_of_log(
     py: Python<'_>,
@@ -490,8 +489,8 @@ pub(crate) fn metrics_of_log(
     serde_json::to_string(&metrics).map_err(failed)
 }
 
-/// Returns the lines of the log at a path. If `timeless` is `true`, all times are set to 0, so that runs can
-/// be compared.
+/// Returns the lines of the log at the given path. If `timeless` is `true`, all times are set to 0, so that
+/// runs can be compared.
 #[pyfunction]
 pub(crate) fn read_log(path: PathBuf, timeless: bool) -> PyResult<String> {
     let events = read(&path).map_err(bad_log)?;

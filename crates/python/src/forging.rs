@@ -18,10 +18,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
-/// The ranges of the number of columns and the number of rows of a board.
+/// The ranges for the number of columns and the number of rows of a board.
 type Size = ((usize, usize), (usize, usize));
 
-/// Judges a level by the criteria of a release, in the same way as `arcade validate`. Returns the report.
+/// Judges a level by a release's criteria, in the same way as `arcade validate`. Returns the report.
 #[pyfunction]
 #[pyo3(signature = (level, *, budget, seed))]
 pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -> PyResult<String> {
@@ -146,15 +146,15 @@ pub(crate) fn generate_games(
     })
 }
 
-/// Verifies the folder or archive of a release, in the same way as `arcade verify`. Checks the digests, the
-/// games, the levels and every witness.
+/// Verifies a release folder or archive, in the same way as `arcade verify`. Checks the digests, the games,
+/// the levels and every witness.
 #[pyfunction]
 pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     let verification = py.detach(|| verify_within(&path, &Bounds::RELEASE)).map_err(failed)?;
     serde_json::to_string(&verification).map_err(failed)
 }
 
-/// Checks the digests in the folder of a release. Returns its manifest and the problems found.
+/// Checks the digests in a release folder. Returns the manifest and the problems found.
 #[pyfunction]
 pub(crate) fn integrity(py: Python<'_>, path: PathBuf) -> PyResult<(String, Vec<String>)> {
     let integrity = py.detach(|| check_integrity(&path)).map_err(failed)?;

@@ -13,7 +13,7 @@ use render::{Looks, Symbols};
 use serde_json::json;
 use std::sync::Arc;
 
-/// A game and everything that is derived from its rules.
+/// A game, with everything derived from its rules.
 pub(crate) struct Rules {
     pub(crate) name: String,
     pub(crate) source: String,
@@ -22,7 +22,7 @@ pub(crate) struct Rules {
     pub(crate) analysis: Analysis,
     pub(crate) looks: Looks,
     pub(crate) symbols: Symbols,
-    /// The actions that can have an effect. The first action is to do nothing.
+    /// The actions that can have an effect, with doing nothing first.
     pub(crate) actions: Vec<Action>,
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Rules {
 #[derive(Clone)]
 pub(crate) struct Game(pub(crate) Arc<Rules>);
 
-/// A level of one particular game.
+/// A level of a specific game.
 #[pyclass(frozen, module = "infinite_arcade")]
 pub(crate) struct Level {
     pub(crate) game: Game,
@@ -48,13 +48,13 @@ pub(crate) fn action_named(name: &str) -> PyResult<Action> {
     })
 }
 
-/// Converts a text to a seed. If the text has 64 hexadecimal digits, they are the seed itself. From any other
-/// text, a seed is derived.
+/// Converts a text to a seed. A text of 64 hexadecimal digits is the seed itself. From any other text, a seed
+/// is derived.
 pub(crate) fn seed_of(text: &str) -> Seed {
     text.parse().unwrap_or_else(|_| Seed::from_text(text))
 }
 
-/// Returns the name of an outcome.
+/// Returns an outcome's name.
 pub(crate) fn outcome_name(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Ongoing => "ongoing",
@@ -128,7 +128,7 @@ impl Game {
         self.0.game.is_deterministic()
     }
 
-    /// The names of the sprite types that players can see, in the order of the planes.
+    /// The names of the sprite types visible to players, in the order of the planes.
     #[getter]
     fn types(&self) -> Vec<&str> {
         self.0.looks.shown().map(|stype| self.0.game.name(stype)).collect()
@@ -157,7 +157,7 @@ impl Game {
         Ok(Level { game: self.clone(), name: name.to_owned(), level })
     }
 
-    /// Returns the rules of the game in plain English.
+    /// Returns the game's rules in plain English.
     fn describe(&self) -> String {
         Guide::from_analysis(&self.0.analysis).to_string()
     }

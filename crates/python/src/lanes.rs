@@ -1,4 +1,4 @@
-//! Lanes. A lane plays episodes of a game one after another. Many lanes are stepped together, with their
+//! Lanes. A lane plays a game's episodes one after another. Many lanes are stepped together, with their
 //! observations in one buffer.
 //!
 //! Each lane plays independently, with its own seed. The results do not depend on the number of threads.
@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// The number of lanes in one task of a thread.
+/// The number of lanes per thread task.
 const LANES_OF_A_TASK: usize = 64;
 
 /// The rule for starting a new episode in a lane whose episode has ended.
@@ -24,7 +24,7 @@ enum Autoreset {
     NextStep,
     /// The step that ends an episode also starts the next episode.
     SameStep,
-    /// A lane whose episode has ended does nothing until it is reset.
+    /// A lane whose episode has ended remains idle until it is reset.
     Disabled,
 }
 
@@ -33,14 +33,14 @@ enum Autoreset {
 enum Sight {
     /// `[planes][rows][columns]`, with 1 in each cell that contains a sprite of the plane's type.
     Planes,
-    /// `[rows][columns]`, with the ASCII code of the character of each cell's uppermost sprite.
-    /// `Lanes.symbols` lists the characters.
+    /// `[rows][columns]`, with the ASCII code for each cell's topmost sprite. `Lanes.symbols` lists the
+    /// characters.
     Symbols,
     /// `[height][width][3]`, an RGB image with the given number of pixels per cell.
     Rgb(u32),
 }
 
-/// The data that all lanes share.
+/// The data shared by all lanes.
 struct Setting {
     game: Game,
     roots: Vec<engine::State>,
@@ -54,12 +54,12 @@ struct Setting {
     autoreset: Autoreset,
 }
 
-/// A lane and its current episode.
+/// A lane, with its current episode.
 struct Lane {
     state: engine::State,
     root: usize,
     seed: Seed,
-    /// The number of episodes that were started with this seed before the current episode.
+    /// The number of episodes started with this seed before the current one.
     episodes: u64,
     /// The seed of the current episode.
     current: Seed,
@@ -84,7 +84,7 @@ impl Setting {
         &self.game.0
     }
 
-    /// Returns the size of an observation in bytes.
+    /// Returns the observation size in bytes.
     fn size(&self) -> usize {
         match self.sight {
             Sight::Planes => self.planes.size(),
@@ -181,12 +181,12 @@ impl Setting {
     }
 }
 
-/// Many lanes of one game that are stepped together.
+/// Many lanes of one game, stepped together.
 #[pyclass(module = "infinite_arcade")]
 pub(crate) struct Lanes {
     setting: Setting,
     lanes: Vec<Lane>,
-    /// The actions in the order of their indices.
+    /// The actions, in index order.
     actions: Vec<Action>,
     /// The thread pool, or `None` to use only the calling thread.
     pool: Option<ThreadPool>,
@@ -292,26 +292,26 @@ impl Lanes {
         self.lanes.iter().map(|lane| lane.root).collect()
     }
 
-    /// The hashes of the lanes' current states.
+    /// The state hashes of all lanes.
     #[getter]
     fn hashes(&self) -> Vec<String> {
         self.lanes.iter().map(|lane| lane.state.state_hash().to_string()).collect()
     }
 
-    /// The outcomes of the lanes' current states.
+    /// The current outcomes of all lanes.
     #[getter]
     fn outcomes(&self) -> Vec<&'static str> {
         self.lanes.iter().map(|lane| outcome_name(lane.state.outcome())).collect()
     }
 
-    /// The scores of the lanes' current states.
+    /// The current scores of all lanes.
     #[getter]
     fn scores(&self) -> Vec<f64> {
         self.lanes.iter().map(|lane| lane.state.score()).collect()
     }
 
-    /// Returns the score and outcome of the last finished episode in a lane. The method is for lanes that
-    /// start the next episode in the same step.
+    /// Returns the score and outcome of the last finished episode in a lane. Needed for lanes that start the
+    /// next episode in the same step.
     fn last(&self, lane: usize) -> PyResult<(f64, &'static str)> {
         let found = self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?;
         Ok((found.last.0, outcome_name(found.last.1)))
@@ -323,8 +323,8 @@ impl Lanes {
         Ok(State::new(self.setting.game.clone(), found.state.clone()))
     }
 
-    /// Sets the seed of a lane, from which the seeds of its episodes are derived. If `exact` is `true`, the
-    /// next episode of the lane uses the seed itself.
+    /// Sets a lane's seed, from which the seeds of its episodes are derived. If `exact` is `true`, the lane's
+    /// next episode uses the seed itself.
     fn seed(&mut self, lane: usize, seed: &str, exact: bool) -> PyResult<()> {
         let found = self.lanes.get_mut(lane).ok_or_else(|| invalid("there is no such lane"))?;
         (found.seed, found.episodes) = (seed_of(seed), 0);
@@ -384,8 +384,8 @@ impl Lanes {
         Ok(())
     }
 
-    /// Plays one step in every lane. If lanes reset in the same step, `last` receives the last observations of the episodes that
-    /// ended. Returns the number of episodes that ended.
+    /// Plays one step in every lane. If lanes reset in the same step, `last` receives the last observations
+    /// of the ended episodes. Returns the number of ended episodes.
     #[allow(clippy::too_many_arguments, reason = "each argument is an array")]
     fn step(
         &mut self,
@@ -452,8 +452,8 @@ impl Lanes {
         }))
     }
 
-    /// Plays steps without observations, to measure the speed without them. Draws the same actions as
-    /// `cargo xtask bench --batch`. Returns the number of episodes that ended.
+    /// Plays steps without observations, in order to measure the speed. Draws the same actions as `cargo
+    /// xtask bench --batch`. Returns the number of ended episodes.
     fn step_blindly(
         &mut self,
         py: Python<'_>,
@@ -484,7 +484,7 @@ impl Lanes {
     }
 }
 
-/// The buffers for the outputs of a step, or the parts of the buffers that belong to one task.
+/// The output buffers for a step, or the parts of the buffers for one task.
 struct Buffers<'a> {
     out: &'a mut [u8],
     rewards: &'a mut [f64],

@@ -23,7 +23,7 @@ pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
 }
 
-/// Mints a release, or shard `K/N` of a release, from the text of its recipe.
+/// Mints a release, or shard `K/N` of a release, from its recipe's text.
 #[pyfunction]
 #[pyo3(signature = (recipe, out, *, parent = None, secret = None, shard = None, resume = false, jobs = None))]
 #[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
@@ -61,7 +61,7 @@ pub(crate) fn mint(
     })
 }
 
-/// Merges the shards of a release.
+/// Merges a release's shards.
 #[pyfunction]
 #[pyo3(signature = (shards, out, *, secret = None, jobs = None))]
 pub(crate) fn merge(
@@ -87,12 +87,12 @@ fn document(minted: &Minted, recipe: &Recipe, out: &Path) -> String {
     json!({ "out": out, "root": root, "games": games, "card": card, "caveats": recipe.caveats() }).to_string()
 }
 
-/// Returns the tools that the extension uses for minting.
+/// Returns the tools for minting.
 fn tools(corpus: &Corpus) -> Tools<'_> {
     Tools { corpus, lockfile: Digest::of(LOCKFILE), players: &Players }
 }
 
-/// The players that measure marks, by the names accepted by `arcade evaluate --player`.
+/// The players that measure marks, under the names accepted by `arcade evaluate --player`.
 #[derive(Debug)]
 struct Players;
 

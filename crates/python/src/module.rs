@@ -1,4 +1,4 @@
-//! The names that the extension exports.
+//! The names exported by the extension.
 
 use pyo3::prelude::*;
 

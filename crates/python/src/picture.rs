@@ -5,21 +5,21 @@ use render::{Animation, Image, Looks, Painter, Picture, RenderError, Style};
 use std::cell::RefCell;
 
 thread_local! {
-    /// A painter that caches the tiles drawn by this thread.
+    /// A painter that caches the tiles drawn by the current thread.
     static PAINTER: RefCell<Painter> = RefCell::new(Painter::new());
 }
 
-/// Draws a board without a caption and a legend, with cells of `cell` pixels.
+/// Draws a board without caption or legend, with cells of `cell` pixels.
 pub(crate) fn pixels(looks: &Looks, state: &State, cell: u32) -> Result<Image, RenderError> {
     let picture = render::picture(looks, state, &Style::bare(cell))?;
     PAINTER.with_borrow_mut(|painter| painter.paint(&picture))
 }
 
-/// The maximum number of images from which the palette of an animation is computed.
+/// The maximum number of images used to compute an animation's palette.
 const SPECIMENS: usize = 32;
 
-/// Renders an episode from the given state on as an animated GIF, with one frame per tick. Each frame lasts
-/// `delay` hundredths of a second.
+/// Renders an episode as an animated GIF, starting at the given state, with one frame per tick. Each frame
+/// lasts `delay` hundredths of a second.
 pub(crate) fn animation(
     (game, looks): (&Game, &Looks),
     mut state: State,

@@ -1,4 +1,4 @@
-//! States of episodes, with functions for stepping, hashing and observing them.
+//! Episode states, with functions for stepping, hashing and observing them.
 
 use crate::errors::{failed, invalid};
 use crate::game::{Game, action_named, outcome_name, seed_of};
@@ -8,7 +8,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-/// The state of an episode.
+/// An episode's state.
 #[pyclass(module = "infinite_arcade")]
 pub(crate) struct State {
     pub(crate) game: Game,
@@ -44,7 +44,7 @@ impl State {
         outcome_name(self.state.outcome())
     }
 
-    /// The limit that stopped the episode, or `None` if no limit stopped it.
+    /// The limit that stopped the episode, if any.
     #[getter]
     fn stopped_by(&self) -> Option<String> {
         match self.state.outcome() {
@@ -58,7 +58,7 @@ impl State {
         self.state.is_over()
     }
 
-    /// The number of columns and rows of the board.
+    /// The number of board columns and rows.
     #[getter]
     fn size(&self) -> (i32, i32) {
         self.state.size()
@@ -136,7 +136,7 @@ impl State {
         Ok(shown)
     }
 
-    /// Returns the planes of the board as flat bytes, in the format of `Lanes`.
+    /// Returns the board's planes as flat bytes, in the format used by `Lanes`.
     fn planes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
         let rules = &self.game.0;
         let (columns, rows) = self.state.size();
@@ -156,7 +156,7 @@ impl State {
         render::text(&self.game.0.looks, &self.game.0.symbols, &self.state)
     }
 
-    /// Returns an image of the board, as its height, its width and its flat RGB bytes.
+    /// Returns an image of the board: its height, its width and its flat RGB bytes.
     fn rgb<'py>(&self, py: Python<'py>, cell: u32) -> PyResult<(u32, u32, Bound<'py, PyArray1<u8>>)> {
         let image = picture::pixels(&self.game.0.looks, &self.state, cell).map_err(invalid)?;
         let bytes = image.pixels.iter().flat_map(|colour| colour.0).collect();

@@ -4,7 +4,7 @@ use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, quantile, wilson};
 
-/// A fraction of a number of items, with its confidence interval.
+/// A fraction of a set of items, with its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Share {
@@ -12,18 +12,18 @@ pub struct Share {
     pub count: u64,
     /// The total number of items.
     pub of: u64,
-    /// The 95% Wilson interval of the fraction.
+    /// The fraction's 95% Wilson interval.
     pub interval: [f64; 2],
 }
 
 impl Share {
-    /// Creates the fraction `count` / `of` and computes its interval.
+    /// Creates the fraction `count` / `of`, and computes its interval.
     pub fn new(count: u64, of: u64) -> Share {
         let interval = wilson(count, of, Z95);
         Share { count, of, interval: [interval.low, interval.high] }
     }
 
-    /// Returns the fraction of answers that are `true`.
+    /// Returns the fraction of `true` answers.
     pub fn yes(answers: impl IntoIterator<Item = bool>) -> Share {
         let (mut count, mut of) = (0, 0);
         for answer in answers {
@@ -39,7 +39,7 @@ impl Share {
     }
 }
 
-/// A mean over the items of a set.
+/// A mean over a set of items.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mean {
     /// The mean of the items' values.
@@ -48,15 +48,15 @@ pub struct Mean {
     pub interval: [f64; 2],
     /// The number of items.
     pub count: u64,
-    /// The name of an item in the singular, such as `level`. In JSON, the key of the count is the plural of
-    /// the name.
+    /// The name of an item in the singular, such as `level`. In JSON, the count's key is the plural of the
+    /// name.
     pub item: &'static str,
 }
 
 const RESAMPLES: usize = 2000;
 
 impl Mean {
-    /// Returns the mean of the given values, one per item, or `None` if there are no values.
+    /// Returns the mean of the given values, one per item, or `None` without values.
     pub fn over(item: &'static str, values: &[f64]) -> Option<Mean> {
         let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
         let interval = bootstrap(values, mean, RESAMPLES, 0.95, [0; 32])?;
@@ -79,22 +79,22 @@ impl Serialize for Mean {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Quantiles {
-    /// The number of values in the sample.
+    /// The sample size.
     pub count: u64,
-    /// The minimum of the sample.
+    /// The sample minimum.
     pub min: f64,
-    /// The lower quartile of the sample.
+    /// The lower quartile.
     pub lower: f64,
-    /// The median of the sample.
+    /// The sample median.
     pub median: f64,
-    /// The upper quartile of the sample.
+    /// The upper quartile.
     pub upper: f64,
-    /// The maximum of the sample.
+    /// The sample maximum.
     pub max: f64,
 }
 
 impl Quantiles {
-    /// Returns the quantiles of the given values, or `None` if there are no values.
+    /// Returns the quantiles of the given values, or `None` without values.
     pub fn of(values: &[f64]) -> Option<Quantiles> {
         let at = |share| quantile(values, share);
         Some(Quantiles {

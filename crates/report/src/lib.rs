@@ -1,8 +1,8 @@
-//! The data model that all reports share. It consists of figures with intervals, and of tables with one
-//! renderer per format.
+//! The data model shared by all reports: figures with intervals, and tables with one renderer per format.
 //!
 //! A report on levels, games or evaluations is computed by a pure function that returns these types.
-//! [`SetReport`] is written as JSON, and [`Table`] as Markdown, CSV and LaTeX. The binary builds the pages.
+//! [`SetReport`] is written as JSON, and [`Table`] as Markdown, CSV and LaTeX. The `arcade` binary builds the
+//! pages.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod figures;

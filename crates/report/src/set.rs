@@ -1,5 +1,5 @@
-//! Reports on sets of levels or games, as data. A report consists of questions that are answered by figures,
-//! and of additional tables.
+//! Reports on sets of levels or games, as data. A report consists of questions answered by figures, and of
+//! additional tables.
 //!
 //! Each figure is defined once, with a name for people and a key for programs. The page shows the name, and
 //! [`SetReport::to_json`] writes the key. Programs that read the JSON can rely on the keys, whereas the names
@@ -10,19 +10,19 @@ use base::canonical::{CanonicalError, Node};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The report on a set of levels or games.
+/// A report on a set of levels or games.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SetReport {
-    /// The most important figures, each with a different name than in its section.
+    /// The most important figures, each under a different name than in its section.
     pub headlines: Vec<Figure>,
-    /// The questions, in the order in which the page shows them.
+    /// The questions, in page order.
     pub sections: Vec<Section>,
-    /// The tables that do not belong to a question.
+    /// The tables outside all questions.
     pub tables: Vec<Table>,
     data: Data,
 }
 
-/// A question of a report, with its answers.
+/// A question in a report, with its answers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     /// The key of the section's object in the JSON.
@@ -31,28 +31,28 @@ pub struct Section {
     pub title: &'static str,
     /// A note on the figures, which may be empty.
     pub note: String,
-    /// The figures of the section, in the order in which the page shows them.
+    /// The section's figures, in page order.
     pub figures: Vec<Figure>,
-    /// The tables that the page shows below the figures.
+    /// The tables shown below the figures on the page.
     pub tables: Vec<Table>,
     data: Data,
 }
 
-/// A figure that a page shows.
+/// A figure shown on a page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// The key of the value in the JSON. The key is empty for figures that only the page shows.
+    /// The value's key in the JSON. The key is empty for figures shown only on the page.
     pub key: &'static str,
-    /// The name that the page shows.
+    /// The name shown on the page.
     pub name: String,
-    /// The value of the figure.
+    /// The figure's value.
     pub value: Value,
 }
 
-/// The value of a figure.
+/// A figure's value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A fraction of a number of items, with its interval.
+    /// A fraction of a set of items, with its interval.
     Share(Share),
     /// A mean between 0 and 1.
     Mean(Mean),
@@ -62,7 +62,7 @@ pub enum Value {
     Quantiles(Quantiles),
     /// A number of items.
     Count(u64),
-    /// A number of items out of a total, with the name of the total's items.
+    /// A number of items out of a total, with the name for items in the total.
     CountOf(u64, u64, &'static str),
     /// A fraction between 0 and 1, without an interval.
     Expected(f64),
@@ -76,7 +76,7 @@ impl From<Share> for Value {
     }
 }
 
-/// The named values for programs, and the first error that occurred among them.
+/// The named values for programs, and the first error among them.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Data {
     fields: BTreeMap<String, Node>,
@@ -93,14 +93,14 @@ impl Data {
 }
 
 impl SetReport {
-    /// Adds a value that is written to the JSON but not shown on the page.
+    /// Adds a value to the JSON but not to the page.
     #[must_use]
     pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> SetReport {
         self.data.put(key, value);
         self
     }
 
-    /// Adds a question. If the question does not apply, the value of its key in the JSON is `null`.
+    /// Adds a question. If the question does not apply, its key in the JSON has the value `null`.
     #[must_use]
     pub fn section(self, key: &str, section: impl Into<Option<Section>>) -> SetReport {
         let Some(section) = section.into() else { return self.data(key, &()) };
@@ -112,7 +112,7 @@ impl SetReport {
         report
     }
 
-    /// Adds a table that does not belong to a question.
+    /// Adds a table outside all questions.
     #[must_use]
     pub fn table(mut self, table: impl Into<Option<Table>>) -> SetReport {
         self.tables.extend(table.into());
@@ -120,7 +120,7 @@ impl SetReport {
     }
 
     /// Adds figures to the top of the page under different names. Each figure is given by its section and its
-    /// key. Figures that do not exist are omitted.
+    /// key. Nonexistent figures are omitted.
     #[must_use]
     pub fn headlines(mut self, figures: &[(&str, &str, &str)]) -> SetReport {
         for (section, key, name) in figures {
@@ -147,7 +147,7 @@ impl SetReport {
     /// Returns the report as canonical JSON, with a line feed at the end.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite. Only the scores of a game can cause this error.
+    /// Returns an error if a number is not finite. Only a game's scores can cause this error.
     pub fn to_json(&self) -> Result<String, CanonicalError> {
         match &self.data.fault {
             Some(fault) => Err(fault.clone()),
@@ -163,14 +163,14 @@ impl Section {
         Section { key, title, note: note.into(), figures, tables, data: Data::default() }
     }
 
-    /// Adds a value that is written to the JSON but not shown on the page.
+    /// Adds a value to the JSON but not to the page.
     #[must_use]
     pub fn data(mut self, key: &str, value: &(impl Serialize + ?Sized)) -> Section {
         self.data.put(key, value);
         self
     }
 
-    /// Adds a figure that is shown on the page but not written to the JSON.
+    /// Adds a figure to the page but not to the JSON.
     #[must_use]
     pub fn shown(self, name: impl Into<String>, value: Value) -> Section {
         self.figure("", name, value)
@@ -182,13 +182,13 @@ impl Section {
         self.data(key, &share).figure(key, name, Value::Share(share))
     }
 
-    /// Adds a mean between 0 and 1, if there is one.
+    /// Adds a mean between 0 and 1, if any.
     #[must_use]
     pub fn mean(self, key: &'static str, name: &str, mean: Option<Mean>) -> Section {
         self.data(key, &mean).known(key, name, mean.map(Value::Mean))
     }
 
-    /// Adds a mean that may be negative, if there is one.
+    /// Adds a mean that may be negative, if any.
     #[must_use]
     pub fn gain(self, key: &'static str, name: &str, mean: Option<Mean>) -> Section {
         self.data(key, &mean).known(key, name, mean.map(Value::Gain))
@@ -207,8 +207,8 @@ impl Section {
         self.data(key, &count).figure(key, name, Value::Count(count))
     }
 
-    /// Adds the number of occurrences of each item. If a total is given, fractions are added instead of
-    /// numbers.
+    /// Adds the number of times that each item occurs. If a total is given, fractions are added instead of
+    /// counts.
     #[must_use]
     pub fn tally(self, key: &str, name: &str, counts: &BTreeMap<String, u64>, of: Option<u64>) -> Section {
         counts.iter().fold(self.data(key, counts), |section, (thing, &count)| {
@@ -217,7 +217,7 @@ impl Section {
         })
     }
 
-    /// Adds a table that is shown on the page but not written to the JSON.
+    /// Adds a table to the page but not to the JSON.
     #[must_use]
     pub fn table(mut self, table: Table) -> Section {
         self.tables.push(table);
@@ -231,8 +231,8 @@ impl Section {
         }
     }
 
-    /// Adds a figure that is shown on the page, and that [`SetReport::headlines`] finds by its key. The value
-    /// is not written to the JSON.
+    /// Adds a figure to the page but not to the JSON. [`SetReport::headlines`] can find the figure by its
+    /// key.
     #[must_use]
     pub fn figure(mut self, key: &'static str, name: impl Into<String>, value: Value) -> Section {
         self.figures.push(Figure { key, name: name.into(), value });

@@ -1,4 +1,4 @@
-//! The tables of reports, which can be formatted as Markdown, CSV and LaTeX.
+//! Report tables, which can be formatted as Markdown, CSV and LaTeX.
 
 use serde::Serialize;
 use std::borrow::Cow;
@@ -7,19 +7,19 @@ use std::fmt::Write;
 /// A table. Every row has one cell per column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
-    /// The file name without its extension, which consists of letters, digits and hyphens.
+    /// The file name without its extension: letters, digits and hyphens.
     pub id: String,
-    /// The title of the table.
+    /// The table title.
     pub title: String,
     /// A note for the reader, such as the units, or the reasons for missing values.
     pub note: String,
-    /// The headings of the columns.
+    /// The column headings.
     pub columns: Vec<String>,
-    /// The rows of the table, each with one cell per column.
+    /// The table rows, each with one cell per column.
     pub rows: Vec<Vec<TableCell>>,
 }
 
-/// A column of a table with one row per `R`. It consists of a heading, and of a function that returns the
+/// A column of a table with one row per `R`. A column consists of a heading, and a function that returns the
 /// cell for a row.
 pub type Column<'a, R> = (&'a str, &'a dyn Fn(&R) -> TableCell);
 
@@ -31,9 +31,9 @@ pub enum TableCell {
     Missing,
     /// A text.
     Text(String),
-    /// A text that contains numbers, which is aligned like a number.
+    /// A text with numbers, aligned like a number.
     Figure(String),
-    /// A number of items.
+    /// A count.
     Count(u64),
     /// A number with a fixed number of decimal places.
     Number {
@@ -46,14 +46,14 @@ pub enum TableCell {
     Interval {
         /// The value of the number.
         value: f64,
-        /// The lower bound of the interval.
+        /// The interval's lower bound.
         low: f64,
-        /// The upper bound of the interval.
+        /// The interval's upper bound.
         high: f64,
         /// The number of decimal places.
         digits: usize,
     },
-    /// A probability, such as a p-value, which is printed with two significant digits.
+    /// A probability, such as a p-value, printed with two significant digits.
     Probability(f64),
 }
 
@@ -68,13 +68,13 @@ impl TableCell {
         value.into().map_or(TableCell::Missing, |value| TableCell::Number { value, digits })
     }
 
-    /// Creates a text cell that is aligned like a number, or a missing cell if there is no text.
+    /// Creates a text cell aligned like a number, or a missing cell if there is no text.
     pub fn figure(words: impl Into<Option<String>>) -> TableCell {
         words.into().map_or(TableCell::Missing, TableCell::Figure)
     }
 
-    /// Creates a number cell, or a missing cell if there is no value. Whole numbers have no decimal places.
-    /// Other numbers have up to two, depending on their size.
+    /// Creates a number cell, or a missing cell if there is no value. Integers are shown without decimal
+    /// places. Other numbers have up to two decimal places, depending on their size.
     pub fn short(value: impl Into<Option<f64>>) -> TableCell {
         let digits = |value: f64| match value.abs() {
             size if value.fract() == 0.0 || size >= 100.0 => 0,
@@ -95,7 +95,7 @@ impl TableCell {
         p.into().map_or(TableCell::Missing, TableCell::Probability)
     }
 
-    /// Formats the cell as text for people.
+    /// Formats the cell as human-readable text.
     pub fn plain(&self) -> String {
         match self {
             TableCell::Missing => "–".to_owned(),
@@ -133,7 +133,7 @@ impl Table {
         Table { id: id.to_owned(), title: title.to_owned(), note: note.to_owned(), columns, rows: Vec::new() }
     }
 
-    /// Creates a table with one row for each of `rows`.
+    /// Creates a table with one row per item in `rows`.
     pub fn of<R>(id: &str, title: &str, note: &str, rows: &[R], columns: &[Column<'_, R>]) -> Table {
         let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
         let mut table = Table::new(id, title, note, &names);
@@ -148,7 +148,7 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// Returns `true` if a column contains text, which is left-aligned.
+    /// Returns `true` if a column contains text, so that it is left-aligned.
     fn is_words(&self, column: usize) -> bool {
         self.rows.iter().any(|row| row[column].is_words())
     }
@@ -180,8 +180,9 @@ impl Table {
         text
     }
 
-    /// Formats the table as CSV. Numbers have all digits, unknown values are empty fields, and each interval
-    /// has three columns. Text that a spreadsheet would interpret as a formula gets a leading apostrophe.
+    /// Formats the table as CSV. Numbers are written with all digits, unknown values are empty fields, and
+    /// intervals span three columns. Text that a spreadsheet would interpret as a formula gets a leading
+    /// apostrophe.
     ///
     /// ```
     /// use infinite_arcade_report::{Table, TableCell};
@@ -243,8 +244,8 @@ impl Table {
     }
 }
 
-/// Escapes text for Markdown, and puts it on one line. Escapes all characters that could be interpreted as
-/// markup, as HTML, as a link or as the end of a cell.
+/// Escapes text for Markdown, on a single line. Escapes all characters that could be interpreted as markup,
+/// HTML, a link or the end of a cell.
 ///
 /// ```
 /// use infinite_arcade_report::in_markdown;
@@ -271,7 +272,7 @@ pub fn in_markdown(text: &str) -> String {
     out
 }
 
-/// Returns `true` if a character is a control character, or changes the direction or the lines of the
+/// Returns `true` if a character is a control character, or changes the direction or line structure of the
 /// surrounding text. Such characters could make a name look like a different name.
 pub fn is_invisible(character: char) -> bool {
     let turns = ['\u{61c}', '\u{200e}', '\u{200f}', '\u{2028}', '\u{2029}'];
@@ -281,8 +282,8 @@ pub fn is_invisible(character: char) -> bool {
         || ('\u{2066}'..='\u{2069}').contains(&character)
 }
 
-/// Returns a text on one line, in which every invisible character ([`is_invisible`]) is escaped. Text from
-/// files must pass through this function before it is displayed.
+/// Returns a text on a single line, with every invisible character ([`is_invisible`]) escaped. Text from
+/// files must be passed through this function before display.
 ///
 /// ```
 /// use infinite_arcade_report::visible;
@@ -292,8 +293,8 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     spelt_out(text, is_invisible)
 }
 
-/// Returns a text in which every invisible character is escaped, like [`visible`]. Line feeds and tabs are
-/// kept.
+/// Returns a text with every invisible character escaped, like [`visible`], but preserves line feeds and
+/// tabs.
 pub fn visible_lines(text: &str) -> Cow<'_, str> {
     spelt_out(text, |character| is_invisible(character) && !matches!(character, '\n' | '\t'))
 }
@@ -314,7 +315,7 @@ fn spelt_out(text: &str, is_spelt: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// Formats text for a CSV field, on one line ([`visible`]). A leading apostrophe keeps a spreadsheet from
+/// Formats text for a CSV field, on one line ([`visible`]). A leading apostrophe prevents spreadsheets from
 /// interpreting the text as a formula (OWASP, *CSV Injection*).
 pub fn in_csv(text: &str) -> String {
     let starts =
@@ -324,7 +325,7 @@ pub fn in_csv(text: &str) -> String {
     format!("{}{}", if is_formula { "'" } else { "" }, visible(text))
 }
 
-/// Escapes the characters that are special in LaTeX.
+/// Escapes LaTeX's special characters.
 fn latex(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in visible(text).chars() {

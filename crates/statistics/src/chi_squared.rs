@@ -2,7 +2,7 @@
 
 /// Returns the probability that a chi-squared variable with `df` degrees of freedom is at least `value`.
 ///
-/// The probability is computed by the finite series for whole degrees of freedom (M. Abramowitz and I. A.
+/// The probability is computed with the finite series for integer degrees of freedom (M. Abramowitz and I. A.
 /// Stegun, *Handbook of Mathematical Functions*, 1964, 26.4.4 and 26.4.5). The result is bit-identical on
 /// every machine. Returns NaN if `df` is 0 or if `value` is NaN. Cost: O(`df`).
 ///
@@ -39,7 +39,7 @@ pub fn chi_squared_p(value: f64, df: u64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The expected values are those of scipy 1.17, `chi2.sf`.
+    /// The expected values come from scipy 1.17, `chi2.sf`.
     #[test]
     fn known_values() {
         for (value, df, expect) in [

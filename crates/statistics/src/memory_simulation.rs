@@ -1,27 +1,28 @@
 //! Simulations of players that replay published solutions, and of players without memory. The simulations
-//! measure how often [`coin_test`] flags such players.
+//! measure how often [`coin_test`] flags each kind of player.
 
 use crate::comparisons::contamination::{Memoriser, coin_test};
 use crate::planning::design::{Spread, logistic};
 use crate::planning::draws::Draws;
 
-/// A simulated player and the conditions under which it plays.
+/// A simulated player, with the conditions under which it plays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MemoryTrial {
     /// The simulated player.
     pub player: Memoriser,
     /// The decrease in ability caused by new names, in logits. Both siblings have different names than the
-    /// games that the player may know.
+    /// games known to the player.
     pub hurt: f64,
-    /// The standard deviation of the decrease in ability between sets of names for the same game, in logits.
+    /// The standard deviation, in logits, of the ability decrease between different sets of names for the
+    /// same game.
     pub names: f64,
-    /// The standard deviations of the effects of games, levels and matches.
+    /// The standard deviations of game, level and match effects.
     pub spread: Spread,
 }
 
 impl MemoryTrial {
-    /// Returns the power of the test on siblings, which is the fraction of `trials` in which the test has p ≤
-    /// `alpha`. There are `pairs` coins, each with one pair of siblings and one episode per side.
+    /// Returns the power of the sibling test: the fraction of `trials` in which the test has p ≤ `alpha`.
+    /// There are `pairs` coins, each with one pair of siblings and one episode per side.
     pub fn siblings(&self, pairs: usize, alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
         let ability = self.spread.ability(self.player.clean);
@@ -37,8 +38,8 @@ impl MemoryTrial {
         flagged(trials, alpha, || (0..pairs).map(|_| pair()).collect())
     }
 
-    /// Returns the power of the test on siblings if each coin decides over several pairs of episodes. `pairs`
-    /// holds the number of pairs for each coin. The pairs of a coin are the levels of a game, which share its
+    /// Returns the power of the sibling test if each coin decides over several pairs of episodes. `pairs`
+    /// contains each coin's number of pairs. A coin's pairs are the levels of a game, which share its
     /// difficulty and its names.
     pub fn sibling_games(&self, pairs: &[u64], alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
@@ -61,8 +62,8 @@ impl MemoryTrial {
         flagged(trials, alpha, || pairs.iter().map(|pairs| coin(*pairs)).collect())
     }
 
-    /// Returns the power of the test on witness prefixes, with one episode on each of `levels` levels.
-    /// Without memory, an episode begins like each of the two witnesses with probability `by_chance`.
+    /// Returns the power of the witness prefix test, with one episode on each of `levels` levels. Without
+    /// memory, an episode begins like each of the two witnesses with probability `by_chance`.
     pub fn prefixes(&self, levels: usize, by_chance: f64, alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
         let mut level = || {
@@ -108,8 +109,8 @@ mod tests {
         assert!(found >= 0.95, "{found}");
     }
 
-    /// Several levels of the same game are less informative than levels of different games. The error rate of
-    /// the test stays within its level.
+    /// Several levels of the same game are less informative than levels from different games. The test's
+    /// error rate stays within its level.
     #[test]
     fn games_of_several_levels() {
         let known = MemoryTrial { hurt: 0.0, ..trial(0.5) };
@@ -122,7 +123,7 @@ mod tests {
         assert!(clean <= 0.014, "{clean}");
     }
 
-    /// The predicted power matches the power in the simulation.
+    /// The predicted power matches the simulated power.
     #[test]
     fn power_is_as_stated() {
         let trial = MemoryTrial { hurt: 0.0, names: 0.0, ..trial(0.3) };

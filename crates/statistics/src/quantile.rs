@@ -1,9 +1,9 @@
 //! Quantiles of a sample (R. J. Hyndman and Y. Fan, "Sample quantiles in statistical packages", 1996, definition 7).
 
-/// Returns the quantile of `values` at `share`, where 0.5 is the median. The quantile is the value of rank
+/// Returns the quantile of `values` at `share`, where 0.5 is the median. The quantile is the value with rank
 /// `share · (n − 1)` from below, counted from 0, with linear interpolation between neighbours. Returns `None`
-/// if there are no values, if a value is not finite, or if `share` is not within 0..=1. Cost: O(n log n) and
-/// one copy.
+/// if there are no values, if a value is not finite, or if `share` is not within 0..=1. Cost: O(n log n),
+/// plus one copy.
 ///
 /// ```
 /// use infinite_arcade_statistics::quantile;

@@ -1,6 +1,5 @@
-//! Simulated evaluations under the model of [`Design`]. They measure the coverage of intervals and the error
-//! rates of tests. `cargo xtask simulate` prints full tables, and the tests of this crate run small
-//! simulations.
+//! Simulated evaluations under the model in [`Design`], which measure the coverage of intervals and the error
+//! rates of tests. `cargo xtask simulate` prints full tables, and this crate's tests run small simulations.
 
 use crate::comparisons::stratified::{Stratum, stratified};
 use crate::intervals::clustered::clustered_mean;
@@ -9,19 +8,19 @@ use crate::intervals::wilson::{Z95, wilson};
 use crate::planning::design::{Design, Spread, logistic};
 use crate::planning::draws::Draws;
 
-/// The coverage of several intervals, which is the fraction of simulated evaluations whose nominal 95%
-/// interval contains the true win rate.
+/// The coverage of several intervals: the fraction of simulated evaluations whose nominal 95% interval
+/// contains the true win rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coverage {
     /// The coverage of [`rate_over_games`].
     pub over_games: f64,
-    /// The coverage of the percentile bootstrap over whole games.
+    /// The coverage of the percentile bootstrap over entire games.
     pub bootstrap: f64,
     /// The coverage of [`wilson`], which treats episodes as independent.
     pub episodes: f64,
 }
 
-/// The power of several tests, which is the fraction of simulated evaluations in which a test at the 5% level
+/// The power of several tests: the fraction of simulated evaluations in which a test at the 5% level
 /// distinguishes two players.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detections {
@@ -31,19 +30,19 @@ pub struct Detections {
     pub within_levels: f64,
 }
 
-/// The dependence between the episodes of a player on the same level.
+/// The dependence between a player's episodes on the same level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Episodes {
-    /// The episodes are independent for a given probability of winning.
+    /// The episodes are independent, given the probability of winning.
     Independent,
-    /// All episodes are copies of the first one, as for a greedy player on a deterministic level.
+    /// All episodes are copies of the first episode, as for a greedy player on a deterministic level.
     Copies,
 }
 
 /// The number of bootstrap resamples.
 const RESAMPLES: usize = 400;
 
-/// A random stream of evaluations that is determined by its seed.
+/// A random stream of evaluations, determined by its seed.
 pub struct Simulation {
     draws: Draws,
     design: Design,
@@ -56,8 +55,8 @@ impl Simulation {
         Simulation { draws: Draws::new(seed), design, spread }
     }
 
-    /// Returns the coverage of the intervals for a player with the given win rate.
-    /// Cost: O(trials · (episodes + games · resamples)).
+    /// Returns the intervals' coverage for a player with the given win rate. Cost: O(trials · (episodes +
+    /// games · resamples)).
     pub fn coverage(&mut self, rate: f64, trials: u64) -> Coverage {
         let ability = self.spread.ability(rate);
         let mut covered = [0u64; 3];
@@ -88,8 +87,8 @@ impl Simulation {
         Coverage { over_games, bootstrap, episodes }
     }
 
-    /// Returns the fraction of evaluations in which two players with the given win rates are distinguished.
-    /// Cost: O(trials · episodes²).
+    /// Returns the fraction of evaluations that distinguish two players with the given win rates. Cost:
+    /// O(trials · episodes²).
     pub fn detections(&mut self, rates: [f64; 2], episodes: Episodes, trials: u64) -> Detections {
         let abilities = rates.map(|rate| self.spread.ability(rate));
         let mut found = [0u64; 2];
@@ -111,7 +110,7 @@ impl Simulation {
         Detections { over_games, within_levels }
     }
 
-    /// Simulates an evaluation of two players. Returns the results on the levels of each game.
+    /// Simulates an evaluation of two players. Returns the results on each game's levels.
     fn evaluation(&mut self, abilities: [f64; 2], episodes: Episodes) -> Vec<Vec<Stratum>> {
         let Design { games, levels, runs } = self.design;
         let game = |this: &mut Simulation| {
@@ -152,8 +151,8 @@ mod tests {
         }
     }
 
-    /// The limit is five points plus two standard errors of 0.7 points. The test within levels makes claims
-    /// only about the played levels.
+    /// The limit is five percentage points plus two standard errors of 0.7 points. The test within levels
+    /// makes claims only about the played levels.
     #[test]
     fn equal_players_are_seldom_told_apart() {
         for (games, episodes) in [(6, Episodes::Independent), (18, Episodes::Copies)] {

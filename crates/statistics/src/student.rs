@@ -1,14 +1,14 @@
 //! Student's t distribution ("Student", "The probable error of a mean", 1908).
 //!
 //! P-values come from a library that uses the platform's logarithm, so their last digits may differ between
-//! machines. They are intended for reports, and must not be used in minted content. Quantiles for intervals
-//! are the same on every machine (see [`student_quantile`]).
+//! machines. P-values are intended for reports, and must not be used in minted content. Quantiles for
+//! intervals are the same on every machine (see [`student_quantile`]).
 
 use statrs::function::beta::beta_reg;
 
-/// Returns the two-sided p-value of `t`, which is the probability that a t variable with `df` degrees of
-/// freedom is at least as far from 0. Tiny values keep their relative precision. Returns NaN if `t` is NaN,
-/// or if `df` is not positive and finite. Cost: O(1).
+/// Returns the two-sided p-value for `t`: the probability that a t variable with `df` degrees of freedom is
+/// at least as far from 0. Tiny values retain their relative precision. Returns NaN if `t` is NaN, or if `df`
+/// is not positive and finite. Cost: O(1).
 ///
 /// ```
 /// use infinite_arcade_statistics::student_p;
@@ -29,11 +29,11 @@ pub fn student_p(t: f64, df: f64) -> f64 {
 /// probability `p`. For example, the value is 2.57 for a `p` of 0.05 and a `df` of 5. Returns NaN if `p` is
 /// not within 0..1, or if `df` is not positive and finite.
 ///
-/// The result is bit-identical on every machine for a whole `df` up to a million and `p` from 0.0001 on. The
-/// intervals of releases are within this range, in which the result comes from the finite series for whole
-/// degrees of freedom (M. Abramowitz and I. A. Stegun, *Handbook of Mathematical Functions*, 1964, 26.7.3 and
-/// 26.7.4). The series loses digits for smaller `p`. Cost: about sixty evaluations of [`student_p`], or
-/// O(`df`).
+/// The result is bit-identical on every machine for an integer `df` up to a million and a `p` of at least
+/// 0.0001. The intervals in releases are within this range, in which the result comes from the finite series
+/// for integer degrees of freedom (M. Abramowitz and I. A. Stegun, *Handbook of Mathematical Functions*,
+/// 1964, 26.7.3 and 26.7.4). The series loses digits for smaller `p`. Cost: about sixty evaluations of
+/// [`student_p`], or O(`df`).
 ///
 /// ```
 /// use infinite_arcade_statistics::student_quantile;
@@ -64,8 +64,8 @@ pub fn student_quantile(p: f64, df: f64) -> f64 {
     }
 }
 
-/// Returns the two-sided p-value for whole degrees of freedom. The result has an error of about one rounding
-/// error per degree of freedom.
+/// Returns the two-sided p-value for integer degrees of freedom. The error is about one rounding error per
+/// degree of freedom.
 fn series(t: f64, df: f64) -> f64 {
     let square = df / (df + t * t);
     let sine = t / (df + t * t).sqrt();
@@ -95,7 +95,7 @@ mod tests {
         assert!((found - expect).abs() <= 1e-8 * expect, "t {t}, df {df}: {found}, not {expect}");
     }
 
-    /// The test vectors are those of `spec/06` §3.1 (0.00488943 and 0.234674). More digits were computed with
+    /// The test vectors come from `spec/06` §3.1 (0.00488943 and 0.234674). More digits were computed with
     /// decimal arithmetic.
     #[test]
     fn published_vectors() {
@@ -103,7 +103,7 @@ mod tests {
         check(-1.19, 450.0, 0.234673825204481);
     }
 
-    /// For one and for two degrees of freedom, there are closed formulas.
+    /// One and two degrees of freedom have closed formulas.
     #[test]
     fn formulas() {
         check(1.0, 1.0, 0.5);
@@ -120,7 +120,7 @@ mod tests {
         assert_eq!(student_p(f64::NEG_INFINITY, 7.0), 0.0);
     }
 
-    /// The expected values are the 97.5% points of printed tables.
+    /// The expected values are the 97.5% points in printed tables.
     #[test]
     fn quantiles() {
         for (df, expect) in [(1.0, 12.7062047), (2.0, 4.30265273), (5.0, 2.57058184), (29.0, 2.04522964)] {
@@ -138,7 +138,7 @@ mod tests {
         );
     }
 
-    /// The expected values come from arithmetic with thirty digits.
+    /// The expected values come from thirty-digit arithmetic.
     #[test]
     fn series_are_exact() {
         for (t, df, expect) in [

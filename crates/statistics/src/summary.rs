@@ -6,7 +6,7 @@
 /// any order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// The number of values, which is at least 1.
+    /// The number of values (at least 1).
     pub count: usize,
     /// The arithmetic mean, within `min..=max`.
     pub mean: f64,
@@ -20,12 +20,12 @@ pub struct Summary {
 
 impl Summary {
     /// Returns the summary of `values`. Returns `None` if there are no values, or if a value is not finite,
-    /// because then no summary would be correct.
+    /// because no summary would be correct.
     ///
     /// The mean is the sum divided by the count. The values are added one by one from the smallest to the
-    /// largest (`f64::total_cmp`). Values are expected to be far enough below `f64::MAX` for a finite sum. If
-    /// the sum is infinite, the mean and the median are the extreme with the same sign. Cost: O(n log n) and
-    /// one copy.
+    /// largest (`f64::total_cmp`). Values are expected to be small enough for a finite sum. If the sum is
+    /// infinite, the mean and the median equal the extreme with the same sign. Cost: O(n log n), plus one
+    /// copy.
     pub fn of(values: &[f64]) -> Option<Summary> {
         if !values.iter().all(|value| value.is_finite()) {
             return None;

@@ -1,21 +1,21 @@
-//! The error type of this crate.
+//! The crate's error type.
 
 use base::MessagePath;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The reason why an operation of this crate failed.
+/// The reason for a failed operation.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrustError {
-    /// A file or folder cannot be accessed.
+    /// Access to a file or folder failed.
     #[error("cannot {action} `{}`", path.in_message())]
     Io {
         /// The verb for the failed operation.
         action: &'static str,
-        /// The path of the file or folder.
+        /// The path to the file or folder.
         path: PathBuf,
-        /// The error of the file system.
+        /// The file system's error.
         source: io::Error,
     },
     /// A text is not a key.
@@ -24,9 +24,9 @@ pub enum TrustError {
     /// A document is malformed.
     #[error("`{place}`: {fault}")]
     Document {
-        /// The name of the document.
+        /// The document's name.
         place: String,
-        /// A sentence about the fault, and the recommended next step.
+        /// A sentence about the fault, with the recommended next step.
         fault: String,
     },
     /// A request cannot be fulfilled.
@@ -35,7 +35,7 @@ pub enum TrustError {
 }
 
 impl TrustError {
-    /// Returns a function that converts the I/O error of an operation on a path.
+    /// Returns a closure that converts an I/O error for an operation on a path.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> TrustError {
         let path = path.to_path_buf();
         move |source| TrustError::Io { action, path, source }

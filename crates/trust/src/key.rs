@@ -20,7 +20,7 @@ pub struct SecretKey(minisign::SecretKey);
 pub struct NewKey {
     /// The new public key.
     pub public: PublicKey,
-    /// The content of the file with the secret key.
+    /// The content of the secret key file.
     pub secret_file: String,
 }
 
@@ -43,7 +43,7 @@ pub fn generate(password: Option<&str>) -> Result<NewKey, TrustError> {
 }
 
 impl PublicKey {
-    /// Parses the content of a public key file, or the base64 line of the file alone.
+    /// Parses a public key file's content, or only its base64 line.
     ///
     /// # Errors
     /// Returns an error if the text is not a minisign public key.
@@ -63,22 +63,22 @@ impl PublicKey {
         }
     }
 
-    /// Returns the key's identifier as 16 hexadecimal digits, as minisign prints it.
+    /// Returns the key's identifier as 16 hexadecimal digits, in minisign's format.
     pub fn id(&self) -> String {
         id(self.0.keynum())
     }
 
-    /// Returns the base64 line of the public key file.
+    /// Returns the public key file's base64 line.
     pub fn to_base64(&self) -> String {
         self.0.to_base64()
     }
 
-    /// Returns the content of the public key file.
+    /// Returns the public key file's content.
     pub fn to_file(&self) -> String {
         format!("untrusted comment: minisign public key {}\n{}\n", self.id(), self.to_base64())
     }
 
-    /// Checks a minisign signature of a message, and returns the trusted comment of the signature.
+    /// Checks a message's minisign signature, and returns the signature's trusted comment.
     ///
     /// # Errors
     /// Returns a sentence about the fault.
@@ -89,7 +89,7 @@ impl PublicKey {
         found.trusted_comment().map_err(|error| error.to_string())
     }
 
-    /// Returns `true` if a bare Ed25519 signature of a message is valid.
+    /// Returns `true` if a message's bare Ed25519 signature is valid.
     pub fn verify_bare(&self, message: &[u8], signature: &[u8]) -> bool {
         let key = ed25519_compact::PublicKey::new(self.point());
         ed25519_compact::Signature::from_slice(signature).is_ok_and(|s| key.verify(message, &s).is_ok())
@@ -111,7 +111,7 @@ impl fmt::Debug for PublicKey {
 const NOT_PUBLIC: &str = "not a minisign public key: use the file `NAME.pub` that `arcade trust keygen` or \
                           `minisign -G` wrote";
 
-/// Parses a signature. Each signature has only one accepted textual form.
+/// Parses a signature. Only one textual form is accepted for each signature.
 fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     if text.len() as u64 > MAX_KEY_FILE {
         return Err("it is not a minisign signature: the text is too long".to_owned());
@@ -124,7 +124,7 @@ fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     }
 }
 
-/// Returns the identifier of the key that a signature names, without checking the signature.
+/// Returns the identifier of the key named by a signature, without checking the signature.
 pub(crate) fn signer_of(signature: &str) -> Option<String> {
     parse_signature(signature).ok().map(|found| id(found.keynum()))
 }
@@ -133,17 +133,17 @@ fn id(keynum: &[u8]) -> String {
     keynum.iter().rev().map(|byte| format!("{byte:02X}")).collect()
 }
 
-/// Returns `true` if the content of a secret file is encrypted.
+/// Returns `true` if a secret file's content is encrypted.
 ///
 /// # Errors
-/// Returns an error if the content is not that of a secret key's file.
+/// Returns an error if the content does not come from a secret key file.
 pub fn is_encrypted(secret_file: &str) -> Result<bool, TrustError> {
     let bytes = secret_bytes(secret_file)?;
     Ok(bytes[2..4] == *b"Sc")
 }
 
-/// Decodes the bytes of a secret file. They contain the algorithm, the key derivation, the checksum
-/// algorithm, the salt, the limits, the identifier, the key and the checksum.
+/// Decodes the bytes in a secret file: the algorithm, the key derivation, the checksum algorithm, the salt,
+/// the limits, the identifier, the key and the checksum.
 fn secret_bytes(secret_file: &str) -> Result<Vec<u8>, TrustError> {
     use base64::Engine;
     let line = secret_file.lines().nth(1).unwrap_or_default().trim();
@@ -159,14 +159,14 @@ fn secret_bytes(secret_file: &str) -> Result<Vec<u8>, TrustError> {
 }
 
 const SECRET_BYTES: usize = 158;
-/// The position of the key's 64 bytes in the bytes of a secret file.
+/// The position of the key's 64 bytes within a secret file's bytes.
 const SECRET_KEY_AT: usize = 62;
 
 impl SecretKey {
-    /// Decrypts a secret key from the content of its file.
+    /// Decrypts a secret key from its file's content.
     ///
     /// # Errors
-    /// Returns an error if the content is not that of a secret key's file, if the key is encrypted and no
+    /// Returns an error if the content does not come from a secret key file, if the key is encrypted and no
     /// password is given, or if the password is wrong.
     pub fn open(secret_file: &str, password: Option<&str>) -> Result<SecretKey, TrustError> {
         let bytes = secret_bytes(secret_file)?;
@@ -190,7 +190,7 @@ impl SecretKey {
         }
     }
 
-    /// Returns the 64 bytes of the secret key.
+    /// Returns the secret key's 64 bytes.
     fn bytes(&self) -> [u8; 64] {
         self.0.to_bytes()[SECRET_KEY_AT..SECRET_KEY_AT + 64].try_into().expect("64 bytes")
     }
@@ -200,7 +200,7 @@ impl SecretKey {
         PublicKey(minisign::PublicKey::from_secret_key(&self.0).expect("the key was read"))
     }
 
-    /// Signs a message. Returns the content of a `.minisig` file.
+    /// Signs a message, and returns the content of a `.minisig` file.
     ///
     /// # Errors
     /// Returns an error if the system provides no random bytes.
@@ -212,7 +212,7 @@ impl SecretKey {
         Ok(signed.map_err(failed)?.into_string())
     }
 
-    /// Signs a message. Returns the 64 bytes of a bare Ed25519 signature. The signature is deterministic.
+    /// Signs a message, and returns the 64 bytes of a bare Ed25519 signature. The signature is deterministic.
     pub fn sign_bare(&self, message: &[u8]) -> [u8; 64] {
         let key = ed25519_compact::SecretKey::from_slice(&self.bytes()).expect("64 bytes");
         *key.sign(message, None)
@@ -229,7 +229,7 @@ impl fmt::Debug for SecretKey {
 mod tests {
     use super::*;
 
-    /// The key and signature are the example that the authors of minisign publish.
+    /// The key and the signature are the example published by minisign's authors.
     #[test]
     fn files_of_minisign_are_read() {
         let public = "untrusted comment: minisign public key E7620F1842B4E81F\n\

@@ -1,9 +1,9 @@
-//! Sets of keys. A set determines who may sign for a publisher, how many keys must sign, and which keys are
+//! Key sets. A set determines who may sign for a publisher, how many keys must sign, and which keys are
 //! revoked.
 //!
 //! A set is stored in a file `keys-N.json` of canonical JSON. Each set contains the digest of the previous
-//! set, and must be signed by sufficiently many keys of both sets. Therefore, a reader who trusts one set can
-//! verify all later sets.
+//! set, and must be signed by sufficiently many keys from both sets. Therefore, a reader who trusts one set
+//! can verify all later sets.
 
 use crate::error::TrustError;
 use crate::key::PublicKey;
@@ -12,20 +12,20 @@ use base::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The maximum number of keys in a set, and the maximum number of its revoked keys.
+/// The maximum number of keys in a set, and the maximum number of revoked keys.
 pub const MAX_KEYS: usize = 64;
-/// The version of the format of key sets.
+/// The version of the key set format.
 const FORMAT: u32 = 1;
 
 /// A set of keys that may sign.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeySet {
-    /// The version of this format, which is 1.
+    /// The format version, currently 1.
     pub format: u32,
-    /// The number of the set. The first set has number 1.
+    /// The set's number. The first set has number 1.
     pub version: u32,
-    /// The number of keys that must sign.
+    /// The minimum number of keys that must sign.
     pub threshold: u32,
     /// The keys that may sign.
     pub keys: Vec<NamedKey>,
@@ -35,13 +35,13 @@ pub struct KeySet {
     pub previous: Option<Digest>,
 }
 
-/// A key of a set, with the name of its holder.
+/// A key in a set, with the name of its holder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NamedKey {
-    /// The name of the key's holder, which consists of lower-case letters, digits and `-`.
+    /// The name of the key's holder: lower-case letters, digits and `-`.
     pub name: String,
-    /// The public key, in minisign's base64 form.
+    /// The public key, in minisign's base64 format.
     pub key: String,
 }
 
@@ -51,14 +51,14 @@ pub struct NamedKey {
 pub struct RevokedKey {
     /// The name of the key's former holder.
     pub name: String,
-    /// The public key, in minisign's base64 form.
+    /// The public key, in minisign's base64 format.
     pub key: String,
     /// The reason for the revocation, such as `lost`.
     pub reason: String,
 }
 
 impl KeySet {
-    /// Creates the set that follows `previous`, or the first set if there is no previous set.
+    /// Creates the set that follows `previous`, or the first set.
     ///
     /// # Errors
     /// Returns an error if the resulting set is invalid.
@@ -90,17 +90,17 @@ impl KeySet {
         Ok(set)
     }
 
-    /// Parses and checks the file of a set.
+    /// Parses and checks a set's file.
     ///
     /// # Errors
-    /// Returns an error if the file does not contain a set of keys, or if the set is invalid.
+    /// Returns an error if the file does not contain a key set, or if the set is invalid.
     pub fn parse(bytes: &[u8], place: &str) -> Result<KeySet, TrustError> {
         let set: KeySet = canonical(bytes, place)?;
         set.check().map_err(|fault| TrustError::document(place, fault))?;
         Ok(set)
     }
 
-    /// Checks the values of the set, and returns a sentence about the first fault.
+    /// Checks the set's values, and returns a sentence about the first fault.
     fn check(&self) -> Result<(), String> {
         if self.format != FORMAT {
             return Err(format!("has format {}; this arcade reads format {FORMAT}", self.format));
@@ -148,10 +148,10 @@ impl KeySet {
         Ok(())
     }
 
-    /// Returns the bytes of the set's file, which are the signed bytes.
+    /// Returns the bytes of the set's file. These bytes are signed.
     ///
     /// # Errors
-    /// Never returns an error for a set that was parsed or created by this module.
+    /// Never returns an error for a set parsed or created by this module.
     pub fn to_bytes(&self) -> Result<Vec<u8>, TrustError> {
         let text = to_canonical_json(self).map_err(|error| TrustError::Refused(error.to_string()))?;
         Ok(text.into_bytes())
@@ -171,7 +171,7 @@ impl KeySet {
     }
 
     /// Returns the names of this set's keys that have signed a message. Each key counts once. Also returns
-    /// the faults of invalid signatures that name a key of this set.
+    /// the faults in invalid signatures that name a key from this set.
     pub fn signers(&self, message: &[u8], signatures: &[String]) -> Signers {
         let mut signers = Signers::default();
         for NamedKey { name, key } in &self.keys {
@@ -188,13 +188,12 @@ impl KeySet {
         signers
     }
 
-    /// Returns the revoked key that equals the given key, if there is one.
+    /// Returns the revoked key that equals the given key, if any.
     fn revokes(&self, key: &NamedKey) -> Option<&RevokedKey> {
         self.revoked.iter().find(|revoked| revoked.key == key.key)
     }
 
-    /// Returns this set without the keys that a later set revokes. Also returns the reason for each
-    /// revocation.
+    /// Returns this set without the keys revoked by a later set. Also returns the reason for each revocation.
     pub(crate) fn unrevoked(&self, later: &KeySet) -> (KeySet, Vec<String>) {
         let mut gone = Vec::new();
         let mut set = self.clone();
@@ -206,7 +205,8 @@ impl KeySet {
         (set, gone)
     }
 
-    /// Checks that the set `next` may follow this set. `signatures` are the signatures of the file of `next`.
+    /// Checks that the set `next` may follow this set. `signatures` contains the signatures for the file of
+    /// `next`.
     ///
     /// # Errors
     /// Returns the reasons why the set may not follow.
@@ -240,12 +240,12 @@ impl KeySet {
     }
 }
 
-/// The result of checking all signatures of a message.
+/// The result of checking all of a message's signatures.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Signers {
-    /// The names of the keys whose signatures are valid.
+    /// The names of the keys with valid signatures.
     pub names: Vec<String>,
-    /// The faults of the invalid signatures.
+    /// The faults in the invalid signatures.
     pub faults: Vec<String>,
 }
 

@@ -1,5 +1,5 @@
-//! Folders of signed documents, which are statements and sets of keys. Signers write the documents, and
-//! readers check them without trusting the folder.
+//! Folders with signed documents: statements and key sets. Signers write the documents, and readers check
+//! them without trusting the folder.
 
 use crate::error::TrustError;
 use crate::key::{MAX_KEY_FILE, PublicKey, SecretKey};
@@ -14,27 +14,27 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// The maximum number of files that are read from a folder.
+/// The maximum number of files to read from a folder.
 const MAX_FILES: usize = 1000;
 /// The maximum size of a document, in bytes.
 const MAX_DOCUMENT: u64 = 1 << 16;
-/// The suffix of the names of signature files.
+/// The file name suffix of signature files.
 const SIGNATURE_END: &str = ".minisig";
 
-/// A root of trust, which a user must get from a different source than the signed documents.
+/// A root of trust, which a user must obtain from a different source than the signed documents.
 #[derive(Clone, Debug)]
 pub enum Anchor {
     /// A single key, which must sign every release.
     Key(PublicKey),
-    /// A set of keys, which later sets can replace.
+    /// A key set, which later sets can replace.
     Set(Box<KeySet>),
 }
 
 impl Anchor {
-    /// Parses a public key or a set of keys.
+    /// Parses a public key or a key set.
     ///
     /// # Errors
-    /// Returns an error if the bytes are neither a public key nor a set of keys.
+    /// Returns an error if the bytes are neither a public key nor a key set.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Anchor, TrustError> {
         const NEXT_STEP: &str =
             "pass the NAME.pub of `arcade trust keygen`, or the keys-N.json of `arcade trust keys`";
@@ -58,31 +58,31 @@ impl Anchor {
     }
 }
 
-/// The result of checking who has signed a root.
+/// The result of checking a root's signatures.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Signed {
-    /// The names of the keys that have signed, or the identifier of a single key.
+    /// The names of the signing keys, or the identifier of a single key.
     pub signers: Vec<String>,
     /// The number of keys that must sign.
     pub threshold: u32,
-    /// The number of the newest trusted set of keys, if the anchor is a set.
+    /// The number of the newest trusted key set, if the anchor is a set.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keys: Option<u32>,
-    /// The commit of the source code, as stated in the signed statement.
+    /// The source code commit, as stated in the signed statement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The digest of `Cargo.lock`, as stated in the signed statement. No root covers this file.
+    /// The digest of `Cargo.lock`, as stated in the signed statement. `Cargo.lock` is not covered by any
+    /// root.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lockfile: Option<Digest>,
-    /// The reasons why the root is not signed as required. The list is empty if the root is signed as
-    /// required.
+    /// The reasons why the root is not signed as required, or an empty list.
     pub problems: Vec<String>,
 }
 
 /// The signed documents in a folder.
 #[derive(Clone, Debug, Default)]
 pub struct Signatures {
-    /// The sets of keys, by file name. If a set cannot be read, its fault is stored instead.
+    /// The key sets, by file name. If a set cannot be read, its fault is stored instead.
     sets: BTreeMap<String, Result<KeySet, String>>,
     /// The statements, by file name. If a statement cannot be read, its fault is stored instead.
     statements: BTreeMap<String, Result<Statement, String>>,
@@ -91,7 +91,7 @@ pub struct Signatures {
 }
 
 impl Signatures {
-    /// Reads the signed documents in a folder. Other files in the folder are ignored.
+    /// Reads the signed documents in a folder. Ignores other files.
     ///
     /// # Errors
     /// Returns an error if the folder or a document cannot be read.
@@ -130,8 +130,8 @@ impl Signatures {
         Ok(found)
     }
 
-    /// Returns the files of all sets of keys up to the number `newest`, with their signatures. The files are
-    /// in a suitable order for copying, because each set comes after its signatures.
+    /// Returns the files for all key sets up to the number `newest`, with their signatures. The files are in
+    /// a suitable order for copying, because each set comes after its signatures.
     ///
     /// # Errors
     /// Returns an error if the folder or a file cannot be read.
@@ -157,13 +157,12 @@ impl Signatures {
         names.into_iter().map(read).collect()
     }
 
-    /// Returns the signatures of the document with the given file name.
+    /// Returns the signatures for the document with the given file name.
     pub fn of(&self, file: &str) -> &[String] {
         self.signatures.get(file).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the set of keys with the given number. The set is not trusted, because anyone may have written
-    /// it.
+    /// Returns the key set with the given number. The set is not trusted, because anyone may have written it.
     pub fn set(&self, version: u32) -> Option<&KeySet> {
         self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
     }
@@ -203,7 +202,7 @@ impl Signatures {
         (set.version == version && set.digest().ok()? == digest).then_some(set)
     }
 
-    /// Checks whether the root of a release is signed as required by the given anchor.
+    /// Checks whether a release's root is signed as required by the given anchor.
     pub fn judge(&self, release: &str, root: &Digest, anchor: &Anchor) -> Signed {
         let mut faults = Vec::new();
         let mut best: Option<Signed> = None;
@@ -233,8 +232,8 @@ impl Signatures {
         })
     }
 
-    /// Returns the digest of a statement about the given root, or `None` if there is no such statement. If
-    /// there are several statements, the one with the most signatures is used.
+    /// Returns the digest of a statement about the given root, or `None` if no statement exists. Among
+    /// several statements, the one with the most signatures is used.
     ///
     /// # Errors
     /// Never returns an error, because a statement is plain data.
@@ -247,7 +246,7 @@ impl Signatures {
         most.map(|(_, statement)| Ok(Digest::of(&statement.to_bytes()?))).transpose()
     }
 
-    /// Checks a single statement of the folder, in the same way as [`Signatures::judge`].
+    /// Checks a single statement in the folder, in the same way as [`Signatures::judge`].
     pub fn judge_file(&self, file: &str, anchor: &Anchor) -> Signed {
         match self.statements.get(file) {
             Some(Ok(statement)) => self.judge_statement(file, statement, anchor),
@@ -346,7 +345,7 @@ impl Signatures {
     }
 }
 
-/// Returns a set that contains a single key, whose name is its identifier.
+/// Returns a set that contains a single key, named by its identifier.
 fn single(key: &PublicKey) -> KeySet {
     let keys = vec![NamedKey { name: key.id(), key: key.to_base64() }];
     KeySet { format: 1, version: 1, threshold: 1, keys, revoked: Vec::new(), previous: None }
@@ -355,7 +354,7 @@ fn single(key: &PublicKey) -> KeySet {
 /// Signs a document with each of the keys, and writes the document to a folder. Returns the names of the
 /// written files.
 ///
-/// The signatures are written before the document. Therefore, a document that exists has all signatures of
+/// The signatures are written before the document. Therefore, an existing document has all signatures from
 /// the run that wrote it. Existing valid signatures are kept.
 ///
 /// # Errors
@@ -391,7 +390,7 @@ pub fn sign_into(
     Ok(written)
 }
 
-/// Writes a file completely or not at all. The folder of the file is created if it does not exist.
+/// Writes a file atomically. Creates the file's folder if it does not exist.
 pub(crate) fn write_document(path: &Path, bytes: &[u8], disk: &Disk) -> Result<(), TrustError> {
     let written = disk.create_folder(path.parent().unwrap_or(Path::new("")));
     written.and_then(|()| disk.write(path, bytes, Access::Shared)).map_err(TrustError::io("write", path))

@@ -1,5 +1,5 @@
-//! The statements that publishers sign about releases. A statement contains the name and root of a release,
-//! the keys in force, and the software that minted the release.
+//! Publishers' signed statements about releases. A statement contains the release's name and root, the keys
+//! in force, and the software that minted the release.
 
 use crate::error::TrustError;
 use crate::key_set::canonical;
@@ -14,33 +14,33 @@ const FORMAT: u32 = 1;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Statement {
-    /// The version of this format, which is 1.
+    /// The format version, currently 1.
     pub format: u32,
-    /// The name of the release.
+    /// The release's name.
     pub release: String,
-    /// The root of the release.
+    /// The release's root.
     pub root: Digest,
-    /// The set of keys in force, or `None` if the publisher signs with a single key.
+    /// The key set in force, or `None` if the publisher signs with a single key.
     pub keys: Option<KeysInForce>,
     /// The software that minted the release.
     pub provenance: Provenance,
 }
 
-/// A reference to the set of keys in force.
+/// A reference to the key set in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeysInForce {
-    /// The number of the set.
+    /// The set's number.
     pub version: u32,
-    /// The digest of the file of the set.
+    /// The digest of the set's file.
     pub digest: Digest,
 }
 
-/// The software with which a release was minted.
+/// The software that minted a release.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// The version of arcade that the release's manifest states, such as `0.13.0`.
+    /// The version of arcade recorded in the release's manifest, such as `0.13.0`.
     pub version: Option<String>,
     /// The version of the generators (their generation).
     pub generation: u32,
@@ -48,7 +48,7 @@ pub struct Provenance {
     pub semantics: u32,
     /// The digest of `Cargo.lock`.
     pub lockfile: Digest,
-    /// The commit of the source code, as stated by the publisher.
+    /// The source code commit, as stated by the publisher.
     pub commit: Option<String>,
 }
 
@@ -63,7 +63,7 @@ impl Statement {
         Statement { format: FORMAT, release, root, keys, provenance }
     }
 
-    /// Parses the file of a statement.
+    /// Parses a statement's file.
     ///
     /// # Errors
     /// Returns an error if the bytes are not a valid statement.
@@ -77,7 +77,7 @@ impl Statement {
         }
     }
 
-    /// Returns the bytes of the statement's file, which are the signed bytes.
+    /// Returns the bytes of the statement's file. These bytes are signed.
     ///
     /// # Errors
     /// Never returns an error, because a statement is plain data.
@@ -86,9 +86,8 @@ impl Statement {
         Ok(text.into_bytes())
     }
 
-    /// Returns the name of the statement's file, which contains a digest of the statement. Therefore,
-    /// different statements have different files, and a signature never gets mixed up with a different
-    /// statement.
+    /// Returns the name of the statement's file, which includes the statement's digest. Therefore, different
+    /// statements have different files, and a signature cannot be mistaken for that of a different statement.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`Statement::to_bytes`].
@@ -96,7 +95,7 @@ impl Statement {
         Ok(format!("root-{}.json", &Digest::of(&self.to_bytes()?).to_string()[..16]))
     }
 
-    /// Returns the comment for people that is part of the statement's signatures.
+    /// Returns the human-readable comment in the statement's signatures.
     pub fn comment(&self) -> String {
         format!("release {} root {}", self.release, self.root)
     }

@@ -1,10 +1,9 @@
-//! `cargo xtask bench` measures the speed of the engine for each game, and compares it with the speed of the
-//! reference.
+//! `cargo xtask bench` measures the engine's speed for each game, and compares it with the reference's speed.
 //!
-//! The method is that of the reference's own figures. Level 0 is played, with actions drawn uniformly from
-//! all actions of the avatar except NIL. Episodes start from copies made outside the measurement. Whole steps
-//! are measured, including the hash of the state after each step. Time is the CPU time of the stepping
-//! thread.
+//! The method is the same as for the reference's own figures. Level 0 is played, with actions drawn uniformly
+//! from all of the avatar's actions except NIL. Episodes start from copies made outside the measurement.
+//! Complete steps are measured, including the state hash after each step. Time is the stepping thread's CPU
+//! time.
 
 use crate::episode_run::{EpisodeRun, Subject, first_digest, subjects};
 use crate::instructions;
@@ -21,9 +20,9 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The number of states in the batch with which the speedup is measured.
+/// The number of states in the batch for measuring the speedup.
 const BATCH: usize = 1024;
-/// The number of states in the batch with which the rate is measured. Learners step the same number of states
+/// The number of states in the batch for measuring the rate. Learners step the same number of states
 /// together.
 const LARGE_BATCH: usize = 4096;
 
@@ -117,7 +116,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Measures the ticks per second of a game after a warm-up.
+/// Measures a game's ticks per second after a warm-up.
 fn speed(subject: &Subject, seconds: f64) -> f64 {
     let [_, speed] = [seconds / 5.0, seconds].map(|seconds| {
         let mut episode_run = EpisodeRun::new(subject);
@@ -147,7 +146,7 @@ fn figures(path: &Path) -> anyhow::Result<Vec<(String, f64)>> {
     Ok(text.lines().skip(1).filter_map(row).collect())
 }
 
-/// Measures the duration of a `clone_from` to a warm copy, in seconds.
+/// Measures the duration of `clone_from` into a warm copy, in seconds.
 fn clone_time(start: &State) -> f64 {
     let mut copy = start.clone();
     let mut best = f64::INFINITY;
@@ -163,7 +162,7 @@ fn clone_time(start: &State) -> f64 {
     best
 }
 
-/// Measures the forward-model calls per second of MCTS during an episode, including the copies of states.
+/// Measures the forward-model calls per second made by MCTS during an episode, including copies of states.
 fn mcts_calls(subject: &Subject) -> f64 {
     let mut planner = Mcts::new(MctsConfig::default(), Seed::from_text("bench"));
     let mut state = subject.start.clone();
@@ -186,15 +185,15 @@ pub(crate) fn now() -> Instant {
     Instant::now()
 }
 
-/// Returns the ticks per second of CPU time with which one thread steps a batch of [`LARGE_BATCH`] states.
-/// The result is the best of three runs.
+/// Returns the ticks per second of CPU time at which one thread steps a batch of [`LARGE_BATCH`] states. The
+/// result is the best of three runs.
 fn batch_rate(subject: &Subject) -> f64 {
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("threads can be started");
     (0..3).map(|_| pool.install(|| batch_speed(subject, LARGE_BATCH, 1)[1])).fold(0.0, f64::max)
 }
 
-/// Returns the speedup of two threads over one thread for a batch that is stepped by `ticks` ticks at a time.
-/// The result is computed from the best of three alternating runs with each number of threads.
+/// Returns the speedup of two threads over one thread, for a batch stepped by `ticks` ticks at a time. The
+/// result is computed from the best of three alternating runs with each number of threads.
 fn speedup(subject: &Subject, ticks: usize) -> f64 {
     let pools = [1, 2].map(|threads| {
         ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
@@ -209,7 +208,7 @@ fn speedup(subject: &Subject, ticks: usize) -> f64 {
 }
 
 /// Returns the ticks per second of wall-clock time, and the ticks per second of the calling thread's CPU
-/// time. Both include the starts of new episodes.
+/// time. Both rates include starting new episodes.
 fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
     let seed = Seed::from_text(&subject.name);
     let mut batch = Batch::fork(&subject.game, &subject.start, size, seed);

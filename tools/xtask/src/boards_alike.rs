@@ -1,4 +1,4 @@
-//! `cargo xtask boards-alike` finds boards of new games that resemble boards that already existed.
+//! `cargo xtask boards-alike` finds boards in new games that resemble existing boards.
 
 use anyhow::{Context, bail};
 use engine::analysis::Role;
@@ -40,13 +40,13 @@ pub(crate) struct Args {
 
 /// The similarity above which two boards count as equal.
 const ALIKE: f64 = 0.8;
-/// The minimum numbers of rows and columns in a drawing.
+/// The minimum number of rows and columns in a drawing.
 const LEAST: (usize, usize) = (5, 7);
 
-/// The kinds of boards with which a level is compared.
+/// The kinds of board with which a level is compared.
 const KINDS: [&str; 3] = ["releases", "corpus", "drawings"];
 
-/// A board, represented by the cells that are not floor.
+/// A board, represented by its non-floor cells.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Board {
     columns: usize,
@@ -82,8 +82,8 @@ impl Board {
         self.lines[y] >> x & 1 == 1
     }
 
-    /// Returns the eight images of the board under its symmetries. Bit 0 exchanges left and right, bit 1
-    /// exchanges top and bottom, and bit 2 exchanges columns and rows.
+    /// Returns the board's eight images under its symmetries. Bit 0 exchanges left and right, bit 1 exchanges
+    /// top and bottom, and bit 2 exchanges columns and rows.
     fn images(&self) -> impl Iterator<Item = Board> + '_ {
         (0..8).map(|symmetry| {
             let is_turned = symmetry & 4 != 0;
@@ -133,7 +133,7 @@ impl Board {
     }
 }
 
-/// An existing board with its name and its eight images.
+/// An existing board, with its name and its eight images.
 struct Known {
     name: String,
     kind: usize,
@@ -203,8 +203,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// For each kind of boards, the maximum similarity of a board to any of them, and the name of the most
-/// similar board.
+/// For each kind of board, the maximum similarity to any board of that kind, and the name of the most similar
+/// board.
 type Likest<'a> = [(f64, &'a str); KINDS.len()];
 
 fn table(args: &Args, new: &[New], best: &[Likest<'_>]) -> Table {
@@ -241,7 +241,7 @@ fn table(args: &Args, new: &[New], best: &[Likest<'_>]) -> Table {
     table
 }
 
-/// Adds the boards of a game in a release.
+/// Adds the boards from a game in a release.
 fn collect(
     place: (usize, usize),
     release: &str,
@@ -260,7 +260,7 @@ fn collect(
     }
 }
 
-/// Returns the boards of the hand-written games.
+/// Returns the boards from the hand-written games.
 fn corpus(folder: &Path) -> anyhow::Result<Vec<Known>> {
     let mut known = Vec::new();
     for game in files(folder)?.into_iter().filter(|path| path.is_dir()) {
@@ -277,8 +277,8 @@ fn corpus(folder: &Path) -> anyhow::Result<Vec<Known>> {
     Ok(known)
 }
 
-/// Returns the drawings of kernels that are large enough. The drawings are all texts in a kernel's file that
-/// are boards, with floor written as `.`.
+/// Returns the sufficiently large drawings in kernels. A drawing is any board text in a kernel file, with
+/// floor written as `.`.
 fn drawings(folder: &Path) -> anyhow::Result<Vec<Known>> {
     let mut known = Vec::new();
     for path in files(folder)?.into_iter().filter(|path| path.extension().is_some_and(|end| end == "toml")) {
@@ -297,7 +297,7 @@ fn drawings(folder: &Path) -> anyhow::Result<Vec<Known>> {
     Ok(known)
 }
 
-/// Returns the entries of a folder, sorted by name.
+/// Returns a folder's entries, sorted by name.
 fn files(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<anyhow::Result<Vec<PathBuf>>>()?;

@@ -1,4 +1,4 @@
-//! Plays random episodes of a game one after another, in order to measure time and instructions.
+//! Plays a game's random episodes one after another, in order to measure time and instructions.
 
 use crate::levels::folders;
 use anyhow::{Context, bail};
@@ -9,15 +9,15 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// The maximum number of ticks in an episode, which is the same as in the reference's figures.
+/// The maximum number of ticks in an episode, as in the reference's figures.
 const EPISODE: usize = 2001;
-/// The number of episodes that are prepared together, outside the measurement.
+/// The number of episodes prepared together, outside the measurement.
 const BATCH: usize = 16;
 
 /// The number of random numbers drawn in advance.
 const DRAWS: usize = 1 << 16;
 
-/// A game at the start of its level 0, loaded in the same way as by the reference.
+/// A game at the start of its level 0, loaded in the same way as in the reference.
 pub(crate) struct Subject {
     pub(crate) name: String,
     pub(crate) game: Game,
@@ -44,7 +44,7 @@ fn subject(name: String, folder: &Path) -> anyhow::Result<Subject> {
     Ok(Subject { name, game, start })
 }
 
-/// A sequence of random episodes of one game.
+/// A sequence of random episodes from one game.
 pub(crate) struct EpisodeRun<'a> {
     subject: &'a Subject,
     episodes: u64,
@@ -53,7 +53,7 @@ pub(crate) struct EpisodeRun<'a> {
     pub(crate) ticks: u64,
     /// The CPU time spent on stepping.
     pub(crate) time: Duration,
-    /// The digest of the hashes of all visited states, in the order of the visits.
+    /// The combined digest of all visited states' hashes, in visiting order.
     pub(crate) digest: u128,
 }
 
@@ -65,8 +65,7 @@ impl<'a> EpisodeRun<'a> {
         EpisodeRun { subject, episodes: 0, states, draws, ticks: 0, time: Duration::ZERO, digest }
     }
 
-    /// Plays `ticks` ticks outside the measurement, so that the buffers of the states grow to their final
-    /// size.
+    /// Plays `ticks` ticks outside the measurement, so that the states' buffers grow to their final size.
     pub(crate) fn warm_up(&mut self, ticks: u64) {
         self.prepare();
         self.play(ticks);
@@ -88,7 +87,7 @@ impl<'a> EpisodeRun<'a> {
         self.time += clock.elapsed();
     }
 
-    /// Plays the measured part of a batch. Instruction counting selects this function by its name.
+    /// Plays the measured part of a batch. Instruction counting refers to this function by name.
     #[inline(never)]
     fn play_measured(&mut self, ticks: u64) {
         self.play(ticks);
@@ -119,8 +118,8 @@ fn chain(digest: u128, hash: u128) -> u128 {
     (digest.rotate_left(5) ^ hash).wrapping_mul(0x2360_ED05_1FC6_5DA4_4385_DF64_9FCC_F645)
 }
 
-/// Returns the digest of the states visited in the first batch. Also checks that the digest equals one that
-/// is computed from scratch.
+/// Returns the digest of the states visited in the first batch. Also checks that the digest equals a digest
+/// computed from scratch.
 pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
     const TICKS: u64 = 300;
     let mut episode_run = EpisodeRun::new(subject);

@@ -1,9 +1,8 @@
-//! `cargo xtask fidelity` tests whether the planners of this suite play as well as the reference's own
-//! planners.
+//! `cargo xtask fidelity` tests whether this suite's planners play as well as the reference's own planners.
 //!
 //! The reference's episodes are recorded, with one row per episode: game, level, agent, run, calls per
-//! decision, outcome, ticks and score. The planners of this suite play the same games and levels with the
-//! same budgets and tick limit (`spec/04` §10.2). No parameter is fitted, so a deviation means that the rules
+//! decision, outcome, ticks and score. This suite's planners play the same games and levels with the same
+//! budgets and tick limit (`spec/04` §10.2). No parameters are fitted, so any deviation means that the rules
 //! differ, and the difference must be found.
 
 use crate::levels::load;
@@ -55,30 +54,30 @@ pub(crate) struct Args {
     jobs: usize,
 }
 
-/// For each recorded agent, the planner of this suite that corresponds to it.
+/// For each recorded agent, this suite's corresponding planner.
 const PAIRS: [(&str, &str); 3] = [("sampleMCTS", "mcts"), ("olets", "olets"), ("sampleRHEA", "rhea")];
-/// The false discovery rate of the tests.
+/// The tests' false discovery rate.
 const FALSE_DISCOVERIES: f64 = 0.05;
-/// The maximum mean difference between the win rates.
+/// The maximum mean difference between win rates.
 const MEAN_DIFFERENCE: f64 = 0.10;
-/// The maximum relative difference between the mean scores in [`SCORED_GAMES`].
+/// The maximum relative difference between mean scores in [`SCORED_GAMES`].
 const SCORE_DIFFERENCE: f64 = 0.20;
-/// The games whose mean scores are compared.
+/// The games with compared mean scores.
 const SCORED_GAMES: [&str; 2] = ["aliens", "boulderdash"];
 
-/// The figures of an episode that are compared.
+/// The compared figures of an episode.
 #[derive(Clone, Copy)]
 struct Result {
     level: usize,
     won: bool,
     ticks: f64,
     score: f64,
-    /// The mean number of calls per decision. The amount by which a search exceeds its budget shows how deep
-    /// it searches.
+    /// The mean number of calls per decision. The amount by which a search exceeds its budget shows its
+    /// depth.
     calls: f64,
 }
 
-/// The recorded episodes of an agent in a game, and the episodes of the corresponding planner.
+/// An agent's recorded episodes in a game, and the corresponding planner's episodes.
 struct Cell {
     game: String,
     agent: &'static str,
@@ -136,7 +135,7 @@ fn play_cell(args: &Args, cell: &Cell, game: &Game, levels: &[Level]) -> anyhow:
     Ok(results.collect())
 }
 
-/// Prints the table and the thresholds. Returns `true` if all thresholds are met.
+/// Prints the table and the thresholds. Returns `true` if every threshold is met.
 fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     println!(
         "{:<12} {:<7} {:>9} {:>9} {:>6} {:>6} {:>6}  {:>15}  {:>13}  {:>15}  wins by level",
@@ -192,7 +191,7 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     faults.is_empty()
 }
 
-/// A row of the recorded episodes.
+/// A row in the recorded episodes.
 #[derive(Deserialize)]
 struct Line {
     game: String,
@@ -205,7 +204,7 @@ struct Line {
     score: f64,
 }
 
-/// Reads the recorded episodes by game and agent, in the order of the file.
+/// Reads the recorded episodes by game and agent, in file order.
 fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     let mut cells: Vec<Cell> = Vec::new();
     for line in csv::Reader::from_path(path)?.deserialize() {
@@ -222,7 +221,7 @@ fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     Ok(cells)
 }
 
-/// Reads the published win rates of search agents. Each rate is given with its agent and game, in percent.
+/// Reads search agents' published win rates. Each rate is given with its agent and game, in percent.
 fn published(path: &Path) -> anyhow::Result<Vec<(String, String, f64)>> {
     let mut rates = Vec::new();
     for line in csv::Reader::from_path(path)?.deserialize::<BTreeMap<String, String>>() {

@@ -1,5 +1,6 @@
 //! `cargo xtask instructions` tests whether a step has become slower. The task counts instructions instead of
-//! measuring time. The counts are the same on a busy machine, so a change of a few percent is visible.
+//! measuring time. Other load on the machine does not affect instruction counts, so a change of a few percent
+//! is visible.
 
 use crate::episode_run::{Subject, subjects};
 use anyhow::{Context, bail};
@@ -92,7 +93,7 @@ fn compiler() -> anyhow::Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// Returns the number of instructions in a warm tick of a game's level 0, including the hash. Returns `None`
+/// Returns the number of instructions per warm tick on a game's level 0, including the hash. Returns `None`
 /// if valgrind is not installed.
 pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> {
     let output = Command::new("valgrind")

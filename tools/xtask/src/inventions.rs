@@ -1,4 +1,4 @@
-//! `cargo xtask inventions` invents games, and reports why other attempts fail.
+//! `cargo xtask inventions` invents games, and reports the reasons for failed attempts.
 
 use anyhow::Context;
 use base::{Seed, SeedPath};

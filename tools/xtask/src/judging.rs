@@ -28,7 +28,7 @@ pub(crate) struct Args {
     seed: String,
 }
 
-/// The result of judging a level with one of the methods.
+/// The result of judging a level with one method.
 struct Answer {
     /// The criterion that the level fails, or `None` if the level passes all criteria.
     obstacle: Option<Criterion>,
@@ -41,7 +41,7 @@ struct Compared {
     sequential: Answer,
 }
 
-/// The judges of both methods. The search for a win is the same in both methods, so it runs only once.
+/// Both methods' judges. Both methods use the same search for a win, so the search runs only once.
 struct Judges {
     search: Panel,
     in_full: Panel,

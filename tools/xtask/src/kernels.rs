@@ -1,4 +1,4 @@
-//! `cargo xtask kernels` reports why games of each kernel fail.
+//! `cargo xtask kernels` reports why each kernel's games fail.
 
 use anyhow::{Context, bail};
 use base::Seed;
@@ -105,7 +105,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns a table with the distance from each form of a kernel, with and without variants, to the nearest
+/// Returns a table with the distance from each of a kernel's forms, with and without variants, to the nearest
 /// other form.
 fn distances(kernel: &str) -> Table {
     let built = KernelGenome::all_of(kernel).into_iter().filter_map(|genome| genome.build().ok());

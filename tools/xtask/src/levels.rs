@@ -5,8 +5,8 @@ use engine::{Game, Level};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Returns the subfolders of a folder with the given names, or all subfolders if `only` is empty. They are
-/// sorted by name.
+/// Returns the subfolders of a folder with the given names, or all subfolders if `only` is empty. The
+/// subfolders are sorted by name.
 pub(crate) fn folders(games: &Path, only: &[String]) -> anyhow::Result<Vec<(String, PathBuf)>> {
     let mut folders: Vec<PathBuf> = fs::read_dir(games)
         .with_context(|| games.display().to_string())?

@@ -1,4 +1,4 @@
-//! Development tasks of the repository, `cargo xtask <task>`.
+//! The repository's development tasks, `cargo xtask <task>`.
 
 #![allow(clippy::print_stdout, reason = "a task prints for its user")]
 

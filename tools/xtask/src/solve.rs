@@ -1,4 +1,4 @@
-//! `cargo xtask solve` determines which levels of the games in a folder the portfolio of planners wins.
+//! `cargo xtask solve` determines which levels the planner portfolio wins, for all games in a folder.
 
 use crate::bench::now;
 use crate::levels::{folders, load};
@@ -58,7 +58,7 @@ struct Entry<'a> {
     analysis: &'a Analysis,
 }
 
-/// The result of the search on a level.
+/// The search result for a level.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Found {
     Won,

@@ -20,7 +20,7 @@ pub(crate) struct Args {
     times: usize,
 }
 
-/// The environment variable that the tests read (`tests::sweep::VARIABLE`).
+/// The environment variable read by the tests (`tests::sweep::VARIABLE`).
 const VARIABLE: &str = "ARCADE_SWEEP";
 /// The environment variable with the factor for the number of random games (`tests::sweep::TIMES`).
 const TIMES: &str = "ARCADE_SWEEP_TIMES";

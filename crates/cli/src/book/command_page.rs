@@ -1,5 +1,5 @@
-//! The page of the book with the help of every command, which is generated from the command line. This module also
-//! finds the commands in all other pages.
+//! The book page with the help of every command, generated from the command line. This module also finds the
+//! commands on all other pages.
 
 use crate::usage::tests::for_each_verb;
 use clap::Command;
@@ -9,7 +9,7 @@ use std::path::Path;
 
 const PAGE: &str = "docs/reference/commands.md";
 
-/// The columns of the help on the page.
+/// The width of the help on the page, in columns.
 const COLUMNS: usize = 100;
 
 const HEAD: &str = "# All commands and flags
@@ -68,7 +68,7 @@ fn the_page_has_the_help_of_every_command() {
     assert!(count > 25, "{count}");
 }
 
-/// Returns the commands of the code blocks of a page, without prompts and comments.
+/// Returns the commands in a page's code blocks, without prompts and comments.
 fn commands(page: &str) -> Vec<String> {
     let mut commands = Vec::new();
     let mut is_fenced = false;
@@ -83,7 +83,7 @@ fn commands(page: &str) -> Vec<String> {
     commands
 }
 
-/// Every command in the book uses subcommands and flags that the program has.
+/// Every command in the book uses only existing subcommands and flags.
 #[test]
 fn the_commands_of_the_book_exist() {
     let mut root = crate::usage::command();

@@ -1,4 +1,5 @@
-//! The pages of the book in `docs/`, embedded in the binary, formatted for a terminal. `docs/SUMMARY.md` is its contents page.
+//! The pages of the book in `docs/`, embedded in the binary, formatted for a terminal. `docs/SUMMARY.md` is
+//! the table of contents.
 
 use crate::failure::Failure;
 use include_dir::{Dir, include_dir};
@@ -9,20 +10,21 @@ use std::ops::Range;
 static DOCS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/docs");
 
 pub(crate) struct Page {
-    /// The argument of `arcade docs` that selects this page. It is the file's name, or the folder's name for a folder's
-    /// README.
+    /// The argument of `arcade docs` that selects the page: the file's name, or the folder's name for a
+    /// folder's README.
     pub(crate) name: String,
     /// The path below `docs/`, without the extension.
     path: String,
-    /// The title in the contents page.
+    /// The page's title in the table of contents.
     pub(crate) label: String,
-    /// The depth in the contents page. It is 0 for a page of a section, and more for pages listed by name only.
+    /// The page's depth in the table of contents: 0 for a page listed directly in a section, and more for
+    /// pages listed only by name.
     pub(crate) depth: usize,
-    /// The text of the page in Markdown.
+    /// The page's Markdown text.
     pub(crate) text: &'static str,
 }
 
-/// The sections of the manual, in the order of the contents page. Each is a folder of `docs/`.
+/// The manual's sections, in the order of the table of contents. Each section is a folder in `docs/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Section {
     /// Tutorials.
@@ -41,7 +43,7 @@ impl Section {
     pub(crate) const ALL: [Section; 5] =
         [Section::Start, Section::HowTo, Section::Reference, Section::Explanation, Section::Lab];
 
-    /// Returns the heading of the section in the contents page.
+    /// Returns the section's heading in the table of contents.
     pub(crate) fn heading(self) -> &'static str {
         match self {
             Section::Start => "Start",
@@ -63,13 +65,13 @@ impl Section {
     }
 }
 
-/// The contents page in the form of mdBook, with headings of sections, and nested lists of links to pages.
+/// The table of contents in mdBook's format: section headings, and nested lists of links to pages.
 const CONTENTS: &str = "SUMMARY.md";
 
-/// Pages that other pages have replaced, each with the page to read instead.
+/// Replaced pages, each with the page to read instead.
 const REPLACED: [(&str, &str); 1] = [("decision", "decisions")];
 
-/// Returns all pages in the order of the contents page.
+/// Returns all pages in the order of the table of contents.
 pub(crate) fn pages() -> Vec<Page> {
     let contents = DOCS.get_file(CONTENTS).and_then(include_dir::File::contents_utf8).unwrap_or_default();
     contents.lines().filter_map(Page::listed).collect()
@@ -80,7 +82,7 @@ pub(crate) fn replaced(wanted: &str) -> Option<&'static str> {
     REPLACED.iter().find(|(old, _)| *old == stem(wanted)).map(|(_, new)| *new)
 }
 
-/// Returns the page with this name or path.
+/// Returns the page with the given name or path.
 pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
     let mut pages = pages();
     match find(&pages, wanted) {
@@ -89,31 +91,31 @@ pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
     }
 }
 
-/// Returns the failure for a word that is neither a page nor in a page.
+/// Returns the failure for a word that is neither a page name nor on any page.
 pub(crate) fn absent(pages: &[Page], wanted: &str) -> Failure {
     let near = engine::nearest(wanted, pages.iter().map(|page| page.name.as_str()));
     let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
     malformed!("there is no page `{wanted}`; {near}`arcade docs` lists all pages")
 }
 
-/// A page that contains the words searched for.
+/// A page that contains the search terms.
 pub(crate) struct Hit<'a> {
     pub(crate) page: &'a Page,
-    /// The best matching line. This is the title, or else a heading, if it contains the words.
+    /// The best matching line: the title, or else a heading, if it contains the search terms.
     pub(crate) line: String,
 }
 
-/// The points that a page scores for a line with a matching word. The three values are for the title, in proportion to
-/// its matching words, for a heading or a line of the first paragraph, and for any other line.
+/// The points that a matching line adds to a page's score: for the title (in proportion to its matching
+/// words), for a heading or a line of the first paragraph, and for any other line.
 const POINTS: [usize; 3] = [30, 8, 1];
-/// The maximum number of other lines that score.
+/// The maximum number of lines scored as other lines.
 const COUNTED: usize = 10;
 
-/// The minimum number of lines with a matching word at which a page for beginners counts as an explanation. Such a page
-/// ranks before all others.
+/// The minimum number of matching lines for a beginners' page to count as an explanation. Such a page ranks
+/// before all other pages.
 const EXPLAINED: usize = 3;
 
-/// Returns the pages that contain all words of `wanted`, best first.
+/// Returns the pages that contain all words in `wanted`, best match first.
 pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
     let wanted: Vec<String> = words(wanted).collect();
     let mut hits: Vec<((bool, usize), Hit<'a>)> = Vec::new();
@@ -166,7 +168,7 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
     hits.into_iter().map(|(_, hit)| hit).collect()
 }
 
-/// Returns the words of a text in lower case. For example, `killSprite` is two words.
+/// Returns a text's words in lower case. For example, `killSprite` is two words.
 fn words(text: &str) -> impl Iterator<Item = String> + '_ {
     let is_inner = |c: char| c.is_alphanumeric();
     text.split(move |c| !is_inner(c))
@@ -180,7 +182,7 @@ fn words(text: &str) -> impl Iterator<Item = String> + '_ {
         .filter(|word| !word.is_empty())
 }
 
-/// The suffixes that inflect a word.
+/// The suffixes of inflected words.
 const ENDINGS: [&str; 7] = ["", "s", "es", "ed", "ing", "er", "ers"];
 
 /// Returns `true` if a word is a form of a wanted word. For example, `pushes` and `pushing` match `push`, and `boat`
@@ -193,7 +195,7 @@ fn is_form(own: &str, wanted: &str) -> bool {
 /// The maximum length of a line in search results, in characters.
 const LINE: usize = 80;
 
-/// Returns a line of Markdown as search results show it, without the markup of headings, lists and tables.
+/// Returns a line of Markdown as shown in search results, without the markup for headings, lists and tables.
 fn shown(line: &str) -> String {
     let mut words = line.to_owned();
     for (link, inner, _) in links(line).into_iter().rev() {
@@ -207,7 +209,7 @@ fn shown(line: &str) -> String {
     }
 }
 
-/// The folder of the pages on codes of diagnostics.
+/// The folder with the pages about diagnostic codes.
 const DIAGNOSTICS: &str = "reference/diagnostics";
 
 /// Returns the name or path in a reference such as `prompts.md#turn` or `ontology/`.
@@ -218,7 +220,7 @@ fn stem(wanted: &str) -> &str {
     wanted.strip_suffix("/README").unwrap_or(wanted)
 }
 
-/// Finds a page by its name or path, or by the end of its path, because pages were in other folders before.
+/// Finds a page by its name or path, or by the end of its path, because pages have moved between folders.
 fn find(pages: &[Page], wanted: &str) -> Option<usize> {
     let wanted = stem(wanted);
     let is_it = |page: &Page| page.name == wanted || page.path == wanted;
@@ -230,7 +232,7 @@ fn find(pages: &[Page], wanted: &str) -> Option<usize> {
 }
 
 impl Page {
-    /// Parses a line of the contents page as an item of a list that links to a page.
+    /// Parses a line in the table of contents as a list item that links to a page.
     fn listed(line: &str) -> Option<Page> {
         let item = line.trim_start();
         let (label, file) = item.strip_prefix("- [")?.strip_suffix(')')?.split_once("](")?;
@@ -241,8 +243,8 @@ impl Page {
         Some(Page { name, path, label: label.replace('`', ""), depth: (line.len() - item.len()) / 2, text })
     }
 
-    /// Returns the page's folder below `docs/`, which is empty for a top-level page. A folder's own page lies in that
-    /// folder.
+    /// Returns the page's folder below `docs/`, or an empty text for a top-level page. A folder's own page
+    /// lies in that folder.
     pub(crate) fn folder(&self) -> &str {
         // A folder of images beside a page is not the page's own folder.
         match DOCS.get_file(format!("{}/README.md", self.path)) {
@@ -264,8 +266,8 @@ impl Page {
         self.text.lines().next().unwrap_or_default().trim_start_matches('#').trim()
     }
 
-    /// Returns the page with its links as text. The names of other pages are in brackets, and addresses and source
-    /// files are in parentheses.
+    /// Returns the page with its links converted to text. The names of other pages are in brackets, and
+    /// addresses and source files are in parentheses.
     pub(crate) fn plain(&self, pages: &[Page]) -> String {
         let mut plain = String::with_capacity(self.text.len());
         let mut done = 0;
@@ -297,7 +299,7 @@ impl Page {
     }
 }
 
-/// Returns the links and images of a page: their ranges, the ranges of their texts, and their targets.
+/// Returns a page's links and images: their ranges, the ranges of their texts, and their targets.
 fn links(text: &str) -> Vec<(Range<usize>, Range<usize>, String)> {
     let mut links = Vec::new();
     let mut open: Option<(Range<usize>, Option<Range<usize>>, String)> = None;
@@ -319,7 +321,7 @@ fn links(text: &str) -> Vec<(Range<usize>, Range<usize>, String)> {
     links
 }
 
-/// Returns the path of a link's target in the source tree. The target is relative to the folder of its page.
+/// Returns the path of a link target in the source tree. The target is relative to its page's folder.
 fn resolved(folder: &str, file: &str) -> String {
     let mut parts = vec!["docs"];
     for part in folder.split('/').chain(file.split('/')) {
@@ -366,7 +368,7 @@ mod tests {
         assert!(error.contains("did you mean `prompts`?"), "{error}");
     }
 
-    /// The contents page has the sections in their order, and every page under the section of its folder.
+    /// The table of contents lists the sections in order, and every page under its folder's section.
     #[test]
     fn the_contents_page_lists_every_page_once() {
         let contents = DOCS.get_file(CONTENTS).expect("a contents page").contents_utf8().expect("text");
@@ -437,8 +439,8 @@ mod tests {
         pages.iter().find(|page| page.name == name).map_or("", Page::title)
     }
 
-    /// A search for the words of a beginner lists the tutorials before all other pages. The tutorial about a first game
-    /// comes first among them.
+    /// A search for beginners' terms lists the tutorials before all other pages, starting with the tutorial
+    /// about a first game.
     #[test]
     fn words_of_beginners_lead_to_the_tutorials() {
         let pages = pages();
@@ -490,7 +492,7 @@ mod tests {
         }
     }
 
-    /// Collects the workspace's sources that may print messages for users, without tests.
+    /// Collects the workspace sources that may print messages for users, without tests.
     fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
         for entry in std::fs::read_dir(folder).expect("readable") {
             let path = entry.expect("readable").path();
@@ -505,7 +507,7 @@ mod tests {
         }
     }
 
-    /// An installed binary has no folder `docs/`, so messages for users must refer to a page of `arcade docs`.
+    /// An installed binary has no `docs/` folder, so messages for users must refer to pages of `arcade docs`.
     #[test]
     fn messages_and_templates_name_pages_that_the_binary_has() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

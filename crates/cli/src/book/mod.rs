@@ -1,4 +1,4 @@
-//! The pages of the book.
+//! The book's pages.
 
 #[cfg(test)]
 mod command_page;

@@ -7,7 +7,7 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Bytes(pub(crate) usize);
 
-/// The units with their sizes in bytes.
+/// The units, with their sizes in bytes.
 const UNITS: [(&str, u64); 6] = [
     ("kib", 1 << 10),
     ("mib", 1 << 20),

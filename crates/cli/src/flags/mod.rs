@@ -1,4 +1,4 @@
-//! Values of flags that several subcommands share.
+//! Flag values shared by several subcommands.
 
 pub(crate) mod memory;
 pub(crate) mod numbers;

@@ -1,4 +1,4 @@
-//! The number of threads, and the memory limit for their searches. No output depends on these limits.
+//! The number of threads, and the memory limit for their searches. Neither limit affects any output.
 
 use crate::console;
 use crate::failure::Failure;
@@ -9,8 +9,8 @@ use std::ffi::OsString;
 use std::sync::OnceLock;
 use std::thread::available_parallelism;
 
-/// The maximum number of threads in a pool. More threads would only wait for each other, and starting thousands takes
-/// minutes.
+/// The maximum number of threads in a pool. More threads would only wait for each other, and starting
+/// thousands of threads would need minutes.
 const MAX_THREADS: usize = 256;
 
 /// The limits that the user sets for a run. No output depends on them.
@@ -25,12 +25,12 @@ pub(crate) struct Limits {
     memory: Option<Bytes>,
 }
 
-/// The limits of this process.
+/// The process's limits.
 static LIMITS: OnceLock<Limits> = OnceLock::new();
 
 impl Limits {
-    /// Starts the threads and limits the memory for their searches. Without this call, rayon would start the number of
-    /// threads in `RAYON_NUM_THREADS`, without a limit.
+    /// Starts the threads, and limits the memory for their searches. Without this call, rayon would start the
+    /// number of threads in `RAYON_NUM_THREADS`, without a limit.
     pub(crate) fn apply(self) -> Result<(), Failure> {
         let threads = match self.jobs {
             Some(0) => bail!("--jobs takes a number of threads, at least 1"),
@@ -56,23 +56,23 @@ impl Limits {
     }
 }
 
-/// Returns the number of threads that the user requested.
+/// Returns the number of threads requested by the user.
 pub(crate) fn jobs() -> Option<usize> {
     LIMITS.get().and_then(|limits| limits.jobs)
 }
 
-/// Returns the flags that set the limits of this process, for a command that resumes the run.
+/// Returns the flags that set the process's limits, for a command that resumes the run.
 pub(crate) fn flags() -> Vec<OsString> {
     LIMITS.get().copied().unwrap_or_default().flags()
 }
 
-/// Runs the work on a pool with this number of threads.
+/// Runs the work on a pool with the given number of threads.
 pub(crate) fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.clamp(1, MAX_THREADS)).build();
     Ok(pool.map_err(failure)?.install(work))
 }
 
-/// Returns the number of threads to use if the user specifies none.
+/// Returns the default number of threads.
 fn usual() -> usize {
     #[expect(
         clippy::disallowed_methods,
@@ -83,7 +83,7 @@ fn usual() -> usize {
     bounded(wanted.as_deref(), cores)
 }
 
-/// Returns the requested number if it is sensible, or else one thread per core.
+/// Returns the requested number if it is sensible, and otherwise one thread per core.
 fn bounded(wanted: Option<&str>, cores: usize) -> usize {
     let wanted =
         wanted.and_then(|text| text.parse().ok()).filter(|wanted| (1..=MAX_THREADS).contains(wanted));

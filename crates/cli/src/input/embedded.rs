@@ -25,7 +25,7 @@ pub(crate) fn corpus() -> Result<Corpus, Failure> {
     Ok(Corpus { games })
 }
 
-/// Returns the text of the recipe with this name in `seeds/`.
+/// Returns the text of the recipe with the given name in `seeds/`.
 pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
 }
@@ -36,7 +36,7 @@ pub(crate) fn recipe_names() -> Vec<String> {
     SEEDS.files().filter_map(name).sorted().collect_vec()
 }
 
-/// Returns the digest of the Cargo.lock that this binary was built with.
+/// Returns the digest of the Cargo.lock used to build this binary.
 pub(crate) fn lockfile() -> Digest {
     Digest::of(LOCKFILE)
 }

@@ -1,5 +1,5 @@
-//! Recorded episodes that the user specifies. They are the files that `arcade validate --witness` and
-//! `arcade play --record` write, and the witnesses of a snapshot.
+//! Recorded episodes specified by the user: files written by `arcade validate --witness` and `arcade play
+//! --record`, and snapshot witnesses.
 
 use crate::diagnostics::Named;
 use crate::failure::Failure;
@@ -12,10 +12,10 @@ use serde::Deserialize;
 use snapshots::Witness;
 use std::path::Path;
 
-/// The maximum size of an episode file. The longest episode has some 100 bytes per tick.
+/// The maximum size of an episode file. The longest episodes use about 100 bytes per tick.
 const MAX_EPISODE: usize = 1 << 22;
 
-/// An episode by itself or as a snapshot's witness.
+/// An episode on its own, or as a snapshot's witness.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Recorded {
@@ -40,8 +40,8 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
     }
 }
 
-/// Rejects, before the work starts, a path that an episode cannot be written to. Also rejects the paths of the game,
-/// its levels and the `others` that the command reads.
+/// Rejects, before the work starts, a path to which an episode cannot be written. Also rejects the paths of
+/// the game, its levels and the `others` read by the command.
 pub(crate) fn check(path: &Path, input: &GameInput, others: &[&str]) -> Result<(), Failure> {
     let others = others.iter().map(Path::new);
     whole_file::check(path, &input.files().into_iter().chain(others).collect::<Vec<_>>())
@@ -54,7 +54,8 @@ pub(crate) fn write(path: &Path, episode: &Episode) -> Result<(), Failure> {
     whole_file::write(path, text.as_bytes())
 }
 
-/// Reads the recorded episode, if there is one, and finds the level to show. The episode must replay on that level.
+/// Reads the recorded episode, if any, and finds the level to show. The episode must be replayable on that
+/// level.
 pub(crate) fn recorded(
     input: &GameInput,
     game: &Game,
@@ -74,7 +75,7 @@ pub(crate) fn recorded(
     Ok((named, level, episode))
 }
 
-/// Finds the level to show. This is the level that the user specified, or else the level on which the episode was
+/// Finds the level to show: the level specified by the user, or else the level on which the episode was
 /// recorded, or else the first level.
 fn level(
     input: &GameInput,

@@ -1,4 +1,4 @@
-//! A game that the user specifies, with its levels.
+//! A game specified by the user, with its levels.
 
 use crate::diagnostics::Named;
 use crate::failure::Failure;
@@ -10,16 +10,16 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-/// A game with the levels that come with it, not yet parsed.
+/// A game with its accompanying levels, not yet parsed.
 #[derive(Clone, Debug)]
 pub(crate) struct GameInput {
-    /// The game's text, with the name that messages use for it.
+    /// The game's text, with its name in messages.
     pub(crate) source: Named,
     pub(crate) title: String,
     /// The game's file, or `None` for a corpus game.
     pub(crate) path: Option<PathBuf>,
     pub(super) levels: Vec<LevelInput>,
-    /// The levels that the user specified, if any; otherwise all levels count.
+    /// The levels specified by the user, if any. Otherwise, all levels count.
     pub(super) asked: Vec<LevelInput>,
     /// Set once the user has been told which files were not recognised as levels.
     pub(super) told: Arc<OnceLock<()>>,
@@ -27,7 +27,7 @@ pub(crate) struct GameInput {
 
 #[derive(Clone, Debug)]
 pub(super) struct LevelInput {
-    /// The number in the file's name: `lvl3.txt` is level 3.
+    /// The number in the file name: `lvl3.txt` is level 3.
     pub(super) number: Option<usize>,
     pub(super) place: LevelPlace,
 }
@@ -61,7 +61,7 @@ impl LevelInput {
 }
 
 impl GameInput {
-    /// Compiles the game; `as_reference` enables the reference engine's recovery from faults.
+    /// Compiles the game. `as_reference` enables the reference engine's recovery from faults.
     pub(crate) fn compile(&self, as_reference: bool) -> Result<Game, Failure> {
         let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
         load(&self.source.text).map_err(|problems| crate::diagnostics::failure(&self.source, &problems.0))
@@ -76,19 +76,20 @@ impl GameInput {
         self.path.as_deref().into_iter().chain(levels).collect()
     }
 
-    /// Returns the number of levels that come with the game.
+    /// Returns the number of levels that accompany the game.
     pub(crate) fn count(&self) -> usize {
         self.levels.len()
     }
 
-    /// Returns the levels that the user specified in place of the game, or else the levels that come with it.
+    /// Returns the levels specified by the user in place of the game, or else the levels that accompany the
+    /// game.
     pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
         self.tell_strays();
         self.wanted().iter().map(LevelInput::read).collect()
     }
 
-    /// Reports, once, which files and folders beside the game look like levels but are not. Reports nothing if the user specified
-    /// levels.
+    /// Reports, once, any files and folders beside the game that look like levels but are not. Reports
+    /// nothing if the user specified levels.
     fn tell_strays(&self) {
         let Some(path) = self.path.as_deref().filter(|_| self.asked.is_empty()) else { return };
         let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -121,8 +122,8 @@ impl GameInput {
         }
     }
 
-    /// Returns [`levels`](Self::levels) with the numbers in their names, or with their positions if a number is missing or occurs
-    /// twice.
+    /// Returns [`levels`](Self::levels) with the numbers in their names, or with their positions if a number
+    /// is missing or duplicated.
     pub(crate) fn numbered_levels(&self) -> Result<Vec<(usize, Named)>, Failure> {
         self.tell_strays();
         let numbers: BTreeSet<usize> = self.wanted().iter().filter_map(|level| level.number).collect();
@@ -133,8 +134,8 @@ impl GameInput {
         self.wanted().iter().enumerate().map(number).collect()
     }
 
-    /// Returns the level specified in place of the game and then the levels specified after it. If there are none, returns all
-    /// levels.
+    /// Returns the level specified in place of the game, followed by the levels specified after it. Returns
+    /// all levels if the user specified none.
     pub(crate) fn named_levels(&self, names: &[String]) -> Result<Vec<Named>, Failure> {
         if names.is_empty() {
             return self.levels();
@@ -148,7 +149,7 @@ impl GameInput {
         self.levels()?.iter().map(|named| named.level(game)).collect()
     }
 
-    /// Returns the level that the user specified in place of the game, if there is one.
+    /// Returns the level specified by the user in place of the game, if any.
     pub(crate) fn asked(&self) -> Result<Option<Named>, Failure> {
         self.asked.first().map(LevelInput::read).transpose()
     }
@@ -157,7 +158,7 @@ impl GameInput {
         if self.asked.is_empty() { &self.levels } else { &self.asked }
     }
 
-    /// Returns the level that the user specified: a file, or the number of a level that comes with the game.
+    /// Returns the level specified by the user: a file, or the number of a level that accompanies the game.
     pub(crate) fn level(&self, name: &str) -> Result<Named, Failure> {
         self.find_level(name)?.read()
     }

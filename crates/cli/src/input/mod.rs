@@ -1,4 +1,4 @@
-//! Games and levels that the user specifies: files, folders and names of corpus games.
+//! Games and levels specified by the user: files, folders and names of corpus games.
 
 pub(crate) mod embedded;
 pub(crate) mod episodes;
@@ -16,7 +16,7 @@ use engine::{MAX_LEVEL_TEXT, MAX_SOURCE, dialect, layout};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Finds a game by its file, its folder, the file of one of its levels, or the name of a corpus game.
+/// Finds a game by its file, its folder, one of its level files, or the name of a corpus game.
 pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     let path = Path::new(name);
     let found = paths::metadata(path)?;
@@ -62,7 +62,7 @@ pub(crate) fn game(name: &str) -> Result<GameInput, Failure> {
     })
 }
 
-/// A file that the user specified: a game, or a level with the game beside it, if there is one.
+/// A file specified by the user: a game, or a level with the game beside it, if any.
 enum Found {
     Game(GameInput),
     Level(LevelInput, Option<GameInput>),
@@ -96,7 +96,7 @@ fn file(path: &Path) -> Result<Found, Failure> {
     Ok(Found::Level(level, Some(input)))
 }
 
-/// Returns a failure with advice for a level without a game beside it: the game may be in the parent folder.
+/// Returns a failure with advice for a level without a game beside it. The game may be in the parent folder.
 fn lost_level(path: &Path) -> Failure {
     let name = path.in_message();
     let beside = games_in(folder_of(path)).unwrap_or_default();
@@ -125,7 +125,7 @@ fn lost_level(path: &Path) -> Failure {
     )
 }
 
-/// Rejects a Python file, and suggests the command that converts the game in it.
+/// Rejects a Python file, and suggests the command that converts its game.
 fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
     let Some(found) = dialect::python_file(text) else { return Ok(()) };
     let levels = match found.levels.len() {
@@ -142,11 +142,11 @@ fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
     )
 }
 
-/// The word that stands for all corpus games, unless a folder has that name.
+/// The argument that selects all corpus games, unless a folder has the same name.
 pub(crate) const CORPUS: &str = "corpus";
 
-/// Finds all games of an argument: the game that [`game`] finds, all games in a folder of games or of such folders, or the corpus
-/// games for `corpus`.
+/// Finds all games specified by an argument: the game found by [`game`], all games in a folder of games or of
+/// such folders, or the corpus games for `corpus`.
 pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     let path = Path::new(name);
     let found = paths::metadata(path)?;
@@ -173,8 +173,9 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Returns `true` if new games can be created at `place`. That is so if nothing exists there, or a folder that contains no game
-/// and no visible folders. A name with an extension counts as a file, and the name of a corpus game as a game.
+/// Returns `true` if new games can be created at `place`. The path must not exist, or must be a folder
+/// without games and visible subfolders. A name with an extension counts as a file, and the name of a corpus
+/// game counts as a game.
 pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
     let Some(found) = paths::metadata(place)? else {
         let is_known = embedded::corpus()?.find(&place.to_string_lossy()).is_some();
@@ -188,7 +189,7 @@ pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
     Ok(!sorted_entries(place)?.iter().any(|path| path.is_dir() && !is_hidden(path)))
 }
 
-/// Returns the game or path of which `place`, which does not exist, may be a misspelling.
+/// Returns the game or path for which the nonexistent `place` may be a misspelling.
 pub(crate) fn nearest_place(place: &Path) -> Result<Option<String>, Failure> {
     let corpus = embedded::corpus()?;
     let names = corpus.games.iter().map(|game| game.name.as_str());
@@ -201,8 +202,9 @@ fn has_whole_game(input: &GameInput) -> bool {
     stem.is_some_and(|stem| stem.eq_ignore_ascii_case("game"))
 }
 
-/// Finds the games in a list of arguments. A level selects itself for its game: it can be followed by more levels of that game,
-/// or by the game. A number, or a level without a game beside it, belongs to the game before it.
+/// Finds the games in a list of arguments. A level selects itself within its game. It can be followed by more
+/// levels of that game, or by the game. A number, or a level without a game beside it, belongs to the
+/// preceding game.
 pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
     let mut games: Vec<GameInput> = Vec::new();
     for name in names {
@@ -234,7 +236,8 @@ pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Returns a failure with advice for a folder without a game: it may be a release, whose games are in subfolders.
+/// Returns a failure with advice for a folder without a game. The folder may be a release, whose games are in
+/// subfolders.
 fn no_game_in(folder: &Path) -> Failure {
     let name = folder.in_message();
     let below = folder.join("games");
@@ -253,7 +256,7 @@ fn no_game_in(folder: &Path) -> Failure {
     }
 }
 
-/// Finds the path in the same folder with the most similar name, for typing errors.
+/// Finds the path with the most similar name in the same folder, for typing errors.
 fn nearest_sibling(path: &Path) -> Option<String> {
     let folder = path.parent()?;
     let wanted = path.file_name()?.to_string_lossy();
@@ -284,7 +287,7 @@ fn games_in(folder: &Path) -> Result<Vec<GameInput>, Failure> {
     games.into_iter().map(input).collect()
 }
 
-/// Reads the file of a game and rejects a level.
+/// Reads a game file, and rejects level files.
 fn game_text(path: &Path) -> Result<String, Failure> {
     let text = read_text(path, MAX_SOURCE)?;
     if is_level(&text) {

@@ -1,13 +1,13 @@
-//! Texts and folders that the user specifies.
+//! Texts and folders specified by the user.
 
 use crate::failure::Failure;
 use base::MessagePath;
 use std::path::{Path, PathBuf};
 
-/// The first bytes of a release's archive.
+/// The first bytes of a release archive.
 pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
-/// Reads a text file of up to `limit` bytes, and never reads more than that.
+/// Reads a text file of up to `limit` bytes, without ever reading more.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.in_message();
     let read = disk::read_start(path, limit as u64 + 1);
@@ -29,7 +29,7 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     })
 }
 
-/// Returns the folder of a file.
+/// Returns a file's folder.
 pub(super) fn folder_of(path: &Path) -> &Path {
     let folder = path.parent().unwrap_or(Path::new("."));
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
@@ -42,7 +42,7 @@ pub(super) fn file_names(folder: &Path) -> Result<Vec<String>, Failure> {
     Ok(named.filter_map(|path| Some(path.file_name()?.to_str()?.to_owned())).collect())
 }
 
-/// Returns the entries of a folder, sorted by name.
+/// Returns a folder's entries, sorted by name.
 pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => {
@@ -58,7 +58,7 @@ pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(paths)
 }
 
-/// Returns `true` if a text looks like a level: rows of equal width, and nothing that only games contain.
+/// Returns `true` if a text looks like a level: rows of equal width, without text that occurs only in games.
 pub(super) fn is_level(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}').trim_end_matches(['\n', '\r']).replace("\r\n", "\n");
     let rows: Vec<&str> = text.split(['\n', '\r']).map(str::trim_end).collect();
@@ -74,7 +74,7 @@ pub(super) fn is_level(text: &str) -> bool {
     rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(is_vgdl)
 }
 
-/// Returns `true` if a text is certainly a game: it has two of the sections, each on its own line.
+/// Returns `true` if a text is definitely a game: two of the sections are present, each on its own line.
 pub(super) fn is_game(text: &str) -> bool {
     let sections = ["SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
     text.split(['\n', '\r']).filter(|line| sections.contains(&line.trim())).count() > 1

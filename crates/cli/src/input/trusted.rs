@@ -1,4 +1,4 @@
-//! Keys that the user specifies, and the check of a release's signatures that several subcommands share.
+//! Keys specified by the user, and the check of a release's signatures, which several subcommands share.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -14,10 +14,10 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use trust::{Anchor, MAX_KEY_FILE, SecretKey, Signatures, Signed, TrustError, is_encrypted, read_bounded};
 
-/// The path of the signatures' folder in a release.
+/// The path to a release's signatures folder.
 pub(crate) const SIGNATURES: &str = "papers/signatures";
 
-/// The maximum size of a file that contains a set of keys, in bytes.
+/// The maximum size of a key set file, in bytes.
 const MAX_ANCHOR: u64 = 1 << 16;
 
 /// The key on which trust in a release's root is based.
@@ -37,12 +37,12 @@ impl TrustArgs {
         self.key.is_none()
     }
 
-    /// Reads the key, if a key was given, so that a bad key is reported before the work starts.
+    /// Reads the key, if any, so that an invalid key is reported before the work starts.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         self.key.as_deref().map_or(Ok(()), |file| anchor(file).map(drop))
     }
 
-    /// Judges whether a release and its lock file are signed. Returns `None` if no key was given.
+    /// Judges whether a release and its lock file are signed as required. Returns `None` if no key was given.
     pub(crate) fn judge_release(&self, place: &Path, of: &Verification) -> Result<Option<Signed>, Failure> {
         let Some(mut signed) = self.judge(place, &of.name, &of.root)? else { return Ok(None) };
         let lockfile = of.manifest.lockfile;
@@ -55,7 +55,7 @@ impl TrustArgs {
         Ok(Some(signed))
     }
 
-    /// Judges whether a release's root is signed. Returns `None` if no key was given.
+    /// Judges whether a release's root is signed as required. Returns `None` if no key was given.
     pub(crate) fn judge(&self, place: &Path, name: &str, root: &Digest) -> Result<Option<Signed>, Failure> {
         let Some(file) = &self.key else { return Ok(None) };
         let anchor = anchor(file)?;
@@ -93,14 +93,14 @@ pub(crate) struct OriginArgs {
     trust: TrustArgs,
 }
 
-/// The checks of a release's root, for the record.
+/// The checks made on a release's root, for the record.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Origin {
-    /// The root of the release.
+    /// The release's root.
     pub(crate) root: Digest,
     /// `true` if the root was compared with a root from another source.
     pub(crate) root_compared: bool,
-    /// The result of checking the signatures; `None` if they were not checked.
+    /// The result of checking the signatures, or `None` if they were not checked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) signed: Option<Signed>,
 }
@@ -111,7 +111,7 @@ impl OriginArgs {
         self.root.is_none() && self.trust.key.is_none()
     }
 
-    /// Checks the root of a release. Returns the checks made, or the problems found.
+    /// Checks a release's root. Returns the checks made, or the problems found.
     pub(crate) fn check(
         &self,
         place: &Path,
@@ -129,7 +129,7 @@ impl OriginArgs {
     }
 }
 
-/// Reports the problems with a root as the answer of a subcommand.
+/// Reports the problems with a root as the subcommand's answer.
 pub(crate) fn refuse(problems: &[String], console: &Console) -> Answer {
     console.document(&json!({ "problems": problems }))?;
     problems.iter().for_each(|problem| console.say(problem));
@@ -137,7 +137,7 @@ pub(crate) fn refuse(problems: &[String], console: &Console) -> Answer {
     Ok(false)
 }
 
-/// Parses a digest from the user, in lower or upper case.
+/// Parses a user-supplied digest, in lower or upper case.
 pub(crate) fn digest(text: &str) -> Result<Digest, String> {
     text.to_ascii_lowercase().parse::<Digest>().map_err(|error| error.to_string())
 }
@@ -152,12 +152,12 @@ pub(crate) fn signatures_of(release: &Path) -> PathBuf {
     release.with_file_name(format!("{}.signatures", name.strip_suffix(".tar").unwrap_or(name)))
 }
 
-/// Reads a public key or a set of keys.
+/// Reads a public key or a key set.
 pub(crate) fn anchor(file: &Path) -> Result<Anchor, Failure> {
     Ok(Anchor::parse(&read_bounded(file, MAX_ANCHOR)?, &file.in_message().to_string())?)
 }
 
-/// Returns the sentence that reports valid signatures.
+/// Returns the sentence for valid signatures.
 pub(crate) fn sentence(signed: &Signed) -> String {
     let keys = signed.keys.map_or(String::new(), |version| format!("; newest set of keys: {version}"));
     let commit = signed.commit.as_ref().map_or(String::new(), |commit| format!("; sources: commit {commit}"));
@@ -182,7 +182,7 @@ impl SecretArgs {
     }
 }
 
-/// Warns about a secret that other users of the machine can read.
+/// Warns about a secret that other users on the machine can read.
 pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
     if disk::is_readable_by_others(file) {
         let place = shell::quoted(file);
@@ -204,7 +204,7 @@ pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<S
     SecretKey::open(&text, password.as_deref()).map_err(named)
 }
 
-/// Reads a password, which is the first line of a file, or hidden input on the terminal.
+/// Reads a password: the first line of a file, or hidden input on the terminal.
 pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Failure> {
     if let Some(file) = file {
         let Ok(text) = String::from_utf8(read_bounded(file, MAX_KEY_FILE)?) else {
@@ -223,7 +223,7 @@ pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Fail
     })
 }
 
-/// Ensures that the terminal shows typed text again if Ctrl-C ends the program at the password prompt.
+/// Ensures that the terminal echoes input again if Ctrl-C ends the program at the password prompt.
 #[cfg(unix)]
 fn keep_echo() {
     use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
@@ -243,8 +243,8 @@ fn keep_echo() {
 #[cfg(not(unix))]
 fn keep_echo() {}
 
-/// Converts the error. A missing or malformed file is a malformed question, and a disk failure is a failure of the
-/// environment.
+/// Converts the error. A missing or malformed file is a malformed question, and a disk failure is an
+/// environment failure.
 impl From<TrustError> for Failure {
     fn from(error: TrustError) -> Failure {
         match error {

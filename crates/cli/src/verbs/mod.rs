@@ -1,4 +1,5 @@
-//! The subcommands, each in its own file or folder: flags, behaviour and output. The folders are the groups of the help.
+//! The subcommands, each in its own file or folder: flags, behaviour and output. The folders correspond to
+//! the help groups.
 
 pub(crate) mod games;
 pub(crate) mod players;

@@ -8,23 +8,23 @@ use regex::{Captures, Regex};
 use std::ops::Range;
 use std::sync::LazyLock;
 
-/// The number of trailing lines that are searched for an action stated without the word "action".
+/// The number of trailing lines searched for an action without the word "action".
 const LAST_LINES: usize = 5;
 
-/// The maximum number of bytes of a line to examine.
+/// The maximum number of bytes to examine per line.
 pub(super) const MAX_SCANNED: usize = 400;
 
 /// The maximum number of decisions to examine, counted from the end of the answer.
 const DECISIONS: usize = 100;
 
-/// The start of a marked decision: a tag, a box, or a word with a sign after it.
+/// The start of a marked decision: a tag, a box, or a word followed by a punctuation mark.
 static MARK: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)<\|?(?P<tag>(?:final[_ ]?)?(?:answer|action|move|choice|decision))\|?>|(?P<box>\\boxed\{)|(?-u:\b)(?P<key>(?:[a-z]{1,12}_)?actions?|(?:[a-z]{1,12}_)?(?:answer|move|choice|decision))(?P<quote>["']?)[*`_\])]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒)"#,
     )
 });
 
-/// A value of JSON: a string, a list or an object.
+/// A JSON value: a string, a list or an object.
 static VALUE: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"^[ \t]*(?:"(?P<double>[^"\n]*)|'(?P<single>[^'\n]*)|\[(?P<list>[^\]]*)|\{(?P<object>[^}]*)|(?P<bare>[^,}\n]*))"#,
@@ -48,7 +48,7 @@ static ALONE: LazyLock<Regex> = LazyLock::new(|| {
     )
 });
 
-/// A direction in the words of a player about to go there.
+/// A direction in a player's statement of its next move.
 static STATED: LazyLock<Regex> = LazyLock::new(|| {
     let verbs = "go|going|move|moving|step|walk|turn|head|press|choose|select|play|try|shoot|face|push";
     let between = "to|the|towards|toward|one|step|cell|action|key|arrow|straight";
@@ -88,7 +88,7 @@ impl Kind {
     }
 }
 
-/// A decision and its position in the answer.
+/// A decision, with its position in the answer.
 #[derive(Clone, Copy, Debug)]
 struct Decision<'a> {
     found: Found<'a>,
@@ -98,8 +98,8 @@ struct Decision<'a> {
     kind: Kind,
 }
 
-/// Reads a normalised answer that does not follow the requested format. Marked decisions are read first. The
-/// text after the last marked decision is read next, or the whole answer if there are no marked decisions.
+/// Reads a normalised answer that does not follow the requested format. Reads the marked decisions first, and
+/// then the text after the last marked decision. If no decision is marked, reads the entire answer.
 pub(super) fn read<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)> {
     let places: Vec<usize> = MARK.find_iter(said).map(|found| found.start()).collect();
     let marks = &places[places.len().saturating_sub(DECISIONS)..];
@@ -137,7 +137,7 @@ impl<'a> Decision<'a> {
     }
 }
 
-/// Reads the decision that follows a mark. Returns `None` if no decision follows.
+/// Reads the decision after a mark. Returns `None` if the mark is not followed by a decision.
 fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Option<Decision<'a>> {
     let whole = mark.get(0)?;
     let name = mark.name("tag").or(mark.name("key")).map_or("", |name| name.as_str()).to_ascii_lowercase();
@@ -196,7 +196,7 @@ fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Optio
     }
 }
 
-/// Reads a JSON object that stands for an action: `{"name": "left"}`.
+/// Reads a JSON object that represents an action, such as `{"name": "left"}`.
 fn in_object(text: &str) -> Phrase<'_> {
     let mut named = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter_map(action_of);
     match named.next() {
@@ -208,12 +208,12 @@ fn in_object(text: &str) -> Phrase<'_> {
     }
 }
 
-/// Reads a tag that spans several lines. The decision may be on a line with its own mark.
+/// Reads a tag that spans several lines. The decision may be on a line that is itself marked.
 fn in_several_lines(text: &str) -> Phrase<'_> {
     if phrase::names_other(text, None) { Phrase::Unclear } else { Phrase::Empty }
 }
 
-/// Reads the action at `word`, which has no mark before it. The decision starts at `at`.
+/// Reads the action at `word`, which is not preceded by a mark. The decision starts at `at`.
 fn unmarked<'a>(
     said: &'a str,
     at: usize,
@@ -236,7 +236,7 @@ fn unmarked<'a>(
     Some(Decision { found, at, end: word.end, kind: Kind::Word })
 }
 
-/// Returns an action that the last lines state without the word "action".
+/// Returns an action stated in the last lines without the word "action".
 fn words<'a>(said: &'a str, from: usize) -> Option<Decision<'a>> {
     let from = from.max(last_lines(said));
     let tail = &said[from..];
@@ -296,7 +296,7 @@ fn last_lines(said: &str) -> usize {
     starts.iter().rev().filter(is_full).take(LAST_LINES).last().copied().unwrap_or(from)
 }
 
-/// Returns the part of a line before `at`, cut to [`MAX_SCANNED`] bytes.
+/// Returns the part of a line before `at`, truncated to [`MAX_SCANNED`] bytes.
 pub(super) fn line_before(said: &str, at: usize) -> &str {
     let from = boundary(said, at.saturating_sub(MAX_SCANNED));
     let near = &said[from..at];

@@ -1,10 +1,10 @@
-//! Reads actions from the answers of players.
+//! Reads actions from players' answers.
 //!
 //! The requested format is strict. This module defines the format for a single action, and `plan.rs` defines
 //! the format for several actions. The rules in `decisions.rs` read an answer in any other format, and the
-//! log records the rule that applied. No rule guesses. The last decision in an answer counts. A decision is
-//! invalid if it negates its action, judges it or states a second action. A number is an action only directly
-//! after the word "action". The test vectors are those of `spec/06` §1.5.
+//! log records which rule applied. None of the rules guess. The last decision in an answer counts. A decision
+//! is invalid if it negates its action, judges it or states a second action. A number is an action only
+//! directly after the word "action". The test vectors come from `spec/06` §1.5.
 
 mod decisions;
 mod phrase;
@@ -19,7 +19,7 @@ use engine::Action;
 use regex::Regex;
 use std::sync::LazyLock;
 
-/// The maximum number of characters quoted from an answer that is not understood.
+/// The maximum number of characters quoted from an unreadable answer.
 const QUOTED: usize = 40;
 
 /// The answer format that a prompt requests.
@@ -27,12 +27,13 @@ const QUOTED: usize = 40;
 pub enum Format {
     /// The last line is `ACTION: left`.
     Word,
-    /// Some line is `Action:2`, where 2 is the action's number in the list. The last such line counts.
+    /// At least one line is `Action:2`, where 2 is the action's number in the list. The last such line
+    /// counts.
     Number,
 }
 
 base::named_enum! {
-    /// The rule that read an answer that does not follow the format.
+    /// The rule that read an answer in a format other than the requested one.
     pub enum Stage {
         /// `"action": "left"`, as in JSON.
         Json = "json",
@@ -41,7 +42,7 @@ base::named_enum! {
         /// A word such as "action" or "final answer", directly followed by an action, such as
         /// `**Action:** left` or `action 2`.
         Marker = "marker",
-        /// A word such as "action", followed by other words and an action, such as `Action: I move left`.
+        /// A word such as "action", followed by more words and then an action, such as `Action: I move left`.
         Line = "line",
         /// The reference's spelling, `ACTION_LEFT`.
         Reference = "reference",
@@ -62,7 +63,7 @@ pub enum Reading<T = Action> {
         /// The rule that found the choice.
         stage: Stage,
     },
-    /// The answer states no choice, or an impossible choice.
+    /// The answer states no choice, or an unavailable one.
     Invalid {
         /// The reason, as a clause whose subject is the answer, such as `it names no action`.
         why: String,
@@ -70,7 +71,7 @@ pub enum Reading<T = Action> {
 }
 
 impl<T> Reading<T> {
-    /// Returns the choice that the answer states, if there is one.
+    /// Returns the choice that the answer states, if any.
     pub fn choice(self) -> Option<T> {
         match self {
             Reading::Strict(choice) | Reading::Tolerant { choice, .. } => Some(choice),
@@ -78,7 +79,7 @@ impl<T> Reading<T> {
         }
     }
 
-    /// Converts the choice with a function, and keeps how it was read.
+    /// Converts the choice with a function, and preserves how the choice was read.
     pub fn map<U>(self, convert: impl FnOnce(T) -> U) -> Reading<U> {
         match self {
             Reading::Strict(choice) => Reading::Strict(convert(choice)),
@@ -88,10 +89,10 @@ impl<T> Reading<T> {
     }
 }
 
-/// The choice that an answer seems to state.
+/// The choice that an answer appears to state.
 enum Chosen<'a> {
     Action(Action),
-    /// A word or number that stands for no known action.
+    /// A word or number that does not match any known action.
     Unknown(&'a str),
     /// More than one action.
     Several,
@@ -108,8 +109,8 @@ impl Chosen<'_> {
     }
 }
 
-/// Reads an answer. `listed` holds the actions in the order of their numbers, from 0. `offered` holds the
-/// actions that can be chosen now. The last decision counts. If its action is not among `offered`, no earlier
+/// Reads an answer. `listed` contains the actions in numerical order, starting at 0. `offered` contains the
+/// currently available actions. The last decision counts. If its action is not among `offered`, no earlier
 /// decision replaces it. Cost: O(bytes).
 pub fn read(text: &str, format: Format, listed: &[Action], offered: &[Action]) -> Reading {
     let said = without_reasoning(text).trim();
@@ -161,8 +162,8 @@ fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen
     .map(Chosen::Action)
 }
 
-/// Returns the action with a given name. The name may be the reference engine's, or a synonym for doing
-/// nothing.
+/// Returns the action with the given name. The name may be the reference engine's name, or a synonym for
+/// doing nothing.
 fn action_of(word: &str) -> Option<Action> {
     let word = word.to_ascii_lowercase();
     let word = word.strip_prefix("action_").unwrap_or(&word);
@@ -186,7 +187,7 @@ fn is_number(word: &str) -> bool {
     word.starts_with(|c: char| c.is_ascii_digit())
 }
 
-/// Returns the first [`QUOTED`] characters of a word, for use in a message.
+/// Returns the first [`QUOTED`] characters of a word, for error messages.
 fn quoted(word: &str) -> String {
     word.chars().take(QUOTED).collect()
 }
@@ -197,7 +198,7 @@ mod tests {
     use Action::{Down, Left, Nil, Right, Up, Use};
     use proptest::prelude::*;
 
-    /// The numbering of `spec/06` §1.5.
+    /// The action numbers used in `spec/06` §1.5.
     const LISTED: [Action; 6] = [Nil, Use, Left, Right, Down, Up];
 
     fn check(text: &str, expect: &str) {
@@ -471,7 +472,8 @@ mod tests {
             prop_assert_eq!(read(&text, Format::Word, &LISTED, &LISTED), Reading::Strict(action));
         }
 
-        /// An answer that states two actions has no choice, however the actions are joined and marked.
+        /// An answer that states two actions yields no choice, regardless of how the actions are joined or
+        /// marked.
         #[test]
         fn two_choices_are_none(one in 0_usize..6, other in 0_usize..6, join in 0_usize..12, frame in 0_usize..10) {
             const JOINS: [&str; 12] =

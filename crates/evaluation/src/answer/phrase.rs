@@ -1,6 +1,6 @@
 //! Reads the phrase after the word "action", in a tag or in a JSON value. A phrase consists of words that
-//! lead to an action, the action, and an end or an explanation. A phrase with any other word is not
-//! understood, so that nothing is guessed.
+//! lead to an action, the action, and an end or an explanation. A phrase with any other word is rejected, so
+//! that the parser never guesses.
 
 use super::{action_of, pattern};
 use engine::Action;
@@ -12,19 +12,19 @@ use std::sync::LazyLock;
 pub(super) enum Phrase<'a> {
     Plain {
         choice: Action,
-        /// `true` if words lead to the action, as in `move left`.
+        /// `true` if other words precede the action, as in `move left`.
         is_led: bool,
     },
     /// The phrase states several actions.
     Several,
-    /// The phrase states an action, but negates it, judges it, or makes some other statement about it.
+    /// The phrase states an action, but negates it, judges it, or makes another statement about the action.
     Unclear,
-    /// The phrase begins with this word or number, and states no action.
+    /// The phrase begins with this word or number, and does not state an action.
     Unknown(&'a str),
     Empty,
 }
 
-/// The effect of the words around a phrase on its action.
+/// The effect of a phrase's surrounding words on its action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Context {
     Free,
@@ -127,13 +127,13 @@ const AFTER: [&str; 10] =
 /// Words that begin a reason.
 const REASONS: [&str; 7] = ["because", "since", "as", "so", "to", "toward", "towards"];
 
-/// Words that begin the rest of a sentence.
+/// Words that begin a continuation of the sentence.
 const PREPOSITIONS: [&str; 20] = [
     "for", "in", "into", "onto", "through", "past", "along", "around", "at", "on", "by", "from", "with",
     "until", "over", "off", "out", "via", "across", "and",
 ];
 
-/// Words that add an alternative or a second action.
+/// Words that introduce an alternative or a second action.
 const JOINS: [&str; 13] = [
     "or",
     "and",
@@ -222,19 +222,19 @@ pub(super) fn names_other(text: &str, choice: Option<Action>) -> bool {
     named.any(|action| choice != Some(action))
 }
 
-/// Returns `true` if a text retracts the action before it.
+/// Returns `true` if a text retracts the preceding action.
 pub(super) fn retracts(text: &str) -> bool {
     retracts_plan(text) || SECOND_THOUGHT.is_match(text)
 }
 
-/// Returns `true` if a text retracts the plan before it. `wait` alone does not retract a plan, because it can
+/// Returns `true` if a text retracts the preceding plan. `wait` alone does not retract a plan, because it can
 /// be one of the plan's actions.
 pub(super) fn retracts_plan(text: &str) -> bool {
     RETRACTION.is_match(text)
 }
 
-/// Reads a phrase. `listed` holds the actions that numbers stand for. It is `None` if a number cannot be a
-/// choice in this phrase.
+/// Reads a phrase. `listed` maps numbers to actions. `listed` is `None` if a number cannot be a choice in
+/// this phrase.
 pub(super) fn read<'a>(text: &'a str, listed: Option<&[Action]>) -> Phrase<'a> {
     let (mut unknown, mut is_led, mut is_minus) = (None, false, false);
     for token in TOKEN.captures_iter(text) {
@@ -294,7 +294,8 @@ fn is_whole(rest: &str) -> bool {
     !(goes_on && signs.as_str().trim_start().starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// Checks the text after an action, up to the end of the line. Returns `None` if it does not change the choice.
+/// Checks the text between an action and the end of the line. Returns `None` if the text does not change the
+/// choice.
 pub(super) fn tail<'a>(rest: &str, choice: Action) -> Option<Phrase<'a>> {
     let flaw = || if names_other(rest, Some(choice)) { Phrase::Several } else { Phrase::Unclear };
     for token in TOKEN.captures_iter(rest) {
@@ -340,7 +341,7 @@ fn reason<'a>(after: &str, choice: Action) -> Option<Phrase<'a>> {
     }
 }
 
-/// Checks the text after a punctuation mark, which is a separate sentence or the rest of the same sentence.
+/// Checks the text after a punctuation mark: a separate sentence, or the rest of the same sentence.
 fn explanation<'a>(text: &str, choice: Action, is_sentence: bool) -> Option<Phrase<'a>> {
     let flaw = || if names_other(text, Some(choice)) { Phrase::Several } else { Phrase::Unclear };
     let first = words(text).next()?;
@@ -354,14 +355,14 @@ fn explanation<'a>(text: &str, choice: Action, is_sentence: bool) -> Option<Phra
     (!is_sentence && !REASONS.contains(&first) && is_denied(text, choice)).then(flaw)
 }
 
-/// Returns `true` if the clause at the start of a text negates something, or states a different action.
+/// Returns `true` if the first clause of a text negates something, or states a different action.
 fn is_denied(text: &str, choice: Action) -> bool {
     let clause = text.split(['.', ';', '!', '?']).next().unwrap_or_default();
     names_other(clause, Some(choice))
         || words(clause).any(|word| is_negation(&word) || JUDGING.contains(&&*word))
 }
 
-/// Returns the context of the text that starts at the end of `before`.
+/// Returns the context of the text that follows `before`.
 pub(super) fn context(before: &str) -> Context {
     let clause = clause(before);
     let mut context = Context::Free;
@@ -376,8 +377,8 @@ pub(super) fn context(before: &str) -> Context {
     context
 }
 
-/// Returns `true` if the clause at the end of `before` leads to an action of the player. `So I will` does,
-/// and `the ghost will` does not.
+/// Returns `true` if the last clause of `before` leads to an action of the player. `So I will` does, and `the
+/// ghost will` does not.
 pub(super) fn leads(before: &str) -> bool {
     let words: Vec<String> = words(clause(before)).collect();
     let person = words.iter().rposition(|word| {

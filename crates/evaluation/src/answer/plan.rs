@@ -1,4 +1,4 @@
-//! Reads plans, which consist of several actions, from the answers of players.
+//! Reads plans (sequences of actions) from players' answers.
 
 use super::decisions::{MAX_SCANNED, line_before};
 use super::phrase::{self, Context};
@@ -11,10 +11,10 @@ use std::sync::LazyLock;
 /// The maximum number of markers to examine, counted from the end of the answer.
 const MARKERS: usize = 100;
 
-/// A plan in the requested format, on a line by itself.
+/// A plan in the requested format, on its own line.
 static PLAN_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^PLAN:[ \t]*(\S.*)$"));
 
-/// An item of a plan in the requested format, with an action and its number of repetitions.
+/// An item in the requested plan format: an action and its repeat count.
 static ITEM: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^([a-z]+)(?:[ \t]+x[ \t]?([0-9]{1,9}))?$"));
 
 /// The start of a plan: a tag, a box, or a word such as "plan" or "actions" with a punctuation mark.
@@ -24,16 +24,16 @@ static MARKER: LazyLock<Regex> = LazyLock::new(|| {
     )
 });
 
-/// A part of a list: a count, an item's number, a word, a line break, or any other sign.
+/// A part of a list: a count, an item's number, a word, a line break, or any other symbol.
 static PART: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r"(?i)(?P<count>[ \t]*(?:(?-u:\b)x|[×*])[ \t]?(?P<times>[0-9]{1,9})(?-u:\b))|(?P<number>[0-9]+[.)][ \t])|(?P<word>[a-z0-9_]+)|(?P<line>\n)|(?P<end><[/|])|(?P<sign>[,;<>\[\](){}\\`*\x22' \t\r.\-→⇒+&]|(?P<other>[^\n]))",
     )
 });
 
-/// Reads a plan of at most `due` actions, and drops any further actions. `listed` holds the actions of the
-/// game. The last plan in the answer counts. A plan with a word that is not an action is unusable, and no
-/// earlier plan replaces it. Cost: O(bytes + due).
+/// Reads a plan, truncated to `due` actions. `listed` contains the game's actions. The last plan in the
+/// answer counts. A plan that contains a non-action word is unusable, and no earlier plan replaces it. Cost:
+/// O(bytes + due).
 pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>> {
     let said = without_reasoning(text).trim();
     if said.is_empty() {
@@ -113,15 +113,15 @@ fn strict(said: &str, due: u64, listed: &[Action]) -> Option<Vec<Action>> {
     Some(plan)
 }
 
-/// The beginning of a text, interpreted as a list of actions.
+/// The beginning of a text, parsed as a list of actions.
 enum List<'a> {
     Plan(Vec<Action>),
-    /// A word that is not an action, in the first line or after an action on the same line.
+    /// A non-action word, in the first line or after an action on the same line.
     Unknown(&'a str),
     None,
 }
 
-/// Reads a list of actions up to the first line that is not part of it.
+/// Reads a list of actions up to the first line outside the list.
 fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
     let (mut plan, mut last, mut is_line_begun, mut is_known) = (Vec::new(), None, false, false);
     for part in PART.captures_iter(text) {
@@ -162,8 +162,8 @@ mod tests {
 
     const LISTED: [Action; 6] = [Nil, Up, Left, Down, Right, Use];
 
-    /// Checks the reading of an answer when 6 actions are due. `expect` holds the initials of the expected
-    /// actions and the rule that must read them.
+    /// Checks the reading of an answer when 6 actions are due. `expect` states the initials of the expected
+    /// actions, and the rule that must read the answer.
     #[track_caller]
     fn check(text: &str, expect: &str) {
         let initials = |plan: &[Action]| {
@@ -268,7 +268,7 @@ mod tests {
     }
 
     proptest! {
-        /// No text is read as more actions than are due, and no text causes a panic.
+        /// No text yields more actions than are due, and no text causes a panic.
         #[test]
         fn plans_are_no_longer_than_due(text in "(PLAN|plan|:|,| |\n|x|[0-9]{1,10}|right|up|left|jump|\\PC){0,40}", due in 1..9_u64) {
             if let Reading::Strict(plan) | Reading::Tolerant { choice: plan, .. } = read_plan(&text, due, &LISTED) {

@@ -1,15 +1,14 @@
-//! Normalises the text of an answer. The normalisation removes the reasoning, and replaces all variants of a
-//! sign with the same spelling.
+//! Normalises an answer's text: removes the reasoning, and maps all variants of a symbol to one spelling.
 
 use super::pattern;
 use regex::Regex;
 use std::sync::LazyLock;
 
-/// The names of the tags that models put around their reasoning.
+/// The tag names that models use for their reasoning.
 const REASONING: &str =
     "(?:seed:)?(?:think|thinking|thought|thoughts|reasoning|analysis|scratchpad|reflection)";
 
-/// The end of reasoning: a closing tag, or the channel in which gpt-oss answers.
+/// The end of the reasoning: a closing tag, or the marker of the channel in which gpt-oss answers.
 static CLOSING: LazyLock<Regex> = LazyLock::new(|| {
     pattern(&format!(
         r"(?i)</{REASONING}>|\[/think\]|◁/think▷|<\|end_thinking\|>|<\|end_of_thought\|>|<\|channel\|>final[^<\n]{{0,40}}<\|message\|>"
@@ -26,7 +25,7 @@ static OPENING: LazyLock<Regex> = LazyLock::new(|| {
 static LATEX: LazyLock<Regex> =
     LazyLock::new(|| pattern(r"\\(?:text(?:bf|tt|it|rm)?|math(?:bf|tt|it|rm))\{"));
 
-/// Returns the answer without its reasoning. Drops the text up to the last closing tag and the text after an
+/// Returns an answer without its reasoning. Drops all text before the last closing tag, and all text after an
 /// unclosed opening tag. Cost: O(bytes).
 pub fn without_reasoning(text: &str) -> &str {
     let end = CLOSING.find_iter(text).last().map_or(0, |tag| tag.end());
@@ -34,7 +33,8 @@ pub fn without_reasoning(text: &str) -> &str {
     OPENING.find(rest).map_or(rest, |tag| &rest[..tag.start()])
 }
 
-/// Returns the text with ASCII spaces, quotation marks and full-width signs, and without zero-width characters.
+/// Returns the text without zero-width characters, and with spaces, quotation marks and full-width characters
+/// converted to ASCII.
 pub(super) fn folded(text: &str) -> String {
     let fold = |c: char| {
         Some(match c {

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A folder of cached answers, which several programs may use at once. The folder must be trusted, because a
-/// forged entry cannot be distinguished from a server's answer.
+/// A folder of cached answers that several programs may use concurrently. The folder must be trusted, because
+/// a forged entry is indistinguishable from a server's answer.
 #[derive(Debug)]
 pub(super) struct Cache {
     folder: PathBuf,
@@ -23,20 +23,20 @@ const MAX_ENTRY: u64 = 16 << 20;
 #[serde(deny_unknown_fields)]
 struct Entry {
     key: Digest,
-    /// The digest of the reply's JSON, which detects damage.
+    /// The digest of the reply's JSON, used to detect corruption.
     check: Digest,
     reply: ChatReply,
 }
 
-/// Returns the cache key of a request.
+/// Returns a request's cache key.
 ///
 /// The key covers everything that reaches the server: the provider, the URL, and every byte of the body,
 /// including the model, the conversation and the decoding. A client that formats a request differently gets a
 /// different key.
 ///
 /// The key also covers the draw ([`ChatRequest::sample`]). At a nonzero temperature, equal requests need
-/// different answers, but a repeated run must get the same answers. At temperature 0, all draws share one
-/// answer.
+/// different answers, but a repeated run must receive the same answers as before. At temperature 0, all draws
+/// share one answer.
 ///
 /// The key does not cover the API key, time limits and caps, which do not affect answers.
 pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequest) -> Digest {
@@ -54,7 +54,7 @@ pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequ
 }
 
 impl Cache {
-    /// Opens the cache in a folder, and creates the folder if it does not exist.
+    /// Opens a cache folder, and creates the folder if it does not exist.
     ///
     /// # Errors
     /// Returns an error if the folder cannot be written.
@@ -65,7 +65,7 @@ impl Cache {
         Ok(cache)
     }
 
-    /// Returns the cached answer for a key, if it is present and intact.
+    /// Returns the cached answer for a key, if present and intact.
     pub(super) fn get(&self, key: Digest) -> Option<ChatReply> {
         let bytes = disk::read_no_follow(&self.path(key), MAX_ENTRY).ok()??;
         let entry: Entry = serde_json::from_slice(&bytes).ok()?;
@@ -84,8 +84,8 @@ impl Cache {
         }
     }
 
-    /// Returns the path of an entry. Entries are spread over folders by the first two digits of their keys,
-    /// because a cache may hold a million entries.
+    /// Returns an entry's path. Entries are spread over folders by the first two digits of their keys,
+    /// because a cache may contain a million entries.
     fn path(&self, key: Digest) -> PathBuf {
         let name = key.to_string();
         self.folder.join(&name[..2]).join(format!("{name}.json"))

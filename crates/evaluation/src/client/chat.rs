@@ -1,48 +1,49 @@
-//! Requests to a model, and the answers of the model.
+//! Model requests and model answers.
 
 use base::Seed;
 use serde::{Deserialize, Serialize};
 
 /// A language model that answers chats.
 pub trait Model: Sync + Send {
-    /// Requests one answer. Retries after transient failures, and returns the failure of each try.
+    /// Requests one answer. Retries after transient failures, and returns the failure of every try.
     ///
     /// # Errors
-    /// Returns an error if no answer could be obtained. See [`ChatErrorKind`] for the causes.
+    /// Returns an error if no answer could be obtained. [`ChatErrorKind`] lists the causes.
     fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError>;
 }
 
 /// A request to a model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChatRequest {
-    /// The conversation, oldest message first. An optional system message is followed by alternating messages
-    /// of user and assistant.
+    /// The conversation, oldest message first. An optional system message is followed by alternating user and
+    /// assistant messages.
     pub messages: Vec<ChatMessage>,
     /// The sampling settings for the answer.
     pub decoding: Decoding,
-    /// The seed of this draw, which is not sent. Equal requests that need independent answers have different
-    /// seeds, derived from values such as the episode's seed, run, step and attempt. The seed determines the
-    /// jitter of waits. Unless the temperature is 0, it also selects the cached answer.
+    /// The seed of this answer's draw, which is not sent to the provider. Requests with equal content that
+    /// need independent answers use different seeds, derived from values such as the episode's seed, run,
+    /// step and attempt. The seed determines the jitter of waits. Unless the temperature is 0, the seed also
+    /// selects the cached answer.
     pub sample: Seed,
 }
 
-/// A message of a conversation.
+/// A conversation message.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ChatMessage {
-    /// The author of the message.
+    /// The message's author.
     pub role: Role,
-    /// The text of the message.
+    /// The message text.
     pub text: String,
     /// An image that accompanies the text, in PNG format.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<Vec<u8>>,
 }
 
-/// The author of a message.
+/// A message's author.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
-    /// The author of the instructions at the start of a conversation.
+    /// The author of the conversation's initial instructions.
     System,
     /// The client that sends the requests.
     User,
@@ -50,14 +51,14 @@ pub enum Role {
     Assistant,
 }
 
-/// The sampling settings for an answer. A setting of `None` is not sent, so that the provider's default
-/// applies.
+/// The sampling settings for an answer. Settings that are `None` are not sent, so the provider's defaults
+/// apply.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Decoding {
     /// The sampling temperature.
     pub temperature: Option<f64>,
-    /// The probability mass of nucleus sampling.
+    /// The probability mass for nucleus sampling.
     pub top_p: Option<f64>,
     /// The maximum number of tokens in the answer, including reasoning.
     pub max_output_tokens: Option<u32>,
@@ -70,7 +71,7 @@ pub struct Decoding {
 /// A model's answer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChatReply {
-    /// The text of the answer.
+    /// The answer text.
     pub text: String,
     /// The model's reasoning, if the provider returns it.
     pub reasoning: Option<String>,
@@ -78,18 +79,19 @@ pub struct ChatReply {
     pub finish: Finish,
     /// The token counts of the request and its answer.
     pub usage: Usage,
-    /// The name that the provider uses for the model that answered.
+    /// The provider's name for the model that answered.
     pub served_by: Option<String>,
     /// The failed tries before the successful try.
     pub failures: Vec<Failure>,
-    /// The time from the request to the complete answer, in milliseconds, excluding earlier tries and waits.
+    /// The time from sending the request to receiving the complete answer, in milliseconds, excluding earlier
+    /// tries and waits.
     pub latency_ms: f64,
     /// `true` if the answer comes from the cache and cost nothing.
     pub cached: bool,
 }
 
 impl ChatReply {
-    /// Creates an answer that has only a text and a finish reason.
+    /// Creates an answer with only a text and a finish reason.
     pub fn new(text: String, finish: Finish) -> ChatReply {
         ChatReply { text, finish, ..ChatReply::default() }
     }
@@ -105,12 +107,12 @@ pub enum Finish {
     Length,
     /// The model or its provider declined to answer, for example because of a content filter.
     Refusal,
-    /// The provider stated some other reason, or no reason.
+    /// The provider stated a different reason, or no reason.
     #[default]
     Other,
 }
 
-/// The token counts that the provider reports. A count that is not reported is `None`, never 0.
+/// The token counts reported by the provider. An unreported count is `None`, never 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Usage {
     /// The number of tokens in the prompt, including cached tokens.
@@ -127,11 +129,11 @@ pub struct Usage {
     pub reasoning_tokens: Option<u64>,
 }
 
-/// The maximum plausible token count of one request, far above any context window.
+/// The maximum plausible token count for one request, far above any context window.
 const MAX_PLAUSIBLE_TOKENS: u64 = 1 << 40;
 
 impl Usage {
-    /// Removes implausible counts, so that local counts replace them.
+    /// Removes implausible counts, so that local counts are used instead.
     pub(super) fn plausible(self) -> Usage {
         let plausible = |count: Option<u64>| count.filter(|&tokens| tokens <= MAX_PLAUSIBLE_TOKENS);
         Usage {
@@ -144,36 +146,36 @@ impl Usage {
     }
 }
 
-/// A failed try of a request.
+/// A failed try at a request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
-    /// The HTTP status of the reply, if there was a reply.
+    /// The HTTP status of the reply, if any.
     pub status: Option<u16>,
-    /// The error message. It never contains a key, and has at most a few hundred characters.
+    /// The error message. The message never contains a key, and is limited to a few hundred characters.
     pub message: String,
     /// The time waited after the try, in milliseconds.
     pub waited_ms: u64,
 }
 
-/// The error returned if no answer could be obtained.
+/// The error returned when no answer could be obtained.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct ChatError {
     /// The kind of error.
     pub kind: ChatErrorKind,
-    /// The error message, which includes the server and the recommended next step.
+    /// The error message, with the server and the recommended next step.
     pub message: String,
     /// The failures of all tries.
     pub failures: Vec<Failure>,
 }
 
-/// The cause of a missing answer.
+/// The reason for a missing answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ChatErrorKind {
-    /// The network or the server failed in every try.
+    /// Every try failed because of the network or the server.
     Infrastructure,
-    /// A cap on cost, tokens or requests would be exceeded by the request.
+    /// The request would exceed a cap on cost, tokens or requests.
     Budget,
     /// The server rejected the request (400, 401, 403, 404, 422), so a retry would not help.
     Rejected,

@@ -4,24 +4,24 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// A source of time. Tests provide a clock that advances on command.
 pub trait Clock: Send + Sync {
-    /// Returns the time since a fixed moment. The returned time never decreases.
+    /// Returns the time since a fixed moment. Successive results never decrease.
     fn elapsed(&self) -> Duration;
 
-    /// Returns the current date, for comparison with the dates that servers send.
+    /// Returns the current date, for comparison with dates sent by servers.
     fn date(&self) -> SystemTime;
 
     /// Blocks for the given time.
     fn sleep(&self, time: Duration);
 }
 
-/// The clock of this machine.
+/// The machine's system clock.
 #[derive(Debug)]
 pub struct SystemClock {
     start: Instant,
 }
 
 impl SystemClock {
-    /// Creates a clock whose elapsed time starts at zero now.
+    /// Creates a clock that starts at zero.
     #[expect(clippy::disallowed_methods, reason = "waits and latencies are told, and decide no action")]
     pub fn start() -> SystemClock {
         SystemClock { start: Instant::now() }

@@ -1,4 +1,4 @@
-//! Connects to a model with the user's options.
+//! Connects to a model according to the user's options.
 
 use super::cache::Cache;
 use super::chat::{Decoding, Model};
@@ -17,31 +17,31 @@ use base::Digest;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A model that is ready to answer.
+/// A model ready to answer requests.
 pub struct Connection {
-    /// The model, which all threads may share.
+    /// The model, shareable between threads.
     pub model: Box<dyn Model>,
     /// The spending limits and the amounts spent so far.
     pub caps: Arc<Caps>,
-    /// The part of the configuration that is stored with the results.
+    /// The part of the configuration saved with the results.
     pub settings: ModelSettings,
-    /// The price of the model's tokens, if it is known.
+    /// The price of the model's tokens, if known.
     pub price: Option<Price>,
 }
 
-/// The part of the configuration that affects the answers and is stored with the results. Caps, rates, tries
-/// and the cache do not affect answers.
+/// The part of the configuration that affects answers and is stored with the results. Caps, rates, tries and
+/// the cache do not affect answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelSettings {
-    /// The API that the server uses.
+    /// The server's API.
     pub provider: Provider,
-    /// The host of the server, with its port if the URL contains a port.
+    /// The server's host, with the port if the URL contains one.
     pub server: String,
-    /// The name that the server uses for the model.
+    /// The server's name for the model.
     pub model: String,
-    /// The sampling settings for answers, including the settings that the provider requires. All requests
-    /// must use these settings.
+    /// The sampling settings for answers, including the provider's required settings. All requests must use
+    /// these settings.
     pub decoding: Decoding,
 }
 
@@ -52,11 +52,11 @@ impl ModelSettings {
     }
 }
 
-/// Returns the settings for the given options. Opens no connection and needs no key, so that dry runs can
-/// call it.
+/// Returns the settings for the given options. Opens no connection and needs no key, so dry runs can call the
+/// function.
 ///
 /// # Errors
-/// Returns an error if the options are malformed, or use a feature that the provider does not have.
+/// Returns an error if the options are malformed, or use a feature that the provider does not support.
 pub fn settings(options: &ModelOptions) -> Result<ModelSettings, EvaluationError> {
     let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
     let decoding = spec.provider.decoding(&options.decoding)?;
@@ -64,11 +64,11 @@ pub fn settings(options: &ModelOptions) -> Result<ModelSettings, EvaluationError
     Ok(ModelSettings { provider: spec.provider, server: spec.server.host, model: spec.model, decoding })
 }
 
-/// Returns the price of the model's tokens, if a table contains it.
+/// Returns the price of the model's tokens, if listed in a price table.
 ///
 /// # Errors
-/// Returns an error if the options are malformed, the table cannot be used, or a cap on the cost cannot be enforced
-/// because the price is unknown.
+/// Returns an error if the options are malformed, the table cannot be used, or a cap on the cost cannot be
+/// enforced because the price is unknown.
 pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     let spec = ModelSpec::parse(&options.model, options.base_url.as_deref())?;
     let prices = options.prices.as_deref().map_or_else(|| Ok(Prices::embedded()), Prices::with_file)?;
@@ -84,8 +84,8 @@ pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     Ok(price)
 }
 
-/// Creates the model for the given options. Nothing is sent yet, so only the first request shows whether the
-/// server answers.
+/// Creates the model for the given options. Sends nothing, so only the first request shows whether the server
+/// responds.
 ///
 /// # Errors
 /// Returns an error if the options are malformed, a key is missing, or a file or folder cannot be accessed.
@@ -93,7 +93,7 @@ pub fn connect(options: &ModelOptions) -> Result<Connection, EvaluationError> {
     connect_with(options, &environment, Arc::new(SystemClock::start()))
 }
 
-/// Connects like [`connect`], but with the given environment and clock, so that tests need no keys and no
+/// Connects like [`connect`], but with an explicit environment and clock, so that tests need neither keys nor
 /// real time.
 ///
 /// # Errors
@@ -120,7 +120,7 @@ pub fn connect_with(
     Ok(Connection { model: Box::new(remote), caps, settings, price })
 }
 
-/// Rejects a value that is not a variable name. The message does not repeat the value, because it may be the
+/// Rejects invalid variable names. The error message does not repeat the value, because the value may be the
 /// key itself.
 fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     let is_name = |name: &str| {
@@ -135,8 +135,8 @@ fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     Err(EvaluationError::Malformed(problem.to_owned()))
 }
 
-/// Returns the key to send. Unless the user specifies the variable, no key is sent to a server on this
-/// machine or over an unencrypted connection.
+/// Returns the key to send. Servers on this machine and unencrypted connections get a key only if the user
+/// specifies the variable.
 fn key(
     options: &ModelOptions,
     spec: &ModelSpec,

@@ -7,28 +7,28 @@ use itertools::Itertools;
 use serde_json::Value;
 use std::time::{Duration, SystemTime};
 
-/// The reason why a try produced no answer.
+/// The reason why a try yielded no answer.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Fault {
     /// A temporary failure, after which another try may succeed.
     Transient {
-        /// The HTTP status, if there was a reply.
+        /// The reply's HTTP status, if any.
         status: Option<u16>,
         message: String,
         wait: Option<Duration>,
     },
-    /// A permanent failure: the server will never answer this request.
+    /// A permanent failure: the server will always reject this request.
     Final {
         status: u16,
-        /// The reason in the server's own words.
+        /// The server's own explanation.
         message: String,
     },
 }
 
-/// The maximum number of characters kept from a server's message.
+/// The maximum number of characters retained from a server's message.
 const MAX_MESSAGE: usize = 300;
 
-/// Classifies a reply that was received at `date`.
+/// Classifies a reply received at `date`.
 pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) -> Result<ChatReply, Fault> {
     let status = reply.status;
     let transient = |message: String, wait| Fault::Transient { status: Some(status), message, wait };
@@ -57,7 +57,7 @@ pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) 
     Err(Fault::Final { status, message: words })
 }
 
-/// Returns a description of a body that no model server would send, or `None` for any other body.
+/// Returns a description of a body that no model server would send. Returns `None` for all other bodies.
 fn body_kind(body: &str) -> Option<&'static str> {
     let body = body.trim_start();
     if body.is_empty() {
@@ -66,7 +66,7 @@ fn body_kind(body: &str) -> Option<&'static str> {
     body.starts_with('<').then_some("a page of HTML")
 }
 
-/// The maximum wait accepted from a header or a body, which is one year.
+/// The maximum wait accepted from a header or a body (one year).
 const MAX_RETRY_AFTER: Duration = Duration::from_secs(365 * 24 * 60 * 60);
 
 /// Parses the wait in a `Retry-After` header. The value is a date or a number of seconds with any number of
@@ -80,7 +80,7 @@ fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
     Some(until.duration_since(date).unwrap_or_default().min(MAX_RETRY_AFTER))
 }
 
-/// The content of an error body in any of the layouts that servers use.
+/// The content of an error body, in any of the layouts used by servers.
 struct ErrorBody {
     message: String,
     code: String,
@@ -122,7 +122,7 @@ fn seconds(text: &str) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds.min(MAX_RETRY_AFTER.as_secs_f64())).ok()
 }
 
-/// Shortens a text to [`MAX_MESSAGE`] characters and puts it on one line, without control characters.
+/// Truncates a text to [`MAX_MESSAGE`] characters on a single line, without control characters.
 pub(super) fn shorten(text: &str) -> String {
     let plain = text.replace(char::is_control, " ");
     let line = plain.split_whitespace().join(" ");
@@ -254,7 +254,7 @@ mod tests {
         }
     }
 
-    /// A reply that is truncated at any byte is not an answer.
+    /// A reply truncated at any byte is not an answer.
     #[test]
     fn truncated_replies_are_rejected() {
         for (provider, body) in [

@@ -1,4 +1,4 @@
-//! API keys, which are read from the environment and sent only to the provider.
+//! API keys, read from the environment and sent only to the provider.
 
 use crate::error::EvaluationError;
 use std::fmt;
@@ -11,14 +11,13 @@ pub(super) struct Key {
     secret: String,
 }
 
-/// The minimum length of a key that is searched for in answers. A shorter key could be an ordinary word of an
-/// answer.
+/// The minimum length of keys to search for in answers. A shorter key could be an ordinary word in an answer.
 const MIN_SEARCHED: usize = 16;
 
 /// The text that replaces a key in a server's reply.
 const HIDDEN: &str = "[key]";
 
-/// Reads an environment variable. The client reads only the variables that hold keys.
+/// Reads an environment variable. The client reads only variables that contain keys.
 #[expect(clippy::disallowed_methods, reason = "keys come from the environment only, and decide no action")]
 pub(super) fn environment(variable: &str) -> Option<String> {
     std::env::var(variable).ok()
@@ -44,7 +43,7 @@ impl Key {
         Ok(Some(Key { variable: variable.to_owned(), secret: secret.to_owned() }))
     }
 
-    /// Returns the header value that consists of `prefix` and the key.
+    /// Returns a header value: `prefix` followed by the key.
     pub(super) fn header(&self, prefix: &str) -> HeaderValue {
         let value = HeaderValue::from_str(&format!("{prefix}{}", self.secret));
         let mut value = value.expect("keys are visible ASCII");

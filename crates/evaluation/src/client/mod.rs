@@ -1,8 +1,8 @@
 //! Language models behind chat-completion APIs.
 //!
-//! [`connect()`] creates a [`Model`] from the user's options. The model is a client for a server with the API
-//! of OpenAI, Anthropic or Gemini. The client retries after transient failures, respects caps, rates and a
-//! limit on concurrent requests, and caches answers if the user enables the cache. `docs/reference/models.md`
+//! [`connect()`] creates a [`Model`] from the user's options. The model is a client for servers with the
+//! OpenAI, Anthropic or Gemini API. The client retries after transient failures, respects caps, rates and a
+//! limit on concurrent requests, and caches answers if caching is enabled. `docs/reference/models.md`
 //! describes how each kind of failure is counted.
 
 mod cache;

@@ -7,32 +7,34 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 base::with_defaults! {
-    /// The user's options for a model. They contain no API key, because keys are read from the environment.
+    /// The user's options for a model. The options contain no API key, because keys are read from the
+    /// environment.
     #[derive(Clone, Debug)]
     pub struct ModelOptions {
         /// The model: `openai:…`, `anthropic:…`, `gemini:…`, or any name with a base URL.
         pub model: String = String::new(),
-        /// The server's base URL, if it is not the provider's own.
+        /// The server's base URL, if different from the provider's own.
         pub base_url: Option<String> = None,
-        /// The name of the environment variable that holds the key, if it is not the provider's default.
+        /// The name of the environment variable that contains the key, if different from the provider's
+        /// default.
         pub key_variable: Option<String> = None,
         /// The sampling settings for answers.
         pub decoding: Decoding = Decoding::default(),
-        /// The caps on spending.
+        /// The spending caps.
         pub limits: Limits = Limits::default(),
-        /// A table of prices that takes precedence over the embedded one.
+        /// A price table that takes precedence over the embedded one.
         pub prices: Option<PathBuf> = None,
-        /// The folder of the response cache, if enabled.
+        /// The response cache's folder, if caching is enabled.
         pub cache: Option<PathBuf> = None,
         /// The maximum number of concurrent requests.
         pub concurrency: NonZeroUsize = NonZeroUsize::new(4).expect("not zero"),
         /// The maximum number of requests started per minute.
         pub requests_per_minute: Option<NonZeroU64> = None,
-        /// The maximum number of tokens per minute, in requests and replies.
+        /// The maximum number of tokens per minute, counting requests and replies.
         pub tokens_per_minute: Option<NonZeroU64> = None,
         /// The maximum number of tries per request.
         pub tries: NonZeroU32 = NonZeroU32::new(8).expect("not zero"),
-        /// The time limit for one try, from the first byte to the last.
+        /// The time limit for one complete try.
         pub timeout: Duration = Duration::from_secs(600),
         /// The time limit for opening a connection.
         pub connect_timeout: Duration = Duration::from_secs(10),
@@ -42,8 +44,8 @@ base::with_defaults! {
 }
 
 impl ModelOptions {
-    /// Creates the options for a model, with defaults for everything else: four concurrent requests, eight tries, ten
-    /// minutes per try and ten seconds for its connection, replies of up to 4 MiB, no caps, and no cache.
+    /// Creates a model's options with default settings: four concurrent requests, eight tries, ten minutes
+    /// per try, ten seconds per connection, replies of up to 4 MiB, no caps, and no cache.
     pub fn new(model: &str) -> ModelOptions {
         ModelOptions { model: model.to_owned(), ..ModelOptions::default() }
     }

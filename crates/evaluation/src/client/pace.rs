@@ -6,8 +6,8 @@ use std::num::NonZeroU64;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::Duration;
 
-/// A rate limiter. It spreads the requests and tokens of a minute evenly, which also satisfies servers that
-/// count per second.
+/// A rate limiter. Spreads each minute's requests and tokens evenly, which also satisfies servers that count
+/// per second.
 pub(super) struct Pace {
     clock: Arc<dyn Clock>,
     requests_per_minute: Option<NonZeroU64>,
@@ -17,7 +17,7 @@ pub(super) struct Pace {
     schedule: Mutex<Schedule>,
 }
 
-/// The earliest start of the next request, for each of the limits.
+/// The earliest start of the next request, for each limit.
 #[derive(Default)]
 struct Schedule {
     requests: Duration,
@@ -27,14 +27,14 @@ struct Schedule {
 
 const MINUTE: u128 = 60_000_000_000;
 
-/// Returns the time that a number of items takes at the given rate per minute.
+/// Returns the time needed for a number of items at the given rate per minute.
 fn span(things: u64, per_minute: NonZeroU64) -> Duration {
     let nanoseconds = u128::from(things) * MINUTE / u128::from(per_minute.get());
     Duration::from_nanos(nanoseconds.try_into().unwrap_or(u64::MAX))
 }
 
 impl Pace {
-    /// Creates a limiter of concurrent requests, and of requests and tokens per minute.
+    /// Creates a limiter for concurrent requests, and for requests and tokens per minute.
     pub(super) fn new(options: &ModelOptions, clock: Arc<dyn Clock>) -> Pace {
         Pace {
             clock,
@@ -46,8 +46,8 @@ impl Pace {
         }
     }
 
-    /// Waits until the number of requests in flight is below the limit. A request keeps its slot between its
-    /// tries, so that an overloaded server gets fewer requests.
+    /// Waits until the number of requests in flight is below the limit. A request retains its slot between
+    /// tries, so that an overloaded server receives fewer requests.
     pub(super) fn enter(&self) -> Slot<'_> {
         let free = self.free.lock().expect(NO_PANIC);
         let mut free = self.freed.wait_while(free, |free| *free == 0).expect(NO_PANIC);
@@ -72,8 +72,7 @@ impl Pace {
         }
     }
 
-    /// Corrects the schedule after a request that was admitted with `expected` tokens and used `taken`
-    /// tokens.
+    /// Corrects the schedule after a request admitted with `expected` tokens has used `taken` tokens.
     pub(super) fn correct(&self, expected: u64, taken: u64) {
         if let Some(limit) = self.tokens_per_minute {
             let mut schedule = self.schedule();
@@ -82,7 +81,7 @@ impl Pace {
         }
     }
 
-    /// Delays all requests by the time that the server requested.
+    /// Delays all requests by the time requested by the server.
     pub(super) fn delay_all(&self, time: Duration) {
         let until = self.clock.elapsed().saturating_add(time);
         let mut schedule = self.schedule();
@@ -96,7 +95,7 @@ impl Pace {
 
 const NO_PANIC: &str = "nothing panics while it holds this lock";
 
-/// A slot for a request in flight, which is freed when it is dropped.
+/// A slot for a request in flight, released on drop.
 #[must_use]
 pub(super) struct Slot<'a> {
     pace: &'a Pace,

@@ -1,4 +1,4 @@
-//! A model on a server. Its client handles retries after transient failures, caps, rates and the cache.
+//! A model on a server. The client handles retries after transient failures, caps, rates and the cache.
 
 use super::cache::{self, Cache};
 use super::chat::{ChatError, ChatErrorKind, ChatReply, ChatRequest, Failure, Model};
@@ -26,13 +26,13 @@ pub(super) struct Remote {
     pub(super) clock: Arc<dyn Clock>,
 }
 
-/// The wait after the first try. The wait doubles with every further try.
+/// The wait after the first try. Each further try doubles the wait.
 const FIRST_WAIT: Duration = Duration::from_secs(1);
 
-/// The maximum wait that the client chooses by itself.
+/// The maximum wait chosen by the client.
 const MAX_WAIT: Duration = Duration::from_secs(60);
 
-/// The maximum wait that a server may request.
+/// The maximum wait that a server can request.
 const MAX_SERVER_WAIT: Duration = Duration::from_secs(300);
 
 impl Model for Remote {
@@ -50,7 +50,7 @@ impl Model for Remote {
 }
 
 impl Remote {
-    /// Requests an answer that is not in the cache.
+    /// Requests an uncached answer.
     fn request_with_retries(
         &self,
         request: &ChatRequest,
@@ -133,7 +133,7 @@ impl Remote {
         }
     }
 
-    /// Hides the key once more after parsing, because JSON can encode the same text in many ways.
+    /// Removes the key again after parsing, because JSON can encode the same text in many ways.
     fn without_key(&self, answer: ChatReply) -> ChatReply {
         let Some(key) = &self.key else { return answer };
         let hide = |text| key.hide_in_answer(text);
@@ -183,8 +183,8 @@ impl Remote {
 /// Returns the wait after a failed try.
 ///
 /// The wait grows exponentially with every try. It is multiplied by a random factor between one half and one,
-/// so that threads that failed together do not retry together. If the server requests a longer wait, the
-/// requested wait plus a small random amount is returned.
+/// so that threads that failed together do not retry together. If the server requests a longer wait, returns
+/// the requested wait plus a small random amount.
 fn wait(number: u32, requested_wait: Option<Duration>, jitter: &mut Sampler) -> Duration {
     let doubled = FIRST_WAIT.saturating_mul(1u32.checked_shl(number - 1).unwrap_or(u32::MAX));
     let own = doubled.min(MAX_WAIT).mul_f64(0.5 + 0.5 * jitter.unit());

@@ -1,4 +1,4 @@
-//! Model IDs such as `openai:gpt-4o-mini`, and the servers that they refer to.
+//! Model IDs such as `openai:gpt-4o-mini`, and their servers.
 
 use super::provider::Provider;
 use crate::error::EvaluationError;
@@ -8,9 +8,9 @@ use ureq::http::Uri;
 /// A model and its server.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelSpec {
-    /// The API that the server uses.
+    /// The server's API.
     pub provider: Provider,
-    /// The name that the server uses for the model.
+    /// The server's name for the model.
     pub model: String,
     /// The server that hosts the model.
     pub server: Server,
@@ -19,22 +19,22 @@ pub struct ModelSpec {
 /// A server that hosts models.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Server {
-    /// The base URL to which the paths of the API are appended, without a trailing slash.
+    /// The base URL for API paths, without a trailing slash.
     pub base_url: String,
-    /// The host, with its port if the URL contains a port.
+    /// The host, with the port if the URL contains one.
     pub host: String,
     /// `true` if the server is this machine.
     pub loopback: bool,
     /// `true` if the connection is encrypted.
     pub encrypted: bool,
-    /// `true` if the server is the provider's own server.
+    /// `true` if the server belongs to the provider.
     pub own: bool,
 }
 
 impl ModelSpec {
-    /// Parses a model ID as users type it: `openai:…`, `anthropic:…` or `gemini:…`. With a base URL, any name
-    /// is accepted, for servers with OpenAI-compatible chat completions. With a prefix and a base URL, the
-    /// server at the URL uses the API of the prefix.
+    /// Parses a model ID as typed by users: `openai:…`, `anthropic:…` or `gemini:…`. With a base URL, any
+    /// name is accepted, and the server is assumed to be OpenAI-compatible. With both a prefix and a base
+    /// URL, the prefix determines the API of the server at the URL.
     ///
     /// # Errors
     /// Returns an error if the ID or the URL is malformed. The message shows the expected form.

@@ -1,4 +1,4 @@
-//! A single HTTP exchange, with a time limit and a size limit for the reply.
+//! A single HTTP exchange, with limits on its time and its reply size.
 
 use super::options::ModelOptions;
 use super::spec::Server;
@@ -25,8 +25,8 @@ pub(super) struct HttpReply {
 }
 
 impl Wire {
-    /// Creates a client for `server`. A request takes at most `timeout` in total, and a reply has at most
-    /// `reply_limit` bytes. Proxies from the environment are used, except if the server is this machine.
+    /// Creates a client for `server`. A request is limited to `timeout` in total, and a reply to
+    /// `reply_limit` bytes. Proxies from the environment are used, unless the server is this machine.
     pub(super) fn new(server: &Server, options: &ModelOptions) -> Wire {
         let &ModelOptions { timeout, connect_timeout, reply_limit, .. } = options;
         let mut config = Agent::config_builder()
@@ -46,7 +46,7 @@ impl Wire {
     /// Posts a JSON body and reads the reply.
     ///
     /// # Errors
-    /// Returns a message if there is no reply, or if the reply is incomplete, too large, or not text.
+    /// Returns a message if the reply is missing, incomplete, too large, or not text.
     pub(super) fn post(
         &self,
         url: &str,

@@ -1,42 +1,42 @@
-//! The coins of a release, in the form that the tests of memory need. A coin is a random decision about which
-//! of two equal things is published.
+//! A release's coins, in the form required by the memory tests. A coin is a random decision about which of
+//! two equivalent items is published.
 
 use base::Digest;
 use engine::Action;
 
-/// The games and winning episodes whose published and withheld sides were decided by the coins of a release.
+/// The games and winning episodes of a release, each with a published and a withheld side decided by a coin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coins {
-    /// The games of the release.
+    /// The release's games.
     pub games: Vec<GameCoin>,
 }
 
-/// A game and its withheld sibling.
+/// A game, with its withheld sibling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameCoin {
-    /// The name of the folder that contains the game.
+    /// The game's folder name.
     pub id: String,
     /// The digest of the published game.
     pub published: Digest,
-    /// The digest of the withheld sibling, if there is one.
+    /// The withheld sibling's digest, if any.
     pub withheld: Option<Digest>,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<LevelCoin>,
 }
 
-/// A level with its sibling and its two winning episodes.
+/// A level, with its sibling and its two winning episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelCoin {
-    /// The digest of the level in the published game.
+    /// The level's digest in the published game.
     pub published: Digest,
-    /// The digest of the level in the withheld sibling, if there is a sibling.
+    /// The level's digest in the withheld sibling, if any.
     pub withheld: Option<Digest>,
-    /// The first actions of the published win and of the withheld win. The two beginnings differ and have the
-    /// same length. `None` unless both wins exist.
+    /// The first actions of the published and the withheld win. The two sequences differ and have the same
+    /// length. `None` unless both wins exist.
     pub beginnings: Option<[Vec<Action>; 2]>,
 }
 
-/// The two sides of a coin: the published thing and the withheld thing.
+/// The two sides of a coin: the published item and the withheld item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Side {
     /// The published side of a coin.
@@ -46,14 +46,14 @@ pub(super) enum Side {
 }
 
 impl Coins {
-    /// Returns the number of games with a sibling and the number of levels with two wins.
+    /// Returns the number of games with a sibling, and the number of levels with two wins.
     pub fn counts(&self) -> (usize, usize) {
         let siblings = self.games.iter().filter(|game| game.withheld.is_some()).count();
         let levels = self.games.iter().flat_map(|game| &game.levels);
         (siblings, levels.filter(|level| level.beginnings.is_some()).count())
     }
 
-    /// Finds the game and the level with the given digests. Returns their indices and the side of the coin.
+    /// Finds the game and the level with the given digests. Returns their indices and the coin's side.
     pub(super) fn place(&self, game: Digest, level: Digest) -> Option<(usize, usize, Side)> {
         self.games.iter().enumerate().find_map(|(at, of)| {
             let side = match () {

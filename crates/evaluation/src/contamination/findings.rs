@@ -1,4 +1,4 @@
-//! The tests of memory, and their findings about each player.
+//! The memory tests, and their findings about each player.
 
 use super::coins::{Coins, Side};
 use super::power::{ALPHA, Power};
@@ -7,14 +7,14 @@ use serde::Serialize;
 use statistics::coin_test;
 use std::collections::BTreeMap;
 
-/// The findings about the players of a release.
+/// The findings about players of a release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contamination {
     /// The combined significance level of all tests.
     pub alpha: f64,
-    /// The number of tests. The level of each test is the combined level divided by this number.
+    /// The number of tests. Each test's level is the combined level divided by the number of tests.
     pub tests: u64,
-    /// The minimum number of coins with which a test can be significant at its level.
+    /// The minimum number of coins for a test to be significant at its level.
     pub needed: u64,
     /// The findings about each player.
     pub players: Vec<PlayerMemory>,
@@ -23,34 +23,35 @@ pub struct Contamination {
 /// The findings about one player.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlayerMemory {
-    /// The name of the player.
+    /// The player's name.
     pub player: String,
-    /// The power of the design, for several assumed fractions of levels that the player knows.
+    /// The test power, for several assumed fractions of levels that the player knows.
     pub power: Vec<Power>,
-    /// The test of whether the player's episodes begin like published wins rather than withheld wins.
+    /// The test for whether the player's episodes begin like published wins rather than withheld wins.
     pub solutions: Option<SideTest>,
-    /// The test of whether the player wins published games more often than their withheld siblings.
+    /// The test for whether the player wins published games more often than their withheld siblings.
     pub games: Option<SideTest>,
-    /// The conclusion from the tests.
+    /// The conclusion from both tests.
     pub evidence: Evidence,
-    /// The number of episodes on levels that are not in the release.
+    /// The number of episodes on levels outside the release.
     pub unknown: u64,
 }
 
 /// The result of a test over coins.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SideTest {
-    /// The number of coins for which there are results.
+    /// The number of coins with results.
     pub coins: u64,
-    /// The number of coins whose two sides have different results. The other coins are not evidence.
+    /// The number of coins whose two sides have different results. Coins with equal results are not evidence.
     pub informative: u64,
-    /// The number of episodes. In the test of siblings, the number of pairs of episodes.
+    /// The number of episodes. In the sibling test, the number of episode pairs.
     pub episodes: u64,
-    /// The total on the published side: the number of wins, or of episodes that begin like the published win.
+    /// The total on the published side: the number of wins, or the number of episodes that begin like the
+    /// published win.
     pub published: u64,
     /// The total on the withheld side.
     pub withheld: u64,
-    /// The exact p-value of the test.
+    /// The test's exact p-value.
     pub p: f64,
     /// The p-value multiplied by the number of tests (Bonferroni correction).
     pub corrected: f64,
@@ -68,9 +69,9 @@ impl SideTest {
 pub enum Evidence {
     /// No test was possible: the player has not played both siblings of any game, or a level with two wins.
     Untested,
-    /// No test has enough coins to be significant, whatever the player knows.
+    /// None of the tests have enough coins to be significant, regardless of what the player knows.
     CannotTell,
-    /// No test was significant.
+    /// None of the tests were significant.
     ConsistentWithNotHavingSeen,
     /// The player's episodes begin like published wins rather than withheld wins.
     HasSeenTheSolutions,
@@ -115,7 +116,7 @@ impl Evidence {
     }
 }
 
-/// A player's results on the two sides of one coin.
+/// A player's results on both sides of one coin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct CoinResults {
     episodes: u64,
@@ -145,8 +146,8 @@ pub fn contamination(coins: &Coins, players: &[PlayerEpisodes]) -> Contamination
     Contamination { alpha: ALPHA, tests, needed, players: players.iter().zip(results).map(of).collect() }
 }
 
-/// Returns the minimum number of coins for which the p-value can be at most `alpha`. The minimum applies if
-/// all coins favour the same side.
+/// Returns the minimum number of coins for which the p-value can reach `alpha`. The p-value is lowest if all
+/// coins favour the same side.
 fn needed(alpha: f64) -> u64 {
     let (mut coins, mut p) = (0, 1.0);
     while p > alpha {
@@ -174,7 +175,7 @@ fn tested(results: &[CoinResults], tests: u64) -> Option<SideTest> {
     })
 }
 
-/// One player's results for each coin.
+/// One player's results, by coin.
 struct Results {
     solutions: Vec<CoinResults>,
     games: Vec<CoinResults>,
@@ -234,8 +235,8 @@ mod tests {
         Digest::of(format!("{what} {game} {side}").as_bytes())
     }
 
-    /// Returns the coins of games with one level each. Bit `game` of `fall` decides which side of the game is
-    /// published.
+    /// Returns the coins for games with one level each. Bit `game` of `fall` decides which side of the game
+    /// is published.
     fn coins(fall: usize) -> Coins {
         let game = |game: usize| {
             let side = fall >> game & 1;
@@ -252,7 +253,7 @@ mod tests {
     }
 
     /// Returns a player with one episode on each side of each game. `of` determines whether the player wins
-    /// an episode, and how the episode begins.
+    /// the episode, and how the episode begins.
     fn player(of: impl Fn(usize, usize) -> (bool, &'static [Action])) -> PlayerEpisodes {
         let sides = (0..GAMES).flat_map(|game| [(game, 0), (game, 1)]);
         let episode = |(game, side)| {
@@ -267,8 +268,8 @@ mod tests {
         contamination(&coins(fall), &[player]).players[0].evidence
     }
 
-    /// Over all outcomes of the coins, a player with no knowledge of them has p ≤ x in at most the fraction x
-    /// of the outcomes. This bound holds for any differences in skill between games, and for any preferred
+    /// Over all coin outcomes, a player without knowledge of the coins has p ≤ x in at most the fraction x of
+    /// the outcomes. This bound holds for any differences in skill between games, and for any preferred
     /// beginnings.
     #[test]
     fn the_level_is_exact() {

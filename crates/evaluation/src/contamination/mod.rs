@@ -1,8 +1,8 @@
-//! Tests of memory, which show whether a player has seen the games of a release or their published solutions.
+//! Memory tests, which show whether a player has seen a release's games or their published solutions.
 //!
-//! A release contains coins. Each coin decided which of two renamings of a game, or which of two wins of a
-//! level, was published and which was withheld ([`statistics::coin_test`]). This module reads and compares
-//! the results of players on both sides.
+//! A release contains coins. Each coin decided which of a game's two renamings, or which of a level's two
+//! wins, was published and which was withheld ([`statistics::coin_test`]). This module reads and compares
+//! players' results on both sides.
 
 mod coins;
 mod findings;

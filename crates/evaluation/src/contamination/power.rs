@@ -1,4 +1,4 @@
-//! The power of the tests of memory. The power depends only on which levels are played, so it can be stated
+//! The power of the memory tests. The power depends only on which levels are played, so it can be computed
 //! before any result is known.
 
 use super::coins::Coins;
@@ -6,38 +6,39 @@ use serde::Serialize;
 use statistics::memory_simulation::MemoryTrial;
 use statistics::{Memoriser, Spread, coin_power};
 
-/// The combined significance level of all tests of memory.
+/// The combined significance level of all memory tests.
 pub const ALPHA: f64 = 0.01;
 /// The assumed fractions of levels that a player knows.
 pub const SHARES: [f64; 5] = [0.1, 0.2, 0.3, 0.5, 1.0];
-/// The assumed win rate of a player on the levels that it knows.
+/// The assumed win rate of a player on levels that it knows.
 const KNOWN: f64 = 0.9;
-/// The assumed win rate of a player on the levels that it does not know.
+/// The assumed win rate of a player on levels that it does not know.
 const CLEAN: f64 = 0.27;
-/// The fraction of episodes that begin like a win by chance. The value is that of `reflex`, which was the
-/// highest among the measured players.
+/// The fraction of episodes that begin like a win by chance. The fraction was measured for `reflex`, which
+/// had the highest value of all measured players.
 const BY_CHANCE: f64 = 0.07;
-/// The standard deviation, in logits, of the difference between the effects of two sets of names on a player.
+/// The standard deviation, in logits, of the difference between the effects of two sets of names on a
+/// player's results.
 const NAMES: f64 = 0.5;
-/// The number of simulated players behind each power of the sibling test.
+/// The number of simulated players for each power value in the sibling test.
 const TRIALS: u64 = 1000;
 /// The seed of the power simulation.
 const SEED: u64 = 32;
 
-/// The power of the tests for a player that knows a given fraction of the levels.
+/// The power of both tests for a player that knows a given fraction of the levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Power {
-    /// The fraction of the levels that the player knows.
+    /// The fraction of levels that the player knows.
     pub share: f64,
-    /// The power of the test on solutions, or `None` if no level with two wins is played.
+    /// The solution test's power, or `None` if no level with two wins is played.
     pub solutions: Option<f64>,
-    /// The power of the test on games, or `None` if no game with a sibling is played.
+    /// The game test's power, or `None` if no game with a sibling is played.
     pub games: Option<f64>,
 }
 
 impl Power {
-    /// Returns the power of a design if each test is at level `alpha`. In the design, each of `levels` levels
-    /// with two wins has one episode, and `pairs` holds the number of pairs of episodes for each game with a
+    /// Returns a design's power if each test is at level `alpha`. In the design, each of `levels` levels with
+    /// two wins is played once, and `pairs` contains the number of episode pairs for each game with a
     /// sibling.
     pub fn of(levels: u64, pairs: &[u64], alpha: f64) -> Vec<Power> {
         let of = |share: f64| {
@@ -54,8 +55,8 @@ impl Power {
     }
 }
 
-/// Returns the design in which every level is played once on each side. The design consists of the number of
-/// levels with two wins, and the number of pairs of episodes for each game with a sibling.
+/// Returns the design in which every level is played once on each side: the number of levels with two wins,
+/// and the number of episode pairs for each game with a sibling.
 pub fn design(coins: &Coins) -> (u64, Vec<u64>) {
     let (_, levels) = coins.counts();
     let paired = coins.games.iter().filter(|game| game.withheld.is_some());
@@ -66,7 +67,7 @@ pub fn design(coins: &Coins) -> (u64, Vec<u64>) {
 mod tests {
     use super::*;
 
-    /// The designs are those of the review of scores: 200 levels, and 100 games.
+    /// The designs come from the review of scores: 200 levels, and 100 games.
     #[test]
     fn power_is_that_of_the_page() {
         let found = Power::of(200, &[1; 100], ALPHA);

@@ -1,4 +1,4 @@
-//! Reads the episodes of players on both sides of the coins of a release.
+//! Reads players' episodes on both sides of a release's coins.
 
 use crate::error::EvaluationError;
 use crate::log::Event;
@@ -12,15 +12,15 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The maximum number of initial actions kept for each episode.
+/// The maximum number of initial actions stored per episode.
 const KEPT: usize = 64;
 
-/// All finished episodes of a player.
+/// All finished episodes of one player.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlayerEpisodes {
-    /// The player of the episodes.
+    /// The player who played the episodes.
     pub player: Player,
-    /// The finished episodes. The key holds the digest of the game, the digest of the level, and the run.
+    /// The finished episodes, by game digest, level digest and run.
     pub episodes: BTreeMap<(Digest, Digest, u64), PlayedEpisode>,
 }
 
@@ -33,16 +33,16 @@ pub struct PlayedEpisode {
     pub beginning: Vec<Action>,
 }
 
-/// The location of an episode in results folders: the folder's index, the game's name, the level's number and
+/// An episode's location in the results folders: the folder's index, the game's name, the level number and
 /// the run.
 type Place = (usize, String, usize, u64);
 
-/// Reads the episodes in results folders. Players are distinguished as in reports, regardless of the names of
-/// the games. Every episode is replayed from its log. Aborted and practice episodes do not count.
+/// Reads the episodes in results folders. Players are distinguished as in reports, regardless of the games'
+/// names. Every episode is replayed from its log. Aborted and practice episodes do not count.
 ///
 /// # Errors
 /// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders
-/// hold the same episode of the same player.
+/// contain the same episode of the same player.
 pub fn episodes_by_player(folders: &[PathBuf]) -> Result<Vec<PlayerEpisodes>, EvaluationError> {
     let (mut persons, mut known) = (Vec::new(), BTreeMap::new());
     for (number, folder) in folders.iter().enumerate() {
@@ -90,7 +90,7 @@ fn twice(player: &Player, game: &str, folder: &Path) -> EvaluationError {
     EvaluationError::malformed(folder, what)
 }
 
-/// Returns the metrics and the first actions of an episode, or `None` if the episode was never started.
+/// Returns an episode's metrics and first actions, or `None` if the episode was never started.
 fn read(
     evaluation: &Evaluation,
     task: &Task<'_>,

@@ -1,12 +1,12 @@
-//! Encodes a board as a list of all sprites with their names and positions.
+//! Encodes a board as a list of all sprites, with their names and positions.
 
 use super::scene::{Scene, places};
 use crate::legend::Legend;
 use engine::Observation;
 
 /// Lists the positions of each type on the board, with one line per type: `lantern: (3,2) (8,2)`. Walls are
-/// included, and floors are not. The list contains the same information as the grid, except for the order of
-/// sprites within a cell. Cost: O(cells × types).
+/// included, and floors are not. The list contains the same information as the grid, except for the stacking
+/// order within a cell. Cost: O(cells × types).
 pub fn coordinates(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let line = |name: &String| {

@@ -1,4 +1,4 @@
-//! Describes the visible effects of an action, without any statement about the rules.
+//! Describes the visible effects of an action, without stating any rules.
 
 use super::scene::{Scene, places};
 use crate::direction::direction_name;
@@ -7,12 +7,12 @@ use engine::{Action, AvatarView, Observation};
 use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum number of cells listed for a type that has appeared or disappeared.
+/// The maximum number of cells listed per appearing or disappearing type.
 const MAX_CELLS: usize = 4;
 
-/// Describes the effects of an action that can be seen by comparing two observations. The lines describe what
-/// happened to the avatar, what it met and what it holds. They also list the types that are now in more or
-/// fewer cells, or have moved. The score is not included. Cost: O(cells log cells).
+/// Describes the effects of an action, found by comparing two observations. The lines describe what happened
+/// to the avatar, what it met and what it holds. The lines also list the types that occupy more or fewer
+/// cells than before, or have moved. The score is not included. Cost: O(cells log cells).
 pub fn events(before: &Observation, now: &Observation, action: Action, legend: &Legend) -> Vec<String> {
     let (old, new) = (Scene::of(before, legend), Scene::of(now, legend));
     let mut lines =
@@ -88,7 +88,7 @@ fn moved(before: Option<&AvatarView>, now: Option<&AvatarView>) -> String {
     told
 }
 
-/// Returns the types that the avatar met. They are the types in its cell, and the types in the cell that it
+/// Returns the types that the avatar met: the types in its cell, and the types in the adjacent cell that it
 /// faced but did not enter, or in which it was lost.
 fn met(
     old: &Scene<'_>,
@@ -135,7 +135,7 @@ fn ahead(scene: &Scene<'_>, (column, row): (usize, usize), action: Action) -> Op
     Some((column, row))
 }
 
-/// Returns the cells that each type occupies, except for avatars.
+/// Returns the cells occupied by each type, except avatars.
 fn by_kind<'a>(scene: &Scene<'a>, legend: &Legend) -> BTreeMap<&'a str, BTreeSet<(usize, usize)>> {
     let mut cells: BTreeMap<&str, BTreeSet<(usize, usize)>> = BTreeMap::new();
     for (at, names) in scene.cells.iter().enumerate() {
@@ -155,8 +155,8 @@ fn is_avatar(legend: &Legend, name: &str) -> bool {
     legend.entry(name).is_some_and(|entry| entry.role == crate::legend::EntryRole::Avatar)
 }
 
-/// Adds rulers to the edges of a board. The last digit of each column number stands above the column, and
-/// each row number stands before its row.
+/// Adds rulers to a board's edges. The last digit of each column number is above the column, and each row
+/// number precedes its row.
 pub fn ruled(grid: &str) -> String {
     let columns = grid.lines().next().map_or(0, |row| row.chars().count());
     let width = grid.lines().count().saturating_sub(1).to_string().len();

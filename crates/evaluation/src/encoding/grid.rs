@@ -6,17 +6,17 @@ use engine::Observation;
 use itertools::Itertools;
 use render::EMPTY;
 
-/// Draws the board with one line per row. Each cell shows its uppermost sprite that is not a floor, with the
-/// avatar above all others. A sprite between cells is drawn in all cells that it overlaps, except for the
-/// avatar. Cost: O(cells).
+/// Draws the board with one line per row. Each cell shows its topmost sprite, ignoring floors and placing the
+/// avatar above all other sprites. A sprite between cells is drawn in all cells that it overlaps, except for
+/// the avatar. Cost: O(cells).
 pub fn grid(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let symbol = |row, column| symbol(legend, scene.at(column, row));
     (0..scene.rows).map(|row| (0..scene.columns).map(|column| symbol(row, column)).join("")).join("\n")
 }
 
-/// Draws the board of [`grid`] rotated clockwise by a quarter turn. The first row of the result is the first
-/// column of the board, read from bottom to top. Cost: O(cells).
+/// Draws the board of [`grid`], rotated clockwise by a quarter turn. The first row of the result is the
+/// board's first column, read from bottom to top. Cost: O(cells).
 pub fn rotated(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let symbol = |row, column| symbol(legend, scene.at(column, row));
@@ -24,14 +24,13 @@ pub fn rotated(observation: &Observation, legend: &Legend) -> String {
     (0..scene.columns).map(|column| rows().map(|row| symbol(row, column)).join("")).join("\n")
 }
 
-/// Returns the character for a cell that holds the given types.
+/// Returns the character for a cell that contains the given types.
 fn symbol(legend: &Legend, names: &[&str]) -> char {
     names.last().and_then(|name| legend.entry(name)).map_or(EMPTY, |entry| entry.symbol)
 }
 
-/// Lists the piles of sprites that one character per cell cannot show, such as
-/// `frost over snow: (3,4) (5,4)`. Each combination of several sprites has one line, in the order of the
-/// board. Cost: O(cells × piles).
+/// Lists the stacks of sprites that the grid cannot show, such as `frost over snow: (3,4) (5,4)`. Each
+/// combination of several sprites has one line, in board order. Cost: O(cells × stacks).
 pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     // Each pile consists of its names, from the lowest to the uppermost, and its cells.
@@ -46,7 +45,7 @@ pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     piles.iter().map(|(names, cells)| format!("{}: {}", pile(names), places(cells))).collect()
 }
 
-/// Formats a pile of sprites from top to bottom.
+/// Formats a stack of sprites from top to bottom.
 pub(super) fn pile(names: &[&str]) -> String {
     names.iter().rev().join(" over ")
 }

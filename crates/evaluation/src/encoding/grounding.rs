@@ -1,5 +1,5 @@
-//! Describes the avatar's surroundings as text: the names and positions of sprites, and the first sprite in
-//! each direction.
+//! Describes the avatar's surroundings as text: sprite names and positions, and the first sprite in each
+//! direction.
 
 use super::grid::pile;
 use super::scene::{Scene, places};
@@ -8,15 +8,15 @@ use crate::legend::{Entry, EntryRole, Legend};
 use engine::Observation;
 use itertools::Itertools;
 
-/// The maximum number of sprites per type whose positions are listed, nearest first.
+/// The maximum number of positions listed per type, nearest first.
 const NEAREST: usize = 8;
 
-/// Describes each of the four directions from the avatar, and then lists the sprites on the board except
-/// walls, as in `lantern: (3,2) (8,2)`.
+/// Describes each of the four directions from the avatar, and then lists all sprites except walls, as in
+/// `lantern: (3,2) (8,2)`.
 ///
 /// Up to `NEAREST` positions are listed per type, nearest first. Scenery at more than `NEAREST` positions is
-/// omitted, because the board shows it. Without an avatar, the sprites are only listed, row by row. Cost:
-/// O(cells × types).
+/// omitted, because the board shows it. Without an avatar, the output is only a list of sprites, row by row.
+/// Cost: O(cells × types).
 pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let mut lines = Vec::new();
@@ -40,9 +40,9 @@ pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     lines
 }
 
-/// Lists the sprites that move straight ahead by their directions, as in
-/// `drifter: right (7,1) (2,2), left (10,3)`. Up to `NEAREST` sprites are listed per type, nearest first.
-/// Types that always move in the direction given by the rules are omitted. Cost: O(movers × types).
+/// Lists the sprites that move straight ahead, by direction, as in `drifter: right (7,1) (2,2), left (10,3)`.
+/// Up to `NEAREST` sprites are listed per type, nearest first. Types that always move in the direction stated
+/// in the rules are omitted. Cost: O(movers × types).
 pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
     let avatar = Scene::of(observation, legend).avatar;
     let line = |entry: &Entry| {
@@ -70,7 +70,7 @@ pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
     legend.entries().iter().filter(|entry| entry.is_turned).filter_map(line).collect()
 }
 
-/// Describes the first sprite in a direction, such as `wall` or `3 free, then lantern`.
+/// Describes the nearest sprite in a direction, such as `wall` or `3 free, then lantern`.
 fn way(scene: &Scene<'_>, from: (usize, usize), (dx, dy): (isize, isize)) -> String {
     let (mut column, mut row, mut free) = (from.0, from.1, 0);
     let met = loop {

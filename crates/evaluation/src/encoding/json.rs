@@ -15,7 +15,7 @@ struct Document<'a> {
     score: f64,
     avatar: Option<Avatar<'a>>,
     holds: BTreeMap<&'a str, i32>,
-    /// The columns and rows of the sprites, by type name.
+    /// The sprites' columns and rows, by type name.
     objects: BTreeMap<&'a str, Vec<(usize, usize)>>,
 }
 
@@ -27,8 +27,8 @@ struct Avatar<'a> {
     health: i32,
 }
 
-/// Encodes an observation as one line of JSON. The object holds the size of the board, the tick, the score,
-/// the avatar, its resources, and the positions of everything except floors by name. Cost: O(cells × types).
+/// Encodes an observation as one line of JSON. The object contains the board size, the tick, the score, the
+/// avatar, its resources, and the positions of all sprites except floors, by name. Cost: O(cells × types).
 pub fn json(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let objects = legend.entries().iter().map(|entry| {

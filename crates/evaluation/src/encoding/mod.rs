@@ -1,7 +1,7 @@
-//! Encodings of observations for players. Each encoding is a pure function of an observation and the legend.
+//! Encodings of observations for players. Each encoding is a pure function of an observation and a legend.
 //!
-//! A cell is written as `(x,y)`. The column `x` counts from 0 at the left, and the row `y` counts from 0 at
-//! the top.
+//! A cell is written as `(x,y)`. Columns (`x`) are counted from 0 at the left, and rows (`y`) from 0 at the
+//! top.
 
 mod coordinates;
 mod events;

@@ -4,15 +4,15 @@ use crate::legend::Legend;
 use engine::Observation;
 use itertools::Itertools;
 
-/// An observation in the form that all encodings read.
+/// An observation in the form used by all encodings.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
-    /// The type names in each cell, in row-major order. Within a cell, they run from the lowest to the
-    /// uppermost sprite, without floors. The avatar is only in the cell of its centre, above everything else.
+    /// The type names in each cell, in row-major order. Within a cell, the sprites are ordered from bottom to
+    /// top, without floors. The avatar is only in the cell of its centre, above all other sprites.
     pub(crate) cells: Vec<Vec<&'a str>>,
-    /// The avatar's column and row, if the avatar is on the board.
+    /// The avatar's column and row, if there is an avatar.
     pub(crate) avatar: Option<(usize, usize)>,
 }
 
@@ -35,12 +35,12 @@ impl<'a> Scene<'a> {
         Scene { columns: observation.columns, rows: observation.rows, cells, avatar: place }
     }
 
-    /// Returns the type names in a cell, from the lowest to the uppermost sprite.
+    /// Returns the type names in a cell, from bottom to top.
     pub(crate) fn at(&self, column: usize, row: usize) -> &[&'a str] {
         &self.cells[row * self.columns + column]
     }
 
-    /// Returns the cells that hold a sprite of the named type, row by row.
+    /// Returns the cells that contain a sprite of the named type, row by row.
     pub(crate) fn places<'b>(&'b self, name: &'b str) -> impl Iterator<Item = (usize, usize)> + 'b {
         let holding = self.cells.iter().enumerate().filter(move |(_, names)| names.contains(&name));
         holding.map(|(cell, _)| (cell % self.columns, cell / self.columns))

@@ -1,4 +1,4 @@
-//! The events of an episode's log, with one line of JSON per event.
+//! The events in an episode's log, with one line of JSON per event.
 
 use crate::client::{ChatReply, Failure, Finish, Role, Usage};
 use crate::commitment::Commitment;
@@ -9,32 +9,33 @@ use base::{Digest, Seed};
 use engine::{Action, Outcome, StateHash};
 use serde::{Deserialize, Serialize};
 
-/// The version of the event format. It is raised whenever a reader of older logs could misread newer logs.
+/// The version of the event format. The version is incremented whenever readers of older logs might misread
+/// newer logs.
 pub const SCHEMA: u32 = 1;
 
 /// An event of an episode, stored as one line of its log. Two runs of the same evaluation with the same
-/// answers differ only in times (`latency_ms`, `waited_ms`, `took_ms`).
+/// answers differ only in their times (`latency_ms`, `waited_ms`, `took_ms`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Event {
-    /// The start of the episode, on the first line of the log.
+    /// The start of the episode, recorded in the first line of the log.
     Start {
         /// The version of the event format: [`SCHEMA`].
         schema: u32,
         /// The version of the engine's semantics ([`engine::SEMANTICS`]). Under a different version, the
         /// actions may have different effects.
         semantics: u32,
-        /// The name of the game's folder in the results.
+        /// The game's folder name in the results.
         game: String,
-        /// The digest of the game.
+        /// The game's digest.
         game_digest: Digest,
-        /// The number of the level.
+        /// The level number.
         level: usize,
-        /// The digest of the level.
+        /// The level's digest.
         level_digest: Digest,
-        /// The index of the episode among this player's episodes on this level.
+        /// The episode's index among this player's episodes on this level.
         run: u64,
-        /// The seed of the game's randomness. The seed is the same for every player, so that runs are paired.
+        /// The seed of the game's randomness. All players get the same seed, so that runs are paired.
         seed: Seed,
         /// The maximum number of actions in the episode.
         max_steps: u64,
@@ -44,7 +45,7 @@ pub enum Event {
         /// The track with its version, such as `masked@1`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         track: Option<String>,
-        /// The level's position in a series that is played in one conversation.
+        /// The level's position in a series of levels played in one conversation.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         series: Option<SeriesPlace>,
         /// The state hash before the first tick.
@@ -52,53 +53,52 @@ pub enum Event {
         /// The avatar's column and row, if there is an avatar.
         avatar: Option<(i32, i32)>,
     },
-    /// A text sent to a model or received from it. The text is recorded once, and later events refer to it by
-    /// its number.
+    /// A text sent to a model or received from a model. Each text is recorded once, and later events refer to
+    /// it by its index.
     Message {
-        /// The number of the text within the episode, from 0.
+        /// The index of the text within the episode, starting at 0.
         id: u32,
         /// The author of the text.
         role: Role,
-        /// The text of the message.
+        /// The message text.
         text: String,
-        /// The digest of the PNG image that accompanies the text. The state and the settings determine the
-        /// image.
+        /// The digest of the PNG image that accompanies the text. The image is determined by the state and
+        /// the settings.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         image: Option<Digest>,
     },
-    /// A request that is about to be sent. If no reply follows in the log, the request may have been paid for
-    /// and lost.
+    /// A request about to be sent. If the log contains no reply, the request may have been paid for, but its
+    /// reply was lost.
     Request {
         /// The number of actions played before the decision.
         step: u64,
-        /// The number of the attempt within the step, from 0. Each repetition of the question after an
+        /// The index of the attempt within the step, starting at 0. Each repetition of the question after an
         /// invalid answer is a new attempt.
         attempt: u32,
-        /// The messages of the conversation, by their numbers.
+        /// The messages in the conversation, by index.
         messages: Vec<u32>,
-        /// The local count of the conversation's tokens, which determines when the history is shortened.
+        /// The local token count of the conversation, which determines when the history is truncated.
         tokens: u64,
     },
     /// A model's answer to a request.
     Reply(Reply),
-    /// A commitment to several actions, which the following steps play. Logs of players that commit to one
-    /// action contain no plans.
+    /// A commitment to several actions, played in the following steps. Players that commit to one action log
+    /// no plans.
     Plan {
         /// The number of steps before the plan.
         step: u64,
-        /// The actions of the plan, up to the number due. In the remaining due ticks, the player does
-        /// nothing.
+        /// The plan's actions, up to the number due. In the remaining due ticks, the player does nothing.
         actions: Vec<Action>,
-        /// The origin of the choice. It applies to all steps of the plan.
+        /// The origin of the choice, for all steps in the plan.
         validity: Validity,
     },
     /// A step, in which one action was played.
     Step {
-        /// The number of the step, from 0.
+        /// The step's index, starting at 0.
         step: u64,
-        /// The action that was played.
+        /// The action played.
         action: Action,
-        /// The origin of the choice of this action.
+        /// The origin of the action's choice.
         validity: Validity,
         /// The score after the action.
         score: f64,
@@ -108,7 +108,7 @@ pub enum Event {
         outcome: Outcome,
         /// The avatar's column and row after the action, if there is an avatar.
         avatar: Option<(i32, i32)>,
-        /// The number of forward-model calls spent by a planner.
+        /// The number of forward-model calls made by a planner.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         calls: Option<u64>,
         /// The duration of the decision, in milliseconds.
@@ -118,7 +118,7 @@ pub enum Event {
     Predictions {
         /// The number of steps before the answer.
         step: u64,
-        /// The sprite types in the question, by the game's own names.
+        /// The sprite types in the question, under the game's own names.
         kinds: Vec<String>,
         /// The types for which the player predicts each fact, or `None` if no answer could be read.
         predicted: Option<Predicted>,
@@ -128,14 +128,14 @@ pub enum Event {
         /// correct.
         grade: Grade,
     },
-    /// An abort of the episode. A later `--resume` continues after this line.
+    /// An aborted episode. Resuming the evaluation with `--resume` continues after this line.
     Halt {
         /// The category of the abort: `infrastructure`, `budget`, `rejected` or `unusable`.
         reason: String,
-        /// The reason for the abort, as a sentence.
+        /// The reason for the abort, in one sentence.
         message: String,
     },
-    /// The end of the episode, on the last line of the log.
+    /// The end of the episode, recorded in the last line of the log.
     End {
         /// The reason why the episode ended.
         status: Status,
@@ -152,9 +152,9 @@ pub enum Event {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reply {
-    /// The number of the request's step.
+    /// The index of the request's step.
     pub step: u64,
-    /// The number of the request's attempt.
+    /// The index of the request's attempt.
     pub attempt: u32,
     /// The classification of the answer.
     pub class: ReplyClass,
@@ -163,10 +163,10 @@ pub struct Reply {
     /// The model's reasoning, if the provider returns it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reasoning: Option<String>,
-    /// The action that was read from the text.
+    /// The action read from the text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub action: Option<Action>,
-    /// The actions that were read from the text, if the player commits to several.
+    /// The actions read from the text, if the player commits to several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Vec<Action>>,
     /// The parser rule that read the text.
@@ -176,13 +176,13 @@ pub struct Reply {
     pub finish: Finish,
     /// The token counts of the request and its answer.
     pub usage: Usage,
-    /// The name that the provider uses for the model that answered.
+    /// The provider's name for the model that answered.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub served_by: Option<String>,
     /// The failed tries before this answer.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<Failure>,
-    /// `true` if the answer comes from the cache.
+    /// `true` if the answer came from the cache.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub cached: bool,
     /// The time from the request to the answer, in milliseconds.
@@ -190,7 +190,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// Returns the record of an answer. The action read from the answer is not set yet.
+    /// Returns an answer's record. The record does not yet contain the action read from the answer.
     pub(crate) fn of(step: u64, attempt: u32, class: ReplyClass, answer: ChatReply) -> Reply {
         let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
         let latency_ms = (latency_ms * 1000.0).round() / 1000.0;
@@ -219,11 +219,11 @@ impl Reply {
 pub enum ReplyClass {
     /// The answer states an action in the requested format.
     Strict,
-    /// The answer states an action in a different format, which a tolerant rule read.
+    /// The answer states an action in a different format, read by a tolerant rule.
     Tolerant,
-    /// The answer contains no readable action, or an action that does not exist.
+    /// The answer contains no readable action, or states a nonexistent action.
     Invalid,
-    /// The model refused to answer.
+    /// The model declined to answer.
     Refused,
     /// The answer was cut off before it stated an action.
     Truncated,
@@ -239,8 +239,8 @@ pub enum Status {
     StepLimit,
 }
 
-/// Returns the origins of the decisions in a log. The decisions are the plans of the log, or its steps if the
-/// player commits to one action.
+/// Returns the origins of the decisions in a log. Each decision is a plan, or a step if the player commits to
+/// one action.
 pub fn decisions(log: &[Event]) -> impl Iterator<Item = Validity> {
     let is_one = !matches!(log.first(), Some(Event::Start { commit, .. }) if !commit.is_one());
     log.iter().filter_map(move |event| match event {

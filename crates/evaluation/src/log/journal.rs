@@ -9,26 +9,26 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// The maximum size of a log, in bytes. A long episode of a model that reasons at length can take several
+/// The maximum size of a log, in bytes. A long episode with extensive model reasoning can occupy several
 /// hundred million bytes.
 const MAX_LOG: u64 = 1 << 30;
 
-/// The recommendation in error messages about a log that is damaged or was changed.
+/// The recommendation in error messages about damaged or modified logs.
 pub(crate) const NEXT_STEP: &str = "the log is damaged or was changed: restore it, or remove it and play the episode again with `arcade evaluate --resume`";
 
-/// The open log of an episode. When [`Journal::push`] returns, the event has been written to the file.
+/// An episode's open log. Once [`Journal::push`] returns, the event has been written to the file.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
     file: Option<File>,
     events: Vec<Event>,
-    /// The range of events of the current step. The end is set only if the step was decided in an earlier
+    /// The range of events in the current step. The end is set only if the step was decided in an earlier
     /// run.
     step: (usize, Option<usize>),
 }
 
 impl Journal {
-    /// Opens the log at `path`. Events from an interrupted run are kept, except for a last line that was cut off.
+    /// Opens the log at `path`. Events from an interrupted run are kept, except for a truncated last line.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read or written, or is not a log.
@@ -63,15 +63,15 @@ impl Journal {
         &self.events
     }
 
-    /// Returns the events of the current step, without its [`Event::Step`]. After an interruption, they may
-    /// already include requests and replies.
+    /// Returns the events of the current step, without its [`Event::Step`]. After an interruption, these
+    /// events may include requests and replies.
     pub fn pending(&self) -> &[Event] {
         let (from, to) = self.step;
         &self.events[from..to.unwrap_or(self.events.len())]
     }
 
-    /// Sets the range of events that [`pending`](Journal::pending) returns, from `from` up to `to`, or up to the last
-    /// event.
+    /// Sets the range of events returned by [`pending`](Journal::pending): from `from` to `to`, or to the
+    /// last event.
     pub(crate) fn set_step(&mut self, from: usize, to: Option<usize>) {
         self.step = (from, to);
     }
@@ -92,7 +92,7 @@ impl Journal {
     }
 }
 
-/// Reads the events of the log at `path`, without a last line that was cut off.
+/// Reads the events of the log at `path`, ignoring a truncated last line.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, or is not a log.
@@ -100,7 +100,7 @@ pub fn read(path: &Path) -> Result<Vec<Event>, EvaluationError> {
     read_prefix(path).map(|(events, _)| events)
 }
 
-/// Returns the events of a log and their total size in bytes.
+/// Returns a log's events and their total size in bytes.
 fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
     let mut file = BufReader::new(open_file(path, MAX_LOG, RESTORE)?.take(MAX_LOG));
     let (mut events, mut sound, mut line) = (Vec::new(), 0, Vec::new());
@@ -119,7 +119,7 @@ fn read_prefix(path: &Path) -> Result<(Vec<Event>, u64), EvaluationError> {
     }
 }
 
-/// Returns a sentence that describes why a line is not an event.
+/// Returns a sentence that explains why a line is not an event.
 fn fault(line: &[u8], error: &serde_json::Error) -> String {
     let value = match serde_json::from_slice(line) {
         Ok(Value::Object(value)) => value,

@@ -1,4 +1,4 @@
-//! The log of an episode, with one event per line, appended as the event happens.
+//! An episode's log, with one event per line. Each event is appended as it happens.
 
 mod event;
 mod journal;

@@ -1,4 +1,4 @@
-//! Checks that the answers before a step are consistent with the validity recorded with the step.
+//! Checks that the answers before a step are consistent with the step's recorded validity.
 
 use crate::log::{Event, Reply, ReplyClass};
 use crate::player::Validity;
@@ -8,13 +8,12 @@ use engine::Action;
 #[derive(Debug, Default)]
 pub(super) struct Answers<'a> {
     replies: Vec<&'a Reply>,
-    /// `true` if a model was asked. The log of an external program contains no requests, only invalid
-    /// answers.
+    /// `true` if the player is a model. An external program's log contains no requests, only invalid answers.
     is_model: bool,
 }
 
 impl<'a> Answers<'a> {
-    /// Adds an answer that precedes step number `step`.
+    /// Adds an answer that precedes the step with index `step`.
     pub(super) fn reply(&mut self, reply: &'a Reply, step: usize) -> Result<(), String> {
         if reply.step != step as u64 {
             return Err(format!("the answer to step {} precedes step {step}", reply.step));
@@ -28,22 +27,22 @@ impl<'a> Answers<'a> {
         self.is_model |= matches!(event, Event::Request { .. });
     }
 
-    /// Compares a step with the answers before it, and clears the answers.
+    /// Compares a step with the preceding answers, and clears the answers.
     pub(super) fn step(&mut self, event: &Event) -> Result<(), String> {
         let Event::Step { step, action, validity, calls, .. } = event else { return Ok(()) };
         let is_named = |reply: &Reply| reply.action == Some(*action);
         self.decision(*step, *validity, *action == Action::Nil, calls.is_some(), is_named)
     }
 
-    /// Compares a plan with the answers before it, and clears the answers.
+    /// Compares a plan with the preceding answers, and clears the answers.
     pub(super) fn plan(&mut self, event: &Event) -> Result<(), String> {
         let Event::Plan { step, actions, validity } = event else { return Ok(()) };
         let is_named = |reply: &Reply| reply.plan.as_ref() == Some(actions);
         self.decision(*step, *validity, actions.is_empty(), false, is_named)
     }
 
-    /// Compares a decision with the answers before it. `is_named` returns `true` if an answer states the
-    /// actions of the decision.
+    /// Compares a decision with the preceding answers. `is_named` returns `true` if an answer states the
+    /// decision's actions.
     fn decision(
         &mut self,
         step: u64,

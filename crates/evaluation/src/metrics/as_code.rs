@@ -1,7 +1,7 @@
-//! Computes the meaningful steps as the reference's code does (`spec/06` §2.1 and §1.2), for comparison with
-//! numbers from that code.
+//! Computes the meaningful steps in the same way as the reference code (`spec/06` §2.1 and §1.2), for
+//! comparison with its numbers.
 //!
-//! The faults of the code are reproduced:
+//! The following faults of the reference code are reproduced:
 //!
 //! - The window is two steps.
 //! - A reversal does not count even if it earned a reward.
@@ -9,14 +9,14 @@
 //! - The avatar is the first `a` or `A` of the text.
 //! - The last step of an episode is lost.
 //!
-//! The one-tick lag of the boards in one version of the code is not reproduced.
+//! The boards' one-tick lag in one version of the reference code is not reproduced.
 
 use engine::{Action, Game, Observation};
 use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Returns the flags of all steps except the last. `texts` holds the board before each action, so there is no
-/// board after the last action. The rows of a board are joined by line feeds.
+/// Returns the flags of all steps except the last. `texts` contains the board before each action, so there is
+/// no board after the last action. Board rows are joined by line feeds.
 ///
 /// ```
 /// # use engine as infinite_arcade_engine;
@@ -38,7 +38,7 @@ pub fn flags_as_code(texts: &[String], actions: &[Action], rewards: &[f64]) -> V
         .collect()
 }
 
-/// Returns the row and column of the character that the reference's code treats as the avatar.
+/// Returns the row and column of the character that the reference code treats as the avatar.
 fn place(text: &str) -> Option<(usize, usize)> {
     text.lines().enumerate().find_map(|(row, line)| {
         let column = line.chars().position(|character| character.eq_ignore_ascii_case(&'a'))?;
@@ -46,7 +46,7 @@ fn place(text: &str) -> Option<(usize, usize)> {
     })
 }
 
-/// Returns `true` if some character other than the avatar's occurs less often than before.
+/// Returns `true` if any character other than the avatar's occurs less often than before.
 fn vanished(before: &str, after: &str) -> bool {
     let count = |text: &str| {
         let mut counts = BTreeMap::new();
@@ -59,17 +59,17 @@ fn vanished(before: &str, after: &str) -> bool {
     count(before).into_iter().any(|(character, count)| after.get(&character).copied().unwrap_or(0) < count)
 }
 
-/// Draws boards with the characters that the reference's code assigns to the contents of cells. The
-/// characters depend on the order of appearance, and stay the same throughout an episode.
+/// Draws boards with the characters that the reference code assigns to cell contents. The characters depend
+/// on the order of appearance, and stay the same throughout an episode.
 #[derive(Clone, Debug)]
 pub struct AsCode {
-    /// The entries of the level mapping, each with its character and its names as written.
+    /// The level mapping's entries, each with its character and its names as written.
     mapping: Vec<(char, Vec<String>)>,
     symbols: BTreeMap<String, char>,
 }
 
 impl AsCode {
-    /// Creates the characters that apply at the start of an episode of a game.
+    /// Creates the characters for the start of an episode.
     pub fn new(game: &Game) -> AsCode {
         let lines = game.description().mapping.iter();
         let mapping =
@@ -89,7 +89,7 @@ impl AsCode {
         cells.chunks(seen.columns.max(1)).map(|row| row.iter().map(symbol).join("")).join("\n")
     }
 
-    /// Assigns characters to cell contents seen for the first time.
+    /// Assigns characters to new cell contents.
     fn learn(&mut self, cells: &[String]) {
         let entities: BTreeSet<&str> =
             cells.iter().map(String::as_str).filter(|entity| !entity.is_empty()).collect();
@@ -138,7 +138,7 @@ mod tests {
         assert_eq!(flags_as_code(&texts, actions, rewards), expect);
     }
 
-    /// The test vectors are those of `spec/06` §2.1.
+    /// The test vectors come from `spec/06` §2.1.
     #[test]
     fn published_vectors() {
         check(&["wa..w", "w.a.w", "wa..w"], &[Left, Right, Up], &[0.0, 5.0, 0.0], &[true, false]);
@@ -175,8 +175,8 @@ mod tests {
         }
     }
 
-    /// The characters of the level mapping are used first, for contents whose names match its spelling. The
-    /// pool of characters follows in order. Later contents get the remaining characters.
+    /// The level mapping's characters are used first, for contents whose names match the mapping's spelling.
+    /// The character pool follows in order. Later contents get the remaining characters.
     #[test]
     fn characters_depend_on_the_order_of_appearance() {
         let game = Game::from_source(

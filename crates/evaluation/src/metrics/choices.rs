@@ -1,15 +1,16 @@
-//! The origins of an episode's choices, and their costs.
+//! The origins and costs of an episode's choices.
 
 use crate::log::{Event, ReplyClass};
 use crate::player::Validity;
 use serde::Serialize;
 
-/// The numbers of steps, by the origin of their choice. The counts add up to the number of steps.
+/// The numbers of steps, by the origin of each choice. The counts add up to the total number of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Choices {
-    /// The number of steps chosen by an answer in the requested format, or by a player that gives no answers.
+    /// The number of steps chosen by an answer in the requested format, or by a player that does not answer
+    /// prompts.
     pub valid: u64,
-    /// The number of steps chosen by an answer in a different format, which a tolerant rule read.
+    /// The number of steps chosen by an answer in a different format, read by a tolerant rule.
     pub tolerant: u64,
     /// The number of steps in which the player did nothing because no answer could be read.
     pub invalid: u64,
@@ -20,7 +21,7 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// Counts the choices in a log by their origin.
+    /// Counts a log's choices by origin.
     pub fn of(log: &[Event]) -> Choices {
         let mut choices = Choices::default();
         let mut class = None;
@@ -51,7 +52,7 @@ impl Choices {
         self.valid + self.tolerant + self.invalid + self.refused + self.truncated
     }
 
-    /// Adds the counts of `other` to these counts.
+    /// Adds the counts in `other` to these counts.
     pub fn add(&mut self, other: &Choices) {
         self.valid += other.valid;
         self.tolerant += other.tolerant;
@@ -61,16 +62,16 @@ impl Choices {
     }
 }
 
-/// The cost of an episode's answers. The token counts are those of the provider. A sum is `None` if the count
-/// of any answer is missing, or if there are no answers.
+/// The cost of an episode's answers. Token counts are reported by the provider. A sum is `None` if any
+/// answer's count is missing, or if there are no answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Spending {
-    /// The number of requests that were sent, whether or not they were answered. A request forbidden by a cap
-    /// was not sent.
+    /// The number of requests sent, whether or not they were answered. A request forbidden by a cap is not
+    /// sent.
     pub requests: u64,
     /// The number of answers.
     pub replies: u64,
-    /// The number of answers from the cache. Their tokens are counted, although these answers cost nothing.
+    /// The number of cached answers. Their tokens are counted, although cached answers cost nothing.
     pub cached_replies: u64,
     /// The number of failed tries that preceded answers.
     pub failures: u64,
@@ -111,7 +112,7 @@ impl Spending {
         }
     }
 
-    /// Adds the costs of `other` to these costs. An episode without answers adds nothing.
+    /// Adds the costs in `other` to these costs. An episode without answers adds nothing.
     pub fn add(&mut self, other: &Spending) {
         if other.replies > 0 {
             let first = self.replies == 0;
@@ -128,7 +129,7 @@ impl Spending {
     }
 }
 
-/// Returns the number of requests in a log that were sent.
+/// Returns the number of requests in a log that were actually sent.
 ///
 /// Requests are recorded before it is known whether a cap allows them. If the evaluation is resumed, a
 /// forbidden request is sent without being recorded again.

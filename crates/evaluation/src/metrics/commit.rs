@@ -1,4 +1,4 @@
-//! Compares the plans in a log with the steps that play them.
+//! Compares the plans in a log with the steps that carry them out.
 
 use crate::commitment::Commitment;
 use crate::log::Event;
@@ -6,24 +6,24 @@ use crate::player::Choice;
 use crate::run::available;
 use engine::{Game, State};
 
-/// The state of the plan that is being played.
+/// The state of the current plan.
 #[derive(Debug)]
 pub(super) struct Commit {
     commit: Commitment,
     max_steps: u64,
     choice: Choice,
-    /// The number of steps of the plan played so far.
+    /// The number of steps in the plan played so far.
     played: u64,
     due: u64,
 }
 
 impl Commit {
-    /// Creates the state that applies before the first decision.
+    /// Creates the state before the first decision.
     pub(super) fn new(commit: Commitment, max_steps: u64) -> Commit {
         Commit { commit, max_steps, choice: Choice::plan(Vec::new()), played: 0, due: 0 }
     }
 
-    /// Begins a plan that was recorded after `steps` steps.
+    /// Begins a plan recorded after `steps` steps.
     pub(super) fn begin(&mut self, event: &Event, steps: u64) -> Result<(), String> {
         let Event::Plan { step, actions, validity } = event else { return Ok(()) };
         if self.commit.is_one() {
@@ -46,8 +46,8 @@ impl Commit {
         Ok(())
     }
 
-    /// Compares a step in a state with the current plan. Returns `true` if there is no plan because the
-    /// player commits to one action, so that the step itself is a decision.
+    /// Compares a step in a state with the current plan. Returns `true` if the step itself is a decision
+    /// because the player commits to one action.
     pub(super) fn step(&mut self, event: &Event, game: &Game, state: &State) -> Result<bool, String> {
         let Event::Step { step, action, validity, .. } = event else { return Ok(false) };
         if self.commit.is_one() {

@@ -1,4 +1,4 @@
-//! The ending of an episode that was not won, with its cause and its distance from a win.
+//! The ending of an episode without a win, with its cause and its distance from a win.
 
 use crate::subject::Subject;
 use engine::analysis::{Condition, EffectSummary};
@@ -8,9 +8,9 @@ use itertools::Itertools;
 use serde::Serialize;
 
 base::named_enum! {
-    /// The kind of ending of an episode that was not won.
+    /// The kind of ending for an episode without a win.
     pub enum EndingKind {
-        /// The avatar was removed or turned into something else.
+        /// The avatar was removed or transformed into a different type.
         Died = "died",
         /// The game was lost because a required sprite other than the avatar was removed.
         Lost = "lost_sprite",
@@ -18,19 +18,19 @@ base::named_enum! {
         Appeared = "sprite_appeared",
         /// The time limit of the game was reached.
         OutOfTime = "out_of_time",
-        /// The game was lost in some other way, or for an unknown reason.
+        /// The game was lost for a different or an unknown reason.
         Otherwise = "lost_otherwise",
         /// The episode reached its step limit.
         StepLimit = "step_limit",
         /// The game ended without a winner.
         NoWinner = "no_winner",
-        /// The engine stopped the episode because of the rules of the game or an engine limit.
+        /// The engine stopped the episode because of the game's rules or an engine limit.
         Stopped = "stopped",
     }
 }
 
 impl EndingKind {
-    /// Returns the name of the ending for use in headings.
+    /// Returns the ending's name for use in headings.
     pub fn title(self) -> &'static str {
         match self {
             EndingKind::Died => "died",
@@ -45,50 +45,51 @@ impl EndingKind {
     }
 }
 
-/// The ending of an episode that was not won.
+/// The ending of an episode without a win.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Ending {
-    /// The kind of the ending.
+    /// The kind of ending.
     pub kind: EndingKind,
-    /// The sprite type that was removed or appeared, if the number of its sprites lost the game.
+    /// The removed or appearing sprite type, if its sprite count lost the game.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sprite: Option<String>,
     /// The other sprite type in the interaction that last removed or created the sprite, or `EOS`. `None` if
     /// no interaction removed or created the sprite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
-    /// The line of the game description that caused the ending, as written. The line is an interaction if one
-    /// is known, and otherwise a termination.
+    /// The line in the game description that caused the ending, as written. The line is an interaction if
+    /// known, and otherwise a termination.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<String>,
-    /// The reason why the engine stopped the episode, if the engine stopped it.
+    /// The reason why the engine stopped the episode, if it did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<Limit>,
-    /// The distance from a win in the last state, or `None` if no winning termination counts anything.
+    /// The distance from a win in the last state, or `None` if none of the winning terminations count
+    /// anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distance: Option<GoalDistance>,
 }
 
-/// The name of the screen edge in interactions.
+/// The name for the screen edge in interactions.
 const EDGE: &str = "EOS";
 
-/// The name under which ticks are counted.
+/// The name for ticks as a counted quantity.
 const TICKS: &str = "ticks";
 
-/// The distance from fulfilling a winning termination. If there are several winning terminations, the
-/// distance is that of the nearest one.
+/// The distance from fulfilling a winning termination. With several winning terminations, the nearest one
+/// determines the distance.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct GoalDistance {
     /// The names of the counted sprite types, as in the termination, or `ticks`.
     pub counted: String,
     /// The number of sprites left to remove or to create, or the number of ticks left to survive.
     pub left: u32,
-    /// The number that was left in the first state of the episode.
+    /// The number left in the first state of the episode.
     pub of: u32,
 }
 
 impl GoalDistance {
-    /// Returns the fraction of the distance that remains.
+    /// Returns the remaining fraction of the distance.
     pub fn fraction(&self) -> f64 {
         f64::from(self.left) / f64::from(self.of.max(1))
     }
@@ -103,7 +104,7 @@ impl GoalDistance {
 }
 
 impl Ending {
-    /// Formats the ending and its cause, as in `died of touching dragonfly`.
+    /// Formats the ending with its cause, as in `died of touching dragonfly`.
     pub fn words(&self) -> String {
         let particulars = self.particulars().unwrap_or_default();
         match self.kind {
@@ -118,9 +119,9 @@ impl Ending {
         }
     }
 
-    /// Formats the sprites that caused the ending, to follow its kind, as in `of touching dragonfly`,
-    /// `flower to arrow` or `weed`. Returns `None` if the sprites are unknown, or if no sprite causes this
-    /// kind of ending.
+    /// Formats the sprites that caused the ending, as text to append to its kind, as in `of touching
+    /// dragonfly`, `flower to arrow` or `weed`. Returns `None` if the sprites are unknown, or if this kind of
+    /// ending has no causing sprite.
     pub fn particulars(&self) -> Option<String> {
         let sprite = || self.sprite.as_deref().unwrap_or("a sprite");
         match (self.kind, &self.by) {
@@ -137,7 +138,7 @@ impl Ending {
         }
     }
 
-    /// Returns the ending of an episode for which only the outcome is known, or `None` for a win.
+    /// Returns the ending of an episode with only a known outcome, or `None` for a win.
     pub(crate) fn unknown(outcome: Outcome) -> Option<Ending> {
         let kind = match outcome {
             Outcome::Won => return None,
@@ -153,7 +154,7 @@ impl Ending {
         Some(Ending { kind, sprite: None, by: None, rule: None, stop, distance: None })
     }
 
-    /// Derives the ending from the first state, the last state and the interactions of the last tick. Returns
+    /// Derives the ending from the first state, the last state and the last tick's interactions. Returns
     /// `None` for a win.
     pub(super) fn of(subject: &Subject, first: &State, last: &State, tick: LastTick) -> Option<Ending> {
         if last.outcome() == Outcome::Lost {
@@ -164,7 +165,7 @@ impl Ending {
     }
 }
 
-/// The interactions of an episode's last tick.
+/// The interactions in an episode's last tick.
 #[derive(Default)]
 pub(super) struct LastTick {
     meetings: Vec<Meeting>,
@@ -249,8 +250,8 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
     }
 }
 
-/// Finds the possible cause in an interaction that may have removed sprites anywhere on the board. Returns
-/// the interaction's line, the removed type among `types`, and the type that the interaction acted on.
+/// Finds an interaction that may have removed sprites anywhere on the board, as a possible cause. Returns the
+/// interaction's line, the removed type among `types`, and the type that the interaction acted on.
 fn removed_at_large(
     subject: &Subject,
     meeting: &Meeting,
@@ -282,7 +283,7 @@ fn distance(subject: &Subject, first: &State, last: &State) -> Option<GoalDistan
     open.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
 }
 
-/// Returns the line of a source text around a span, without its comment and with single spaces.
+/// Returns the source line around a span, without its comment and with single spaces.
 fn written(source: &str, span: Span) -> String {
     let from = source.get(..span.start).map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
     let line = source.get(from..).unwrap_or("").lines().next().unwrap_or("");

@@ -1,4 +1,4 @@
-//! All metrics of a single episode.
+//! The metrics of a single episode.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -18,18 +18,18 @@ use std::collections::BTreeSet;
 /// The metrics of a single episode. Ratios are between 0 and 1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EpisodeMetrics {
-    /// The name of the game's folder.
+    /// The game's folder name.
     pub game: String,
-    /// The number of the level.
+    /// The level number.
     pub level: usize,
-    /// The index of the episode among the player's episodes on this level.
+    /// The episode's index among the player's episodes on this level.
     pub run: u64,
     /// The reason why the episode ended.
     pub status: EpisodeStatus,
     /// The outcome after the last step.
     pub outcome: Outcome,
-    /// The cause of the ending and the distance from a win. `None` for a win, and for an episode that was
-    /// aborted or interrupted.
+    /// The cause of the ending and the distance from a win. `None` for a win, and for an aborted or
+    /// interrupted episode.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ending: Option<Ending>,
     /// The score after the last step.
@@ -41,21 +41,21 @@ pub struct EpisodeMetrics {
     /// The number of actions that the player commits to at each decision.
     #[serde(skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
-    /// The track of the episode, with its version.
+    /// The episode's track, with its version.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
-    /// The level's position in a series that was played in one conversation.
+    /// The level's position in a series of levels played in one conversation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub series: Option<SeriesPlace>,
-    /// The grade of the predictions after the last level of a series.
+    /// The grade of the player's predictions after the last level in a series.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub predictions: Option<Grade>,
-    /// The number of ticks of the level's shortest win, if the win is proved to be optimal.
+    /// The length of the level's shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,
-    /// The meaningful step ratio, which is the number of meaningful steps divided by the number of steps.
+    /// The meaningful step ratio: the number of meaningful steps divided by the total number of steps.
     pub meaningful: Option<f64>,
-    /// The meaningful step ratio according to the reference's code, which omits the last step. An episode of
-    /// one step has no ratio.
+    /// The meaningful step ratio according to the reference code, which omits the last step. The ratio is
+    /// undefined for an episode with a single step.
     pub meaningful_as_code: Option<f64>,
     /// The metrics of the avatar's movement in the level.
     pub movement: Movement,
@@ -63,20 +63,20 @@ pub struct EpisodeMetrics {
     pub choices: Choices,
     /// The cost of the episode's choices.
     pub spending: Spending,
-    /// The names that the provider used for the versions of the model that answered.
+    /// The provider's names for the model versions that answered.
     #[serde(skip_serializing_if = "BTreeSet::is_empty")]
     pub served_by: BTreeSet<String>,
-    /// The index of the results folder that contains the episode, among the folders of a study.
+    /// The index of the episode's results folder among a study's folders.
     #[serde(skip)]
     pub folder: Option<usize>,
-    /// The digest of all actions, boards, scores and outcomes, or `None` if it is unknown. Identical episodes
-    /// have equal digests.
+    /// The digest of all actions, boards, scores and outcomes, or `None` if unknown. Identical episodes have
+    /// equal digests.
     #[serde(skip)]
     pub course: Option<Digest>,
     /// The duration of each decision, in milliseconds.
     #[serde(skip)]
     pub decision_ms: Vec<f64>,
-    /// The number of forward-model calls in each decision, for players that make such calls.
+    /// The number of forward-model calls in each decision, for players that use the forward model.
     #[serde(skip)]
     pub calls: Vec<u64>,
 }
@@ -87,17 +87,17 @@ pub struct EpisodeMetrics {
 pub enum EpisodeStatus {
     /// The game is over.
     Over,
-    /// The episode reached its step limit, which is not a win.
+    /// The episode reached its step limit without a win.
     StepLimit,
-    /// The episode was aborted for the given reason. The player is not at fault, so the episode counts in no
-    /// metric.
+    /// The episode was aborted for the given reason. The player is not at fault, so the episode is excluded
+    /// from all metrics.
     Halted(String),
-    /// The log ends early, because the evaluation was interrupted. The episode counts in no metric.
+    /// The log ends early, because the evaluation was interrupted. The episode is excluded from all metrics.
     Interrupted,
 }
 
 impl EpisodeMetrics {
-    /// Computes the metrics of an episode. The episode is replayed from its log on its game.
+    /// Computes an episode's metrics by replaying the episode from its log.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`replay`].
@@ -105,8 +105,8 @@ impl EpisodeMetrics {
         Ok(EpisodeMetrics::measured(subject, log, replay(subject, log)?))
     }
 
-    /// Computes the metrics that do not depend on which steps were meaningful, at the cost of
-    /// [`replay_course`]. `meaningful`, `meaningful_as_code` and the rates of `movement` are `None`.
+    /// Computes the metrics that do not depend on meaningful steps, at the cost of [`replay_course`].
+    /// `meaningful`, `meaningful_as_code` and the rates of `movement` are `None`.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`replay`].
@@ -158,7 +158,7 @@ impl EpisodeMetrics {
         }
     }
 
-    /// Returns the metrics of a finished episode for which only the outcome is known, as in results without logs. The
+    /// Returns the metrics of a finished episode with only a known outcome, as in results without logs. The
     /// score and the number of steps are 0.
     pub fn ended(game: &str, level: usize, run: u64, outcome: Outcome) -> EpisodeMetrics {
         let is_over = outcome != Outcome::Ongoing;
@@ -190,7 +190,7 @@ impl EpisodeMetrics {
         }
     }
 
-    /// Returns `true` if the engine stopped the episode. Such an episode says nothing about the player.
+    /// Returns `true` if the engine stopped the episode. Such an episode is no evidence about the player.
     pub fn is_stopped(&self) -> bool {
         self.ending.as_ref().is_some_and(|ending| ending.stop.is_some())
     }
@@ -201,34 +201,33 @@ impl EpisodeMetrics {
         self.outcome == Outcome::Won
     }
 
-    /// Returns `true` if the level was played to learn the rules of a series. Such an episode counts in no
-    /// result.
+    /// Returns `true` if the level was played to learn the rules of a series. Such an episode is excluded
+    /// from all results.
     pub fn is_practice(&self) -> bool {
         self.series.is_some_and(SeriesPlace::is_practice)
     }
 
-    /// Returns `true` if the episode counts in results, because it ended with the game or at the step limit.
+    /// Returns `true` if the episode counts in results, because it ended with the game or at its step limit.
     pub fn counts(&self) -> bool {
         self.status.aborted().is_none()
     }
 
-    /// Returns the number of steps of the proved shortest win divided by the number of steps of this episode,
-    /// which is 1 for an optimal win. Returns `None` unless the episode is a win on a level with a known
-    /// shortest win.
+    /// Returns the number of steps in the shortest win, if proved optimal, divided by the number of steps in
+    /// this episode. The ratio is 1 for an optimal win. Returns `None` unless the episode is a win on a level
+    /// whose shortest win is known.
     pub fn optimality(&self) -> Option<f64> {
         let optimal = self.optimal_ticks.filter(|_| self.won() && self.steps > 0)?;
         Some(optimal as f64 / self.steps as f64)
     }
 
-    /// Returns the fraction of steps that were not used, `1 − steps / limit`.
+    /// Returns the fraction of unused steps, `1 − steps / limit`.
     pub fn unused_steps(&self) -> Option<f64> {
         (self.max_steps > 0).then(|| 1.0 - self.steps as f64 / self.max_steps as f64)
     }
 }
 
 impl EpisodeStatus {
-    /// Derives the status from the steps of the episode. A missing or contradictory last line of the log has
-    /// no effect.
+    /// Derives the status from the episode's steps. A missing or contradictory last log line has no effect.
     fn of(replayed: &Replayed, max_steps: u64, log: &[Event]) -> EpisodeStatus {
         if replayed.outcome != Outcome::Ongoing {
             return EpisodeStatus::Over;
@@ -252,7 +251,7 @@ impl EpisodeStatus {
     }
 }
 
-/// Returns the names that the provider used for the versions of the model that answered.
+/// Returns the provider's names for the model versions that answered.
 fn served_by(log: &[Event]) -> BTreeSet<String> {
     let replies = log.iter().filter_map(|event| match event {
         Event::Reply(reply) => reply.served_by.clone(),
@@ -261,7 +260,7 @@ fn served_by(log: &[Event]) -> BTreeSet<String> {
     replies.collect()
 }
 
-/// Returns the fraction of flags that are `true`.
+/// Returns the fraction of `true` flags.
 fn fraction(flags: &[bool]) -> Option<f64> {
     (!flags.is_empty()).then(|| flags.iter().filter(|flag| **flag).count() as f64 / flags.len() as f64)
 }

@@ -3,33 +3,33 @@
 //! The paper calls a step meaningful if it earned a reward or if its action changed the grid. Moves that
 //! cancel each other within four steps are not meaningful.
 //!
-//! The effect of an action is determined by comparison with a counterfactual: the observation that would
-//! follow from the same state with the same randomness if the player had done nothing. Sprites that move by
+//! An action's effect is determined by comparison with a counterfactual: the observation that would follow
+//! from the same state, with the same randomness, if the player had done nothing. Sprites that move by
 //! themselves look the same in both observations, so only the player's effect differs.
 
 /// The maximum number of steps within which moves cancel each other.
 pub const WINDOW: usize = 4;
 
-/// The effect of an action, compared with doing nothing.
+/// An action's effect, compared with doing nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// The result is the same as after doing nothing, and there was no reward.
+    /// The result is the same as after doing nothing, without a reward.
     Nothing,
-    /// Only the avatar's position differs from the result of doing nothing, and there was no reward.
+    /// Only the avatar's position differs from the result of doing nothing, without a reward.
     Moved,
-    /// There was a reward or an effect other than a move. For example, a sprite appeared, vanished, changed
-    /// or moved, the avatar turned into a different type, or the game ended.
+    /// The action earned a reward, or had an effect other than a move. For example, a sprite appeared,
+    /// vanished, changed or moved, the avatar turned into a different type, or the game ended.
     Acted,
 }
 
-/// Decides for each step whether it is meaningful. `places` holds the avatar's position before the first step
-/// and after each step. A position is `None`, or missing at the end, while there is no avatar.
+/// Returns, for each step, `true` if the step is meaningful. `places` contains the avatar's position before
+/// the first step and after each step. A position is `None`, or missing at the end, while there is no avatar.
 ///
-/// A step that acted is meaningful. A step that moved is meaningful unless it is part of a loop. A loop
-/// closes when the avatar returns to its position before a step at most [`WINDOW`] steps back, and all steps
-/// since then only moved it. The moves of a closed loop cancel each other, and the loop is forgotten. In the
-/// walk A B A B C, the first two moves cancel each other, and the last two moves lead from A to C. Cost:
-/// O(steps).
+/// A step with effect [`Acted`](Effect::Acted) is meaningful. A step with effect [`Moved`](Effect::Moved) is
+/// meaningful unless it is part of a loop. A loop closes when the avatar returns to its position before a
+/// step at most [`WINDOW`] steps back, and all steps since then only moved it. The moves of a closed loop
+/// cancel each other, and the loop is forgotten. In the walk A B A B C, the first two moves cancel each
+/// other, and the last two moves lead from A to C. Cost: O(steps).
 ///
 /// ```
 /// use infinite_arcade_evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     /// Checks the flags of a walk. Positions are written as letters, with `-` for a missing position. Effects
-    /// are written as `m`, `a` and `.`, and flags as `1` and `0`.
+    /// are written as `m`, `a` or `.`, and flags as `1` or `0`.
     #[track_caller]
     fn check(places: &str, effects: &str, expect: &str) {
         let places: Vec<Option<char>> =
@@ -109,7 +109,7 @@ mod tests {
         check("abcdefa", "mmmmmm", "111111");
     }
 
-    /// A walk that fetches something and returns has changed the state.
+    /// A walk that collects something and returns has changed the state.
     #[test]
     fn effects_on_the_game_are_never_cancelled() {
         check("aba", "am", "11");
@@ -118,7 +118,7 @@ mod tests {
         check("ababa", "ammm", "1001");
     }
 
-    /// A slide is not an action of the player, but it is part of the walk.
+    /// A slide is not a player action, but is part of the walk.
     #[test]
     fn moved_by_something_else() {
         check("aba", "m.", "00");

@@ -1,7 +1,7 @@
-//! The metrics of an episode, which are a function of its log and its game (`docs/reference/metrics.md`).
+//! The metrics of an episode, computed from its log and its game (`docs/reference/metrics.md`).
 //!
 //! The game is replayed from the seed and the actions in the log, and every state hash is compared. Nothing
-//! is measured during play, so a metric can be added or fixed later without asking a model again. Unknown
+//! is measured during play, so metrics can be added or fixed later without querying a model again. Unknown
 //! values are `None`, never 0.
 
 mod answers;

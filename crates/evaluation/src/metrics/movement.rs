@@ -1,35 +1,35 @@
-//! The failure-mode metrics of the paper (`spec/06` §2.7), computed from the meaningful steps and the
-//! avatar's cells.
+//! The paper's failure-mode metrics (`spec/06` §2.7), computed from the meaningful steps and the avatar's
+//! cells.
 
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// The failure-mode metrics of an episode. The metrics about steps are `None` if there was no step. The
-/// metrics about cells are `None` if there was never an avatar.
+/// An episode's failure-mode metrics. The step metrics are `None` if there were no steps. The cell metrics
+/// are `None` if there was never an avatar.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Movement {
-    /// The fraction of steps that were not meaningful, between 0 and 1. The bump rate is the complement of
-    /// the meaningful step ratio.
+    /// The fraction of steps that were not meaningful (one minus the meaningful step ratio), between 0 and 1.
     pub bump_rate: Option<f64>,
     /// The length of the longest sequence of steps that were not meaningful.
     pub max_bumps: Option<u64>,
-    /// The bump rate in the last quarter of the steps. The number of steps in the quarter is rounded up.
+    /// The bump rate in the last quarter of the steps. The quarter's length is rounded up.
     pub late_bump_rate: Option<f64>,
-    /// The fraction of steps that returned to the cell of two steps before, as in A B A.
+    /// The fraction of steps that returned to the avatar's cell from two steps before, as in A B A.
     pub oscillation_rate: Option<f64>,
-    /// The fraction of steps after which the avatar was in the same cell as before. Such a step is a bump by
-    /// the paper's alternative definition.
+    /// The fraction of steps that left the avatar in the same cell. Such a step is a bump by the paper's
+    /// alternative definition.
     pub still_rate: Option<f64>,
     /// The number of distinct cells visited by the avatar, including its first cell.
     pub unique_cells: Option<u64>,
-    /// The number of distinct cells visited divided by the area of their bounding rectangle, between 0 and 1.
+    /// The number of distinct cells visited divided by the area of the cells' bounding rectangle, between 0
+    /// and 1.
     pub coverage: Option<f64>,
-    /// The distance travelled, in cells, which is the sum of the Manhattan distances of all steps.
+    /// The distance travelled in cells: the sum of the Manhattan distances over all steps.
     pub displacement: Option<u64>,
 }
 
 impl Movement {
-    /// Computes the metrics from the meaningful steps of an episode and the avatar's cells. `cells` holds the
+    /// Computes the metrics from an episode's meaningful steps and the avatar's cells. `cells` contains the
     /// avatar's column and row before the first step and after each step. Cost: O(steps log steps).
     ///
     /// ```
@@ -67,7 +67,7 @@ impl Movement {
     }
 }
 
-/// Returns the area of the bounding rectangle of all cells.
+/// Returns the area of the rectangle that bounds all cells.
 fn area(cells: &[(i32, i32)]) -> Option<f64> {
     let side = |of: fn(&(i32, i32)) -> i32| {
         let (least, most) = (cells.iter().map(of).min()?, cells.iter().map(of).max()?);
@@ -100,7 +100,7 @@ mod tests {
         assert_eq!(Movement::of(&flags, &cells), expect);
     }
 
-    /// The last quarter is rounded up to two of five steps.
+    /// The last quarter of five steps is rounded up to two.
     #[test]
     fn quarters() {
         let late = |flags: &[bool]| Movement::of(flags, &vec![None; flags.len() + 1]).late_bump_rate;

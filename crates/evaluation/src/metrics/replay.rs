@@ -16,15 +16,15 @@ use engine::{Action, Game, Outcome, SEMANTICS, State};
 /// The result of replaying an episode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replayed {
-    /// The number of ticks in the level's shortest win, if the win is proved to be optimal.
+    /// The length of the level's shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,
-    /// The actions of the episode.
+    /// The episode's actions.
     pub actions: Vec<Action>,
-    /// The change of the score in each step.
+    /// The change in score per step.
     pub rewards: Vec<f64>,
-    /// The flags of the meaningful steps, which are empty after [`replay_course`].
+    /// The flags of the meaningful steps. Empty after [`replay_course`].
     pub meaningful: Vec<bool>,
-    /// The flags of the meaningful steps according to the reference's code, which has no flag for the last
+    /// The flags of the meaningful steps according to the reference code, which has no flag for the last
     /// step. Empty after [`replay_course`].
     pub meaningful_as_code: Vec<bool>,
     /// The avatar's column and row before the first step and after each step.
@@ -33,29 +33,28 @@ pub struct Replayed {
     pub outcome: Outcome,
     /// The score after the last step.
     pub score: f64,
-    /// The digest of all actions, visible boards, scores and outcomes. The state of the random generator is
-    /// not included.
+    /// The digest of all actions, visible boards, scores and outcomes. The digest excludes the random
+    /// generator's state.
     pub course: Digest,
     /// The cause of the ending and the distance from a win, if the episode was not won.
     pub ending: Option<Ending>,
 }
 
-/// Replays the episode of a log on its game, and compares every state hash, score, outcome and avatar
-/// position.
+/// Replays a logged episode on its game, and compares every state hash, score, outcome and avatar position.
 ///
-/// Other recorded values are also checked. The validity of a step must agree with the answers before it, the
+/// Other recorded values are also checked. Each step's validity must agree with the preceding answers, the
 /// last line with the final state, and the number of steps with the limit.
 ///
 /// Cost per step: two forward-model calls, a copy of the state and O(sprites log sprites).
 ///
 /// # Errors
 /// Returns an error if the log belongs to a different game, level or version of the suite, or contradicts
-/// itself or the game. The message states the line.
+/// itself or the game. The message states the line number.
 pub fn replay(subject: &Subject, log: &[Event]) -> Result<Replayed, EvaluationError> {
     replay_measured(subject, log, true)
 }
 
-/// Replays the episode of a log with the same comparisons as [`replay`], without measuring which steps were
+/// Replays a logged episode with the same comparisons as [`replay`], but without determining which steps were
 /// meaningful.
 ///
 /// Cost per step: one forward-model call and O(sprites log sprites).
@@ -161,7 +160,7 @@ fn replay_measured(subject: &Subject, log: &[Event], has_effects: bool) -> Resul
     Ok(replayed)
 }
 
-/// Returns the level of an episode and the state before its first step.
+/// Returns an episode's level, and the state before its first step.
 fn begin<'a>(subject: &'a Subject, start: &Event) -> Result<(&'a SubjectLevel, State), String> {
     let Event::Start { schema, semantics, game_digest, level, level_digest, seed, hash, avatar, .. } = start
     else {
@@ -223,7 +222,7 @@ fn compare(event: &Event, state: &State, replayed: &Replayed) -> Result<(), Stri
     }
 }
 
-/// Checks that the grade of predictions agrees with the rules of the game.
+/// Checks that the grade of the predictions agrees with the game's rules.
 fn compare_predictions(event: &Event, subject: &Subject, steps: usize) -> Result<(), String> {
     let Event::Predictions { step, kinds, predicted, validity, grade } = event else { return Ok(()) };
     if *step != steps as u64 {
@@ -240,7 +239,7 @@ fn compare_predictions(event: &Event, subject: &Subject, steps: usize) -> Result
     }
 }
 
-/// Compares the last line of a log with the final state.
+/// Compares a log's last line with the final state.
 fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(), String> {
     let Event::End { status, outcome, score, steps } = event else { return Ok(()) };
     let taken = replayed.actions.len() as u64;
@@ -267,7 +266,7 @@ fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(),
     }
 }
 
-/// Describes the outcome of an episode, as in `won` or `not over`.
+/// Describes an episode's outcome, as in `won` or `not over`.
 fn in_words(outcome: Outcome) -> String {
     match outcome {
         Outcome::Ongoing => "not over".to_owned(),
@@ -282,11 +281,11 @@ fn cell(game: &Game, state: &State) -> Option<(i32, i32)> {
     game.seen_avatar(state).map(|avatar| (avatar.column, avatar.row))
 }
 
-/// A visible sprite, described by its type and its rectangle in pixels.
+/// A visible sprite: its type and its rectangle in pixels.
 type SeenSprite = (u16, i32, i32, i32, i32);
 
-/// The visible part of a state, in pixels rather than cells. Pixels and cells are equivalent for sprites that
-/// move from cell to cell. For a gliding sprite, cells would not distinguish a short glide from a blocked
+/// The visible part of a state, in pixels rather than cells. For sprites that move from cell to cell, pixels
+/// and cells are equivalent. For gliding sprites, cells would not distinguish a short glide from a blocked
 /// move.
 #[derive(Clone, Debug, PartialEq)]
 struct Seen {
@@ -335,8 +334,8 @@ impl Seen {
     }
 }
 
-/// Returns the effect of an action, by comparison with `idle`, the result of doing nothing. `idle` is `None`
-/// if the action was to do nothing.
+/// Returns an action's effect by comparison with `idle`, the result of doing nothing. `idle` is `None` if the
+/// action was to do nothing.
 fn effect(seen: &Seen, outcome: Outcome, idle: Option<(Seen, Outcome)>, reward: f64) -> Effect {
     let Some((idle, idle_outcome)) = idle else {
         return if reward == 0.0 { Effect::Nothing } else { Effect::Acted };

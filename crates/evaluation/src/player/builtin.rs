@@ -9,14 +9,14 @@ use engine::{Action, Episode};
 
 /// The player of an episode.
 pub enum Contestant {
-    /// A planner. Planners see the state, because they are baselines and not subjects of the benchmark.
+    /// A planner. Planners see the state, because they are baselines rather than benchmark subjects.
     Planner {
-        /// The planner, with its budget if the name contains one.
+        /// The planner, with its budget if its name contains one.
         spec: PlannerSpec,
         /// The number of forward-model calls per decision, used if the planner's name contains no budget.
         budget: Budget,
     },
-    /// An agent, which is shown turns instead of the state.
+    /// An agent, which sees turns instead of the state.
     Agent(Box<dyn Agent>),
 }
 
@@ -27,7 +27,7 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// Creates an agent that repeats the actions of an episode.
+    /// Creates an agent that repeats an episode's actions.
     pub fn of(episode: &Episode) -> Replay {
         Replay { actions: episode.actions.clone() }
     }

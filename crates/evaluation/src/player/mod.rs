@@ -1,4 +1,4 @@
-//! Players: planners that see the state, and agents that are shown turns.
+//! Players: planners that see the state, and agents that see turns.
 
 mod builtin;
 pub mod mailbox;
@@ -16,36 +16,36 @@ use crate::run::Task;
 use crate::turn::Turn;
 use engine::Action;
 
-/// A player that sees only the turns that it is shown.
+/// A player that sees only the turns shown to it.
 pub trait Agent: Send {
     /// Chooses the next action, or the next actions if the player commits to several ([`Turn::due`]).
     ///
     /// Every message and payment must be added to the journal as it happens, before and after each request,
-    /// so that nothing is lost or paid for twice if the program is killed. Events that an interrupted run
-    /// recorded for this turn are already in the journal ([`Journal::pending`]), and must be used before
-    /// anything is requested.
+    /// so that nothing is lost or paid for twice if the program is killed. Events recorded for this turn by
+    /// an interrupted run are already in the journal ([`Journal::pending`]), and must be used before making
+    /// any request.
     ///
     /// # Errors
-    /// Returns an error if there is no choice and the player is not at fault. The episode is then aborted.
+    /// Returns an error if there is no choice through no fault of the player. The episode is then aborted.
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt>;
 
-    /// Recalls a turn of an interrupted episode and its recorded choice, while the episode is replayed from
-    /// its log.
+    /// Recalls a turn from an interrupted episode, with its recorded choice, while the episode is replayed
+    /// from its log.
     ///
     /// # Errors
     /// Returns an error if the agent cannot resume the episode.
     fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt>;
 
-    /// Begins an episode, which may be the next level of a series. The agent remembers the earlier levels of
-    /// the series.
+    /// Begins an episode, possibly the next level in a series. The agent remembers the series's earlier
+    /// levels.
     fn begin(&mut self, _task: &Task<'_>) {}
 
-    /// Answers the question after the last level of a series. The question asks which of the given sprite
-    /// types kill, stop, disappear or score when they are touched. Returns `None` for players that cannot be
-    /// asked. Recorded answers are used as in [`act`](Agent::act).
+    /// Answers the question after the last level in a series. The question asks which of the given sprite
+    /// types kill, stop, disappear or score when they are touched. Returns `None` for players that cannot
+    /// answer questions. Recorded answers are used as in [`act`](Agent::act).
     ///
     /// # Errors
-    /// Returns an error if there is no answer and the player is not at fault. The episode is then aborted.
+    /// Returns an error if there is no answer through no fault of the player. The episode is then aborted.
     fn predict(
         &mut self,
         _last: &Turn<'_>,
@@ -55,12 +55,12 @@ pub trait Agent: Send {
         Ok(None)
     }
 
-    /// Shows the final observation after the end of the episode. No answer is expected, and the method cannot
-    /// fail.
+    /// Shows the agent the final observation after the end of the episode. No answer is expected, and the
+    /// method cannot fail.
     fn end(&mut self, _last: &Turn<'_>) {}
 }
 
-/// An agent's answer to the last question of a series.
+/// An agent's answer to the last question in a series.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Said {
     /// The predictions, or `None` if no answer could be read.
@@ -69,85 +69,83 @@ pub struct Said {
     pub validity: Validity,
 }
 
-/// A decision of an agent.
+/// An agent's decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// The actions to play, one per tick. [`Action::Nil`] replaces actions that are missing up to the
-    /// commitment, and actions that are unavailable when they are due. Actions beyond the commitment are not
-    /// played.
+    /// The actions to play, one per tick. [`Action::Nil`] replaces missing actions up to the commitment, and
+    /// actions that are unavailable when they are due. Actions beyond the commitment are not played.
     pub actions: Vec<Action>,
     /// The origin of the choice.
     pub validity: Validity,
 }
 
 impl Choice {
-    /// Creates the choice of one action.
+    /// Creates a choice with a single action.
     pub fn of(action: Action) -> Choice {
         Choice::plan(vec![action])
     }
 
-    /// Creates the choice of several actions in order.
+    /// Creates a choice with several actions in order.
     pub fn plan(actions: Vec<Action>) -> Choice {
         Choice { actions, validity: Validity::Valid }
     }
 
-    /// Creates the choice of a player without a usable answer, which is to do nothing.
+    /// Creates the choice of doing nothing, for a player without a usable answer.
     pub fn nothing(validity: Validity) -> Choice {
         Choice { actions: Vec::new(), validity }
     }
 
-    /// Returns the action for a tick. Ticks are counted from the decision.
+    /// Returns the action for a tick, counted from the decision.
     pub fn action(&self, tick: usize) -> Action {
         self.actions.get(tick).copied().unwrap_or(Action::Nil)
     }
 }
 
 base::named_enum! {
-    /// The origin of a choice. All origins except [`Valid`](Validity::Valid) are counted separately in all
-    /// tables.
+    /// The origin of a choice. All tables count origins other than [`Valid`](Validity::Valid) separately.
     pub enum Validity {
         /// The player stated the action.
         Valid = "valid",
-        /// No answer could be read as an action, even after repeated questions. The player does nothing, and
-        /// is at fault.
+        /// No answer could be read as an action, even after repeated questions. The player is at fault, and
+        /// does nothing.
         Invalid = "invalid",
-        /// The player refused to answer.
+        /// The player declined to answer.
         Refused = "refused",
         /// The answer was cut off before it stated an action.
         Truncated = "truncated",
     }
 }
 
-/// The reason why a choice is missing, if the player is not at fault.
+/// The reason for a missing choice that is not the player's fault.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Halt {
-    /// The network, the server or the process of the player failed in every try.
+    /// Every try failed because of the network, the server or the player's process.
     #[error("{0}")]
     Infrastructure(String),
-    /// The next request would exceed the stated spending limit.
+    /// The next request would exceed the given spending limit.
     #[error("{0}")]
     Budget(String),
     /// The server rejects all requests of this kind, for example because of a wrong key or an unknown model,
     /// so the evaluation cannot continue.
     #[error("{0}")]
     Rejected(String),
-    /// The server rejects the content of this game's prompts, so the player cannot be asked about this game.
+    /// The server rejects this game's prompts because of their content, so the player cannot play this game.
     /// Other games may work.
     #[error("{0}")]
     Unfit(String),
-    /// The evaluation's first decisions all lack a usable answer.
+    /// None of the evaluation's first decisions have a usable answer.
     #[error("{0}")]
     Unusable(String),
     /// The user requested a stop.
     #[error("interrupted")]
     Interrupted,
-    /// The log of the episode cannot be written.
+    /// The episode's log cannot be written.
     #[error("{0}")]
     Log(String),
 }
 
 impl Halt {
-    /// Returns the event to record in the log. Returns `None` if the log itself failed, or if there is
+    /// Returns the event to record in the log. Returns `None` if the log itself has failed, or if there is
     /// nothing to record.
     pub(crate) fn event(&self) -> Option<Event> {
         let reason = match self {

@@ -1,4 +1,4 @@
-//! A language model as a player, with its prompts, its answers, and their interpretation.
+//! A language model as a player: its prompts, its answers, and their interpretation.
 
 use crate::answer::Reading;
 use crate::client::{ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model};
@@ -14,7 +14,7 @@ use engine::Action;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The feedback on an answer that was cut off.
+/// The feedback on a truncated answer.
 const CUT_OFF: &str = "it was cut off before it came to an action";
 /// The feedback on a refusal.
 const DECLINED: &str = "it declines to play";
@@ -24,31 +24,31 @@ pub struct ModelPlayer {
     model: Arc<dyn Model>,
     prompter: Arc<Prompter>,
     decoding: Decoding,
-    /// The maximum number of times that a question is repeated after an answer without a usable action.
+    /// The maximum number of times that a question is repeated after answers without a usable action.
     reasks: u32,
-    /// The seed for drawing answers.
+    /// The seed for sampling answers.
     samples: Seed,
     past: Vec<Past>,
-    /// The numbers of the texts that are already in the log.
+    /// The indices of texts already in the log.
     texts: BTreeMap<Text, u32>,
-    /// The number of log events whose texts have been added to `texts`.
+    /// The number of log events whose texts have already been added to `texts`.
     read: usize,
 }
 
 /// The source of the answers for a turn.
 enum Log<'a> {
-    /// The log, followed by the model for answers that are not in the log.
+    /// The log, followed by the model for answers missing from the log.
     Open(&'a mut Journal),
-    /// The log only, because the turn is over.
+    /// The log alone, because the turn is over.
     Past(&'a Journal),
 }
 
 type Text = (u8, Digest, Option<Digest>);
 
 impl ModelPlayer {
-    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of times that
-    /// the question is repeated after an answer without an available action. `samples` is the seed of the
-    /// episode, which must not change when the episode is resumed.
+    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of repeated
+    /// questions after answers without an available action. `samples` is the episode's seed, which must not
+    /// change when the episode is resumed.
     pub fn new(
         model: Arc<dyn Model>,
         prompter: Arc<Prompter>,
@@ -65,7 +65,7 @@ impl ModelPlayer {
         self.model = model;
     }
 
-    /// Performs the attempts of a turn. Answers that are in the log are not requested again.
+    /// Performs a turn's attempts. Answers that are already in the log are not requested again.
     fn turn(&mut self, turn: &Turn<'_>, mut log: Log<'_>) -> Result<Choice, Halt> {
         let prompter = self.prompter.clone();
         let mut attempts = Vec::new();
@@ -120,8 +120,8 @@ impl ModelPlayer {
         Ok(reply)
     }
 
-    /// Performs the attempts of the last question of a series. Answers that are in the log are not requested
-    /// again.
+    /// Performs the attempts at a series's last question. Answers that are already in the log are not
+    /// requested again.
     fn question(&mut self, last: &Turn<'_>, kinds: &[String], journal: &mut Journal) -> Result<Said, Halt> {
         let prompter = self.prompter.clone();
         let mut attempts = Vec::new();
@@ -185,7 +185,7 @@ impl ModelPlayer {
         })
     }
 
-    /// Returns the number of a message in the log. The message is added to the log at its first use.
+    /// Returns a message's index in the log. Each message is added to the log at its first use.
     fn number(&mut self, message: &ChatMessage, journal: &mut Journal) -> Result<u32, Halt> {
         for event in &journal.events()[self.read..] {
             if let Event::Message { id, role, text, image } = event {
@@ -245,8 +245,8 @@ impl Agent for ModelPlayer {
     }
 }
 
-/// Returns the class of an answer and its actions. If there are no actions, the text is the reason, as a
-/// clause whose subject is the answer.
+/// Returns an answer's class and its actions. If there are no actions, the text is the reason, as a clause
+/// whose subject is the answer.
 fn classify(
     prompter: &Prompter,
     turn: &Turn<'_>,
@@ -265,7 +265,7 @@ fn classify(
     }
 }
 
-/// Returns the class of an answer to the last question and its predictions. If there are no predictions, the
+/// Returns the class and the predictions of an answer to the last question. If there are no predictions, the
 /// text is the reason, as a clause whose subject is the answer.
 fn classify_predictions(
     prompter: &Prompter,
@@ -292,7 +292,7 @@ fn validity_of(class: ReplyClass) -> Validity {
     }
 }
 
-/// Returns the recorded answer to the given attempt, if the log contains it.
+/// Returns the recorded answer to the given attempt, if it is in the log.
 fn recorded(journal: &Journal, attempt: u32) -> Option<Reply> {
     let reply = |event: &Event| match event {
         Event::Reply(reply) if reply.attempt == attempt => Some(reply.clone()),

@@ -9,7 +9,8 @@ use agents::touch_everything::Experience;
 use base::Seed;
 use engine::{Action, Observation};
 
-/// An agent that learns the rules by touching everything. It sees the observation of each turn, but no rules.
+/// An agent that learns the rules by touching everything. The agent sees each turn's observation, but no
+/// rules.
 #[derive(Clone, Debug)]
 pub struct Touching {
     player: TouchEverything,
@@ -18,7 +19,7 @@ pub struct Touching {
 }
 
 impl Touching {
-    /// The name of the player in results.
+    /// The player's name in results.
     pub const NAME: &'static str = "touch-everything";
 
     /// Creates the agent for an episode. `chance` is the seed of the game's randomness, from which the
@@ -27,14 +28,14 @@ impl Touching {
         Touching { player: TouchEverything::new(chance.child(Touching::NAME, 0)), is_blind: false }
     }
 
-    /// Hides the score from the player, as prompts without rules hide it.
+    /// Hides the score from the player, as in prompts without rules.
     #[must_use]
     pub fn without_score(self) -> Touching {
         Touching { is_blind: true, ..self }
     }
 
-    /// Returns the prediction of a fact, based on experience. If the score is hidden, types that seem good
-    /// are expected to score.
+    /// Returns a prediction based on experience. If the score is hidden, types that seem beneficial are
+    /// expected to score.
     fn expects(&self, known: &Experience, fact: TouchFact) -> bool {
         match fact {
             TouchFact::Kills => known.is_deadly(),

@@ -1,4 +1,4 @@
-//! The parts of prompts that occur only on the track without rules: the end of a level and the last question.
+//! The prompt parts specific to the track without rules: the end of a level and the last question.
 
 use super::{Attempt, Past, Prompt, PromptStyle, Prompter, data};
 use crate::encoding;
@@ -17,9 +17,9 @@ impl Prompter {
         self.settings.style == PromptStyle::Discover
     }
 
-    /// Returns the conversation that ends with the last question of a series. The question follows the last
+    /// Returns the conversation that ends with the last question in a series. The question follows the last
     /// turn of the last level, and asks about the effect of touching each of the given sprite types. `kinds`
-    /// holds the game's own names, and the question uses the names shown in prompts.
+    /// contains the game's own names, and the question uses the names shown in prompts.
     pub fn question(&self, last: &Turn<'_>, kinds: &[String], past: &[Past], attempts: &[Attempt]) -> Prompt {
         let end = LevelEnd {
             last: last.observation.clone(),
@@ -34,7 +34,7 @@ impl Prompter {
         self.conversation(shown.trim_end().to_owned(), None, past, attempts)
     }
 
-    /// Reads the answer to the last question of a series.
+    /// Reads the answer to the last question in a series.
     ///
     /// # Errors
     /// Returns an error if the answer is not in the required format. The message is a clause whose subject is
@@ -51,12 +51,12 @@ impl Prompter {
             .to_owned()
     }
 
-    /// Returns the names of sprite types that prompts show, sorted by their numbers.
+    /// Returns the sprite types' names in prompts, sorted by number.
     fn listed(&self, kinds: &[String]) -> Vec<String> {
         self.asked(kinds).into_keys().sorted_by_key(|name| (name.len(), name.clone())).collect()
     }
 
-    /// Returns a map from the names that prompts show to the game's own names.
+    /// Returns a map from the names in prompts to the game's own names.
     fn asked(&self, kinds: &[String]) -> BTreeMap<String, String> {
         let shown = |own: &String| match &self.mask {
             Some(mask) => mask.name(own).to_owned(),
@@ -65,7 +65,7 @@ impl Prompter {
         kinds.iter().map(|own| (shown(own), own.clone())).collect()
     }
 
-    /// Returns the data about the end of a level for the templates.
+    /// Returns the template data about the end of a level.
     pub(super) fn told_end(&self, end: &LevelEnd) -> Value {
         let LevelEnd { last, before, steps } = end;
         let masked = |seen: &Observation| match &self.mask {
@@ -88,8 +88,8 @@ impl Prompter {
         })
     }
 
-    /// Returns the lines of the legend. In prompts without rules, the lines are sorted, so that their order
-    /// reveals nothing.
+    /// Returns the legend's lines. In prompts without rules, the lines are sorted so that their order reveals
+    /// nothing.
     pub(super) fn legend_lines(&self) -> Vec<String> {
         let mut lines = self.legend.lines();
         if self.mask.is_some() && (self.settings.neutral_names || self.asks_predictions()) {
@@ -99,8 +99,8 @@ impl Prompter {
     }
 }
 
-/// Returns the visible sprite types that are present at the start of the given levels, except avatars and
-/// floors. The last question of a series asks about these types. They are sorted by the game's own names.
+/// Returns the visible sprite types present at the start of the given levels, except avatars and floors,
+/// sorted by the game's own names. The last question in a series asks about these types.
 pub(crate) fn kinds_at_start<'a>(
     analysis: &Analysis,
     levels: impl Iterator<Item = &'a Level>,

@@ -1,10 +1,10 @@
-//! The past turns of an episode, and how many of them a conversation still shows.
+//! An episode's past turns, and the number of them still shown in a conversation.
 
 use crate::answer;
 use crate::tokens;
 use engine::Action;
 
-/// The maximum number of trailing bytes of an answer that later turns show.
+/// The maximum length of an answer's last part shown in later turns, in bytes.
 const MAX_ANSWER: usize = 2_000;
 
 /// The text that replaces an empty answer, because providers reject empty messages.
@@ -19,7 +19,7 @@ pub struct Attempt {
     pub complaint: Option<String>,
 }
 
-/// A past turn, in the form that later prompts show.
+/// A past turn, as shown in later prompts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Past {
     pub(super) shown: String,
@@ -30,12 +30,12 @@ pub struct Past {
 }
 
 impl Past {
-    /// Creates a past turn from the text shown ([`Prompt::shown`](super::Prompt::shown)), the answers, and
-    /// the action that was played.
+    /// Creates a past turn from the shown text ([`Prompt::shown`](super::Prompt::shown)), the answers, and
+    /// the action played.
     ///
-    /// Only the end of each answer is kept, without reasoning. Providers require the roles in a conversation
-    /// to alternate. Therefore, a turn without an answer gets a placeholder, and the message about the last
-    /// answer is dropped.
+    /// Only the end of each answer is retained, without reasoning. Providers require the roles in a
+    /// conversation to alternate. Therefore, a turn without an answer gets a placeholder, and the message
+    /// about the last answer is dropped.
     pub fn new(shown: String, attempts: &[Attempt], played: Action) -> Past {
         let mut attempts = kept(attempts);
         match attempts.last_mut() {
@@ -48,7 +48,7 @@ impl Past {
     }
 }
 
-/// Returns answers in the form that conversations show.
+/// Returns answers as shown in conversations.
 pub(super) fn kept(attempts: &[Attempt]) -> Vec<Attempt> {
     let kept = |attempt: &Attempt| Attempt {
         answer: shortened(&attempt.answer),
@@ -67,7 +67,7 @@ pub(super) fn answer_tokens(attempts: &[Attempt]) -> u64 {
     attempts.iter().map(one).sum()
 }
 
-/// Returns an earlier answer in the form that a conversation shows.
+/// Returns an earlier answer as shown in a conversation.
 fn shortened(answer: &str) -> String {
     let said = answer::without_reasoning(answer).trim();
     if said.is_empty() {
@@ -77,8 +77,8 @@ fn shortened(answer: &str) -> String {
     if start == 0 { said.to_owned() } else { format!("…{}", &said[start..]) }
 }
 
-/// Returns the index of the first past turn that is still shown. `fixed` is the number of tokens in the
-/// static part, and `now` is the number in the newest turn. Both parts are always shown.
+/// Returns the index of the first past turn still shown. `fixed` is the number of tokens in the static part,
+/// and `now` is the number in the newest turn. The static part and the newest turn are always shown.
 ///
 /// Whenever the budget would be exceeded, the oldest turns are dropped until a quarter of the budget is free.
 /// Between two such cuts, a conversation only grows at its end, so that providers can cache its beginning.

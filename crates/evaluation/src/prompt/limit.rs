@@ -1,10 +1,10 @@
-//! Describes the rules of a game under a step limit, with a sentence that states the limit and the
-//! consequence of reaching it.
+//! Describes a game's rules under a step limit, with a sentence about the limit and the consequence of
+//! reaching it.
 
 use engine::describe::Guide;
 
-/// Returns the guide to a game whose episodes stop after `limit` ticks. All sentences about later ticks are
-/// replaced by a single sentence about the limit.
+/// Returns the guide to a game whose episodes stop after `limit` ticks. Replaces all sentences about later
+/// ticks with a single sentence about the limit.
 pub(crate) fn limited(mut guide: Guide, limit: u64) -> Guide {
     let sentences = guide.winning.len() + guide.losing.len();
     let is_in_time = |line: &String| last_tick(line).is_none_or(|tick| tick <= limit);
@@ -31,8 +31,8 @@ mod tests {
     use super::*;
     use engine::Game;
 
-    /// Checks the sentences about winning and losing under a limit, in a game that is lost at tick 81 and won
-    /// at tick 91.
+    /// Checks the sentences about winning and losing under a limit, for a game lost at tick 81 and won at
+    /// tick 91.
     #[track_caller]
     fn check(limit: u64, expect: &[&str]) {
         let game = "BasicGame\n  SpriteSet\n    tick > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    t > tick\n  \

@@ -1,7 +1,7 @@
-//! Prompts, which are the conversations sent to language models.
+//! Prompts: the conversations sent to language models.
 //!
-//! The static part comes first. It consists of the rules, the legend, the actions and the format of answers,
-//! and is byte-identical in all turns of all levels of a game. The observation follows. The texts are in
+//! The static part comes first. It consists of the rules, the legend, the actions and the answer format, and
+//! is byte-identical in all turns on all levels of a game. The observation follows. The texts are in
 //! `templates/`, and [`Prompter::digest`] covers the texts and the settings.
 //! [`docs/reference/prompts.md`](../../../../docs/reference/prompts.md) shows an example, part by part.
 
@@ -39,8 +39,8 @@ use minijinja::value::{Serde, Value};
 use render::Style;
 use serde::Serialize;
 
-/// The version of the templates and of the English rules. It is raised whenever any of their words changes,
-/// so that results with different prompts are easy to distinguish.
+/// The version of the templates and the English rules. The version is incremented whenever their wording
+/// changes, so that results with different prompts are easy to distinguish.
 pub const VERSION: u32 = 9;
 
 const TEMPLATES: [(&str, &str); 6] = [
@@ -52,7 +52,7 @@ const TEMPLATES: [(&str, &str); 6] = [
     ("complaint.j2", include_str!("templates/complaint.j2")),
 ];
 
-/// The templates of [`PromptStyle::Discover`]. They are separate, because the digests of the other styles
+/// The templates for [`PromptStyle::Discover`]. They are separate, because the digests of the other styles
 /// cover all templates in the shared list.
 const DISCOVER: [(&str, &str); 4] = [
     ("discover_static.j2", include_str!("templates/discover_static.j2")),
@@ -61,11 +61,11 @@ const DISCOVER: [(&str, &str); 4] = [
     ("discover_complaint.j2", include_str!("templates/discover_complaint.j2")),
 ];
 
-/// The actions in the order of their numbers in the reference's prompts.
+/// The actions, in the order of their numbers in the reference's prompts.
 const NUMBERED: [Action; 6] =
     [Action::Nil, Action::Use, Action::Left, Action::Right, Action::Down, Action::Up];
 
-/// Writes the prompts of one game.
+/// Writes prompts for one game.
 #[derive(Debug)]
 pub struct Prompter {
     settings: PromptSettings,
@@ -73,7 +73,7 @@ pub struct Prompter {
     environment: Environment<'static>,
     legend: Legend,
     mask: Option<Mask>,
-    /// The actions of all states of the avatar, in the order in which prompts list them.
+    /// The actions available in any avatar state, in prompt order.
     actions: Vec<Action>,
     /// `true` if the game has resources that the avatar can hold.
     holding: bool,
@@ -81,7 +81,7 @@ pub struct Prompter {
     static_tokens: Vec<PartTokens>,
 }
 
-/// The number of tokens in one part of a prompt.
+/// The token count for one part of a prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PartTokens {
     /// The heading of the section, or [`TASK`] for the text before the first heading.
@@ -90,16 +90,16 @@ pub struct PartTokens {
     pub tokens: u64,
 }
 
-/// The numbers of tokens in the parts of a prompt.
+/// The token counts for the parts of a prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PromptTokens {
-    /// The numbers of tokens in the static part, by section.
+    /// The token counts for the static part, by section.
     pub fixed: Vec<PartTokens>,
-    /// The numbers of tokens in the current turn, by section. The tokens of an image are estimated.
+    /// The token counts for the current turn, by section. Image tokens are estimated.
     pub turn: Vec<PartTokens>,
-    /// The number of tokens in earlier turns, and in earlier answers of this turn.
+    /// The number of tokens in earlier turns, and in this turn's earlier answers.
     pub history: u64,
-    /// The total number of tokens, including the frames of messages.
+    /// The total number of tokens, including message frames.
     pub total: u64,
 }
 
@@ -120,29 +120,29 @@ impl PromptTokens {
 pub struct Prompt {
     /// The messages of the conversation.
     pub messages: Vec<ChatMessage>,
-    /// The text of the newest turn, which must be passed to [`Past::new`] when the turn is over.
+    /// The text of the newest turn, to be passed to [`Past::new`] when the turn is over.
     pub shown: String,
-    /// The number of oldest turns that were dropped.
+    /// The number of oldest turns dropped.
     pub left_out: usize,
-    /// The numbers of tokens in the prompt.
+    /// The prompt's token counts.
     pub tokens: PromptTokens,
 }
 
 impl Prompter {
-    /// Prepares the prompts of a game, with one action per decision and without a step limit.
+    /// Prepares a game's prompts, with one action per decision and without a step limit.
     ///
     /// # Errors
-    /// Returns an error if the settings are out of range, or if the names of the game cannot be masked.
+    /// Returns an error if the settings are out of range, or if the game's names cannot be masked.
     pub fn new(subject: &Subject, settings: PromptSettings) -> Result<Prompter, EvaluationError> {
         Prompter::within(subject, settings, u64::MAX, Commitment::ONE)
     }
 
-    /// Prepares the prompts of a game whose episodes have at most `limit` actions. The rules in the prompts
-    /// mention no later tick. The prompts request as many actions as the player commits to.
+    /// Prepares the prompts for a game whose episodes have at most `limit` actions. The rules in the prompts
+    /// mention no later tick. The prompts request the number of actions that the player commits to.
     ///
     /// # Errors
     /// Returns an error if the settings are out of range, if the reference's style is combined with a
-    /// commitment to several actions, or if the names of the game cannot be masked.
+    /// commitment to several actions, or if the game's names cannot be masked.
     pub fn within(
         subject: &Subject,
         settings: PromptSettings,
@@ -197,30 +197,28 @@ impl Prompter {
         Ok(prompter)
     }
 
-    /// Returns the settings of the prompts.
+    /// Returns the prompt settings.
     pub fn settings(&self) -> &PromptSettings {
         &self.settings
     }
 
-    /// Returns the legend, which is the table of the board's characters.
+    /// Returns the legend (the table of the board's characters).
     pub fn legend(&self) -> &Legend {
         &self.legend
     }
 
-    /// Returns the actions in the order in which prompts list them. In the reference's style, the order
-    /// determines their numbers.
+    /// Returns the actions in prompt order. In the reference style, the order determines their numbers.
     pub fn actions(&self) -> &[Action] {
         &self.actions
     }
 
-    /// Returns the beginning of every prompt of the game, which is always byte-identical.
+    /// Returns the byte-identical beginning of all the game's prompts.
     pub fn static_part(&self) -> &str {
         &self.static_part
     }
 
-    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the commitment. Two runs of
-    /// the same game with the same digest have the same prompts if [`engine::SEMANTICS`] and the step limit
-    /// are also the same.
+    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the commitment. If two runs of
+    /// the same game have the same digest, [`engine::SEMANTICS`] and step limit, they have the same prompts.
     pub fn digest(&self) -> Digest {
         let settings = serde_json::to_string(&self.settings).expect("plain data");
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
@@ -236,15 +234,15 @@ impl Prompter {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Returns the conversation at a turn. `past` holds all previous turns of the episode, which zero-shot
-    /// mode omits. `attempts` holds the unusable answers in this turn, with the messages about them. Images
-    /// are shown only for the newest turn. If a prompt exceeds the budget, whole turns are dropped, but never
+    /// Returns the conversation at a turn. `past` contains all previous turns of the episode, which zero-shot
+    /// mode omits. `attempts` contains this turn's unusable answers, with the messages about them. Images are
+    /// shown only for the newest turn. If a prompt exceeds the budget, entire turns are dropped, but never
     /// the newest turn.
     pub fn prompt(&self, turn: &Turn<'_>, past: &[Past], attempts: &[Attempt]) -> Prompt {
         self.conversation(self.write_turn(turn, past), self.picture(turn), past, attempts)
     }
 
-    /// Returns a conversation that ends with the given text from the user.
+    /// Returns a conversation that ends with the given user message.
     fn conversation(
         &self,
         shown: String,
@@ -302,7 +300,7 @@ impl Prompter {
         )
     }
 
-    /// Returns the last message of an episode, with the outcome, the score and the final state. `last` holds
+    /// Returns an episode's last message, with the outcome, the score and the final state. `last` contains
     /// the final observation. No answer is expected, so the message is not sent to language models.
     pub fn ending(&self, last: &Turn<'_>) -> String {
         let outcome = match last.observation.outcome {
@@ -324,7 +322,7 @@ impl Prompter {
         format!("{}\n\n{}", end.trim_end(), self.write_turn(last, &[]))
     }
 
-    /// Reads an answer to a turn. The answer states one action, or a plan of the actions that are due.
+    /// Reads a turn's answer: one action, or a plan with the actions due.
     pub fn read(&self, answer: &str, turn: &Turn<'_>) -> Reading<Vec<Action>> {
         if !self.commit.is_one() {
             return answer::read_plan(answer, turn.due(), &self.actions);
@@ -336,8 +334,7 @@ impl Prompter {
         answer::read(answer, format, &self.actions, turn.actions).map(|action| vec![action])
     }
 
-    /// Returns the commitment in the form that templates use: `None` for one action, and otherwise a number
-    /// or `all`.
+    /// Returns the commitment for use in templates: `None` for one action, and otherwise a number or `all`.
     fn commit_data(&self) -> Option<String> {
         (!self.commit.is_one()).then(|| self.commit.to_string())
     }
@@ -425,7 +422,7 @@ impl Prompter {
     }
 }
 
-/// Returns `true` if an action is available in every state of the avatar.
+/// Returns `true` if an action is available in every avatar state.
 fn is_always_there(analysis: &Analysis, action: Action) -> bool {
     let offers = |avatar: &Avatar| analysis.game().actions_of(avatar.stype).contains(&action);
     action == Action::Nil || analysis.avatars().iter().all(offers)

@@ -1,4 +1,4 @@
-//! The sections of a prompt, which begin with headings.
+//! Prompt sections, each of which begins with a heading.
 
 /// The prefix of a heading line.
 const HEADING: &str = "## ";
@@ -6,9 +6,9 @@ const HEADING: &str = "## ";
 /// The name of the section before the first heading.
 pub const TASK: &str = "Task";
 
-/// Returns the sections of a message, each with its heading and its text without surrounding blank lines. The
+/// Returns a message's sections, each with its heading and its text without surrounding blank lines. The
 /// section before the first heading is named [`TASK`]. If a heading occurs twice, the first occurrence
-/// belongs to the template, and later occurrences belong to an inserted text. Cost: O(bytes).
+/// belongs to the template, and later occurrences belong to inserted text. Cost: O(bytes).
 pub fn sections(message: &str) -> Vec<(&str, &str)> {
     let mut sections = Vec::new();
     let (mut heading, mut start, mut at) = (TASK, 0, 0);

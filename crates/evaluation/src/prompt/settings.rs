@@ -1,23 +1,23 @@
-//! Settings for the content and form of prompts. Every aid can be switched on or off, so that its effect can
-//! be measured.
+//! Settings for the content and form of prompts. Every aid can be turned on or off, so that its effect can be
+//! measured.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The settings of prompts. The defaults give the standard zero-shot prompt.
+/// Prompt settings. The defaults produce the standard zero-shot prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PromptSettings {
-    /// The style of the prompt, which determines its parts and their order.
+    /// The prompt style, which determines the parts and their order.
     pub style: PromptStyle,
     /// The choice of earlier turns that a prompt includes.
     pub mode: Mode,
     /// The form in which the rules are shown.
     pub rules: Rules,
-    /// `true` if the names of sprite types are meaningless in rules, legend and boards.
+    /// `true` if sprite types have meaningless names in rules, legend and boards.
     pub masked_names: bool,
-    /// `true` if all types, including walls and the avatar, have meaningless names and characters, which are
-    /// drawn anew for each game.
+    /// `true` if all types, including walls and the avatar, have meaningless names and characters, drawn
+    /// separately for each game.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub neutral_names: bool,
     /// `true` to show the meanings of the board's characters.
@@ -31,16 +31,15 @@ pub struct PromptSettings {
     pub feedback: Option<bool>,
     /// The forms in which the state is shown.
     pub encodings: Encodings,
-    /// `true` if each state of the avatar has its own character on the board, and no character is marked as
-    /// the player's.
+    /// `true` if each avatar state has its own character on the board, and no character is marked as the
+    /// player's.
     pub identity_tracking: bool,
-    /// The number from which the shuffled characters of the board are drawn. `None` keeps the original
-    /// characters.
+    /// The number that selects the board's shuffled characters. `None` keeps the original characters.
     pub shuffled_symbols: Option<u64>,
-    /// Advice that is inserted into the prompt verbatim.
+    /// Advice to insert verbatim into the prompt.
     pub strategy: Option<String>,
-    /// The maximum number of tokens in a conversation, according to a local count. If the maximum is
-    /// exceeded, the oldest turns are dropped.
+    /// The maximum number of tokens in a conversation, counted locally. If a conversation exceeds the
+    /// maximum, its oldest turns are dropped.
     pub history_tokens: u64,
 }
 
@@ -66,13 +65,13 @@ impl Default for PromptSettings {
 }
 
 impl PromptSettings {
-    /// Returns the differences from the default settings, sorted, such as `no-legend`, `rules=vgdl` or
-    /// `json`. The mode is not included. Advice appears only as `strategy`.
+    /// Returns the sorted differences from the default settings, such as `no-legend`, `rules=vgdl` or `json`.
+    /// The mode is not included. Advice appears only as `strategy`.
     pub fn aids(&self) -> Vec<String> {
         self.aids_beyond(&PromptSettings::default())
     }
 
-    /// Returns the differences from the given settings, in the form of [`aids`](PromptSettings::aids).
+    /// Returns the differences from the given settings, in the same format as [`aids`](PromptSettings::aids).
     pub fn aids_beyond(&self, usual: &PromptSettings) -> Vec<String> {
         let flat = |settings: &PromptSettings| {
             let mut all = serde_json::to_value(settings).expect("plain data");
@@ -103,16 +102,16 @@ impl PromptSettings {
     }
 }
 
-/// The style of a prompt, which determines its parts and their order.
+/// A prompt style, which determines the parts and their order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PromptStyle {
-    /// The style of this suite.
+    /// The suite's own style.
     #[default]
     Standard,
-    /// The style of the reference's pipeline (`spec/06` §1.4), reworded. It has the same parts in the same
-    /// order, numbered actions, and a list of every cell. The switches for legend, meanings, position,
-    /// feedback and encodings have no effect.
+    /// The style of the reference's pipeline (`spec/06` §1.4), reworded. The prompts have the same parts in
+    /// the same order, numbered actions, and a list of every cell. The switches for legend, meanings,
+    /// position, feedback and encodings have no effect.
     Reference,
     /// The style of [`Track::Discover`](crate::Track::Discover), which shows visible events but no rules and
     /// no score. The board has rulers and neutral names. The switches for legend, meanings, position,
@@ -139,7 +138,7 @@ pub enum Rules {
     /// English sentences generated by `engine::describe`.
     #[default]
     Described,
-    /// VGDL source, printed in canonical form without comments.
+    /// The VGDL source, printed in canonical form without comments.
     Vgdl,
     /// The rules are not shown.
     None,
@@ -149,9 +148,9 @@ pub enum Rules {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Encodings {
-    /// The board with one character per cell, and a list of the cells that hold several sprites.
+    /// The board with one character per cell, and a list of the cells that contain several sprites.
     pub grid: bool,
-    /// Spaces between the characters of a row. They cost more tokens, but make each character a separate
+    /// Spaces between the characters of a row, which cost more tokens, but make each character a separate
     /// token for most models.
     pub spaced: bool,
     /// The first sprite in each direction from the avatar, and the nearest sprites of each type.
@@ -164,7 +163,8 @@ pub struct Encodings {
     pub json: bool,
     /// An image of the board, for multimodal models.
     pub image: bool,
-    /// The maximum number of pixels per cell in the image, from 4 to 40. Large boards use fewer pixels.
+    /// The maximum number of pixels per cell in the image, from 4 to 40. Large boards are drawn with fewer
+    /// pixels per cell.
     pub image_cell: u32,
 }
 

@@ -1,4 +1,4 @@
-//! The data that the templates need for a turn.
+//! The template data for a turn.
 
 use super::{Encodings, PromptSettings, PromptStyle, Rules};
 use crate::direction::direction_name;
@@ -13,16 +13,16 @@ use serde_json::{Value, json};
 
 /// A turn and the data needed to render it.
 pub(super) struct View<'a> {
-    /// The data about the end of the previous level, if there is one.
+    /// The data about the end of the previous level, if any.
     pub(super) previous: Option<Value>,
     pub(super) legend: &'a Legend,
     pub(super) settings: &'a PromptSettings,
-    /// The actions that the static part lists.
+    /// The actions listed in the static part.
     pub(super) actions: &'a [Action],
     /// `true` if the game has resources that the avatar can hold.
     pub(super) holding: bool,
     pub(super) turn: &'a Turn<'a>,
-    /// The observation with the names that the player sees.
+    /// The observation with the names shown to the player.
     pub(super) now: &'a Observation,
     pub(super) before: Option<&'a Observation>,
     /// The last actions played, oldest first.
@@ -80,7 +80,7 @@ impl View<'_> {
         })
     }
 
-    /// Returns the data about the result of the previous action.
+    /// Returns the data about the previous action's result.
     fn feedback(&self) -> Option<Value> {
         let (before, played) = (self.before?, self.turn.before?);
         let (from, to) = (before.avatar.as_ref(), self.now.avatar.as_ref());
@@ -126,7 +126,7 @@ impl View<'_> {
         })
     }
 
-    /// Returns the template data for prompts in the reference's style.
+    /// Returns the template data for prompts in the reference style.
     fn reference(&self) -> Value {
         let (now, legend) = (self.now, self.legend);
         let grid = encoding::grid(now, legend);
@@ -160,7 +160,7 @@ fn avatar(avatar: &AvatarView) -> Value {
     })
 }
 
-/// Returns a board, with spaces between the characters of each row if requested.
+/// Returns a board, optionally with spaces between the characters of each row.
 fn board(rows: String, spaced: bool) -> String {
     if !spaced {
         return rows;
@@ -168,7 +168,7 @@ fn board(rows: String, spaced: bool) -> String {
     rows.lines().map(|row| row.chars().join(" ")).join("\n")
 }
 
-/// Formats the avatar's resources, as in `2 keys, 1 gem`, or returns `nothing` if there are no resources.
+/// Formats the avatar's resources, as in `2 keys, 1 gem`. Returns `nothing` if there are none.
 fn holds(seen: &Observation) -> String {
     let held = seen.resources.iter().filter(|(_, amount)| *amount != 0);
     let held = held

@@ -1,8 +1,8 @@
-//! Reference players, which depend only on their names. Their wins show how hard a level is
+//! Reference players, completely determined by their names. Their wins show how hard a level is
 //! ([docs/explanation/difficulty.md](../../../../docs/explanation/difficulty.md)).
 //!
-//! Releases keep the results of some reference players as marks (`plays.rs`). The scale compares months by
-//! the results of the versioned players in `table.rs`.
+//! Releases store the results of some reference players as marks (`plays.rs`). The scale compares monthly
+//! releases by the results of the versioned players in `table.rs`.
 
 mod player;
 mod plays;

@@ -12,7 +12,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
-/// A reference player, which depends only on its name. It plans in open loop, reads prompts, or learns by
+/// A reference player, completely determined by its name. It plans in open loop, reads prompts, or learns by
 /// touching.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ReferencePlayer {
@@ -20,7 +20,7 @@ pub enum ReferencePlayer {
     Planner(PlannerSpec),
     /// A player that reads the default prompts.
     Prompted(PromptPlayer),
-    /// The player that knows no rules and learns by touching everything.
+    /// The player that learns the rules by touching everything.
     Touching,
 }
 
@@ -53,7 +53,7 @@ impl fmt::Display for ReferencePlayer {
 }
 
 impl ReferencePlayer {
-    /// Returns the writer of the prompts that the player reads about a game, or `None` if the player reads no
+    /// Returns a writer for the prompts that the player reads in a game, or `None` if the player reads no
     /// prompts.
     ///
     /// # Errors
@@ -72,8 +72,8 @@ impl ReferencePlayer {
         }
     }
 
-    /// Returns the player for one episode. `chance` is the seed of the player's randomness. A player that
-    /// reads prompts requires the prompter of its game.
+    /// Returns the player for one episode. `chance` is the seed for the player's random choices. A player
+    /// that reads prompts requires the prompter for its game.
     pub(crate) fn contestant(&self, prompter: Option<&Arc<Prompter>>, chance: Seed) -> Contestant {
         match (self, prompter) {
             (ReferencePlayer::Prompted(player), Some(prompter)) => {

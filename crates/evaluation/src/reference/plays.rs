@@ -1,5 +1,5 @@
-//! Plays episodes of reference players in memory. Their results are the marks of a release, with which other
-//! results are compared.
+//! Plays reference players' episodes in memory. Their results are a release's marks, the baseline for other
+//! results.
 
 use super::ReferencePlayer;
 use crate::commitment::Commitment;
@@ -12,10 +12,10 @@ use engine::Outcome;
 use itertools::iproduct;
 use rayon::prelude::*;
 
-/// The parameters for the episodes of a reference player.
+/// The parameters for a reference player's episodes.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferencePlays {
-    /// The seed of the evaluation to which the episodes belong.
+    /// The seed of the episodes' evaluation.
     pub seed: Seed,
     /// The number of episodes per commitment.
     pub runs: u64,
@@ -23,18 +23,17 @@ pub struct ReferencePlays {
     pub max_steps: u64,
 }
 
-/// The text from which `arcade evaluate` derives the randomness of games by default. The results of reference
-/// players equal those of such an evaluation.
+/// The default text from which `arcade evaluate` derives the randomness of games. With this text, reference
+/// players have the same results as in such an evaluation.
 pub const SEED: &str = "evaluate";
 
 impl ReferencePlays {
-    /// Plays the levels of a game with each player and commitment. The levels are given as texts, and the
-    /// players and commitments by their names. Returns the number of episodes won for each level, player and
-    /// commitment.
+    /// Plays a game's levels with each player and commitment. The levels are given as texts, and the players
+    /// and commitments by name. Returns the number of wins for each level, player and commitment.
     ///
     /// # Errors
-    /// Returns an error if the game does not load, if a player or commitment does not exist, or if a player
-    /// cannot play the game.
+    /// Returns an error if the game cannot be loaded, if a player or commitment does not exist, or if a
+    /// player cannot play the game.
     pub fn of_game<'a>(
         &self,
         game: &str,
@@ -56,11 +55,11 @@ impl ReferencePlays {
         Ok(wins.chunks(players.len()).map(<[_]>::to_vec).collect())
     }
 
-    /// Returns the number of episodes won with each commitment.
+    /// Returns the number of wins with each commitment.
     ///
     /// The numbers match an evaluation of the player with the same seed, runs and step limit. On
-    /// deterministic levels, a planner plans the same actions that it would choose at each decision. There,
-    /// its episodes with one commitment also count for all other commitments.
+    /// deterministic levels, a planner plans the same actions that it would choose at each decision. On such
+    /// levels, its episodes with one commitment also count for all other commitments.
     ///
     /// # Errors
     /// Returns an error if the player cannot play the game.

@@ -1,6 +1,6 @@
-//! The reference players of the scale, each with a name and a version
-//! ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)). Their episodes put releases on
-//! one scale. A changed player gets a new version, and counts as a new player.
+//! The scale's reference players, each with a name and a version
+//! ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)). Their episodes place releases on
+//! a common scale. A modified player gets a new version, and counts as a new player.
 
 use super::ReferencePlayer;
 use crate::player::Contestant;
@@ -15,11 +15,11 @@ use std::collections::BTreeMap;
 /// A reference player with a fixed name, budget and version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScalePlayer {
-    /// The name of the examinee, including its version, such as `mcts-1`.
+    /// The examinee's name, including its version, such as `mcts-1`.
     pub name: &'static str,
-    /// The family of the examinee. Players of the same family find the same games hard.
+    /// The examinee's family. Players in the same family find the same games hard.
     pub family: &'static str,
-    /// The player with its budget in forward-model calls per decision, such as `mcts:200`.
+    /// The player, with its budget in forward-model calls per decision, such as `mcts:200`.
     pub player: &'static str,
     /// The dimension of the examinee's ability.
     pub dimension: Dimension,
@@ -29,7 +29,7 @@ const fn planner(name: &'static str, family: &'static str, player: &'static str)
     ScalePlayer { name, family, player, dimension: Dimension::Planner }
 }
 
-/// All examinees of the scale, in the order in which they play.
+/// All examinees of the scale, in playing order.
 pub const SCALE_PLAYERS: [ScalePlayer; 10] = [
     planner("random-1", "random", "random"),
     planner("greedy-1", "greedy", "one-step-score"),
@@ -48,11 +48,11 @@ pub fn scale_player_named(name: &str) -> Option<&'static ScalePlayer> {
     SCALE_PLAYERS.iter().find(|player| player.name == name)
 }
 
-/// A function that creates the player for an episode, given the ID of a game.
+/// A function that creates the player for an episode, given the game ID.
 type PlayerOf = Box<dyn Fn(&str) -> Contestant + Sync>;
 
 impl ScalePlayer {
-    /// Returns the examinee as an entrant in an evaluation's results.
+    /// Returns the examinee as an entrant in evaluation results.
     pub fn entrant(&self) -> Entrant {
         let mut details = json!({ "examinee": self.name, "family": self.family, "player": self.player });
         // This field distinguishes planners from readers, as it does for planners that are not on the scale.
@@ -62,7 +62,7 @@ impl ScalePlayer {
         Entrant { name: self.name.to_owned(), mode: None, aids: Vec::new(), details }
     }
 
-    /// Returns a function that creates the examinee's players, given the ID of a game.
+    /// Returns a function that creates the examinee's players, given the game ID.
     ///
     /// # Errors
     /// Returns an error if a prompt cannot be written for one of the games.

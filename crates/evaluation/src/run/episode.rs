@@ -1,4 +1,4 @@
-//! Plays one episode to its end, from its first tick or from an interruption.
+//! Plays one episode to its end, starting at its first tick or at an interruption.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -21,56 +21,57 @@ pub struct Task<'a> {
     pub subject: &'a Subject,
     /// The level to play.
     pub level: &'a SubjectLevel,
-    /// The index of the episode among the episodes on this level.
+    /// The episode's index among the episodes on this level.
     pub run: u64,
-    /// The seed of the whole evaluation.
+    /// The seed of the entire evaluation.
     pub seed: Seed,
     /// The maximum number of actions in the episode.
     pub max_steps: u64,
     /// The number of actions that the player commits to at each decision.
     pub commit: Commitment,
-    /// The track with its version, if the evaluation has a track.
+    /// The track with its version, if any.
     pub track: Option<&'a str>,
-    /// The level's position in a series, or `None` if the level is played alone.
+    /// The level's position in a series, or `None` for a level played alone.
     pub series: Option<SeriesPlace>,
 }
 
 impl Task<'_> {
-    /// Returns `true` if the level is played to learn the rules of a series. Such an episode counts in no
-    /// result.
+    /// Returns `true` if the level is played to learn the rules of a series. Such an episode is excluded from
+    /// all results.
     pub fn is_practice(&self) -> bool {
         self.series.is_some_and(SeriesPlace::is_practice)
     }
 
     /// Returns the seed of the game's randomness.
     ///
-    /// The seed depends only on the initial state and the run. Therefore, it is the same for every player. It
-    /// is also the same for a renamed game, because the states are the same.
+    /// The seed depends only on the initial state and the run. Therefore, all players get the same seed. A
+    /// renamed game has the same seed, because its states are the same.
     pub fn chance(&self) -> Seed {
         let start = self.subject.first_state(self.level);
         self.seed.child(&start.to_string(), 0).child("run", self.run)
     }
 
-    /// Returns the seed of results from versions whose seeds also depended on the names in the game.
+    /// Returns the seed used by older versions, whose seeds also depended on the game's names.
     fn chance_by_name(&self) -> Seed {
         let game = self.seed.child(&self.subject.game.digest().to_string(), 0);
         game.child(&self.level.level.digest().to_string(), 0).child("run", self.run)
     }
 
-    /// Returns the maximum number of actions that can be played. A Timeout may end the episode before `max_steps`.
+    /// Returns the maximum number of actions in the episode. A Timeout may end the episode before
+    /// `max_steps`.
     pub fn most_steps(&self) -> u64 {
         self.max_steps.min(self.subject.game.time_limit())
     }
 
-    /// Returns the maximum number of decisions. Each decision covers as many actions as the player commits
-    /// to.
+    /// Returns the maximum number of decisions. Each decision covers the number of actions that the player
+    /// commits to.
     pub fn most_decisions(&self) -> u64 {
         let steps = self.most_steps();
         steps.div_ceil(self.commit.due(steps).max(1))
     }
 
-    /// Compares the first line of a log with the task. The rest of the log is compared with the game when it
-    /// is replayed.
+    /// Compares a log's first line with the task. The remaining lines are compared with the game during the
+    /// replay.
     ///
     /// # Errors
     /// Returns a sentence about the first difference.
@@ -110,15 +111,15 @@ impl Task<'_> {
 /// The result of playing an episode in this run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlayResult {
-    /// The episode ended with this outcome.
+    /// The episode ended with the given outcome.
     Ended(Outcome),
-    /// The episode was aborted for this reason.
+    /// The episode was aborted for the given reason.
     Halted(Halt),
 }
 
-/// Plays an episode to its end. If the log already has events, the episode is resumed at the end of the log.
-/// Every step in the log is replayed, and its state hash is compared. A planner's interrupted episode is
-/// restarted, which costs only time.
+/// Plays an episode to its end. If the log already contains events, the episode is resumed at the end of the
+/// log. Every step in the log is replayed, and its state hash is compared. A planner's interrupted episode is
+/// restarted from the beginning, which costs only time.
 ///
 /// # Errors
 /// Returns an error if the log belongs to a different episode, or cannot be written.
@@ -142,8 +143,8 @@ pub(crate) struct Context<'a> {
     pub(crate) watch: &'a dyn Fn(Validity) -> Option<Halt>,
 }
 
-/// Plays an episode like [`play`]. Also returns the end of the level, if the episode ended. An episode that
-/// has already ended is shown to the agent once more.
+/// Plays an episode like [`play`]. Also returns the end of the level, if the episode ended. An ended episode
+/// is shown to the agent once more.
 pub(crate) fn play_watched(
     task: &Task<'_>,
     contestant: &mut Contestant,
@@ -187,7 +188,7 @@ pub(crate) fn play_watched(
     Ok((PlayResult::Ended(outcome), Some(LevelEnd { last: play.seen, before, steps: play.steps })))
 }
 
-/// Records the reason why an episode was aborted.
+/// Records the reason for an aborted episode.
 fn halted(halt: Halt, journal: &mut Journal) -> Result<(PlayResult, Option<LevelEnd>), EvaluationError> {
     if let Some(event) = halt.event() {
         journal.push(event)?;
@@ -204,7 +205,7 @@ struct Playing<'a> {
     steps: u64,
     seen: Observation,
     recent: Recent,
-    /// The end of the previous level in the series, if there is one.
+    /// The end of the previous level in the series, if any.
     previous: Option<&'a LevelEnd>,
 }
 
@@ -237,7 +238,7 @@ impl<'a> Playing<'a> {
         self.state.is_over() || self.steps >= self.task.max_steps
     }
 
-    /// Returns the number of actions that the next decision covers.
+    /// Returns the number of actions in the next decision.
     fn due(&self) -> u64 {
         self.task.commit.due(self.task.max_steps - self.steps)
     }
@@ -284,7 +285,7 @@ impl<'a> Playing<'a> {
         Ok(None)
     }
 
-    /// Asks the contestant for a decision, plays its actions and records them.
+    /// Requests a decision from the contestant, plays its actions and records them.
     fn decide(&mut self, journal: &mut Journal) -> Result<Result<Validity, Halt>, EvaluationError> {
         let (game, started) = (self.game(), Stopwatch::start());
         let recent = std::mem::take(&mut self.recent);
@@ -315,7 +316,7 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Plays the actions of a decision, and records them from the event at index `at` on. Existing events
+    /// Plays a decision's actions, and records them from the event at index `at` onwards. Existing events
     /// must match. Returns the index of the event after the decision.
     fn carry_out(
         &mut self,
@@ -371,7 +372,8 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Asks the agent about the rules after the last level of a series, and records the answer with its grade.
+    /// Asks the agent about the rules after the last level in a series, and records the answer with its
+    /// grade.
     fn predict(&mut self, journal: &mut Journal) -> Result<Result<(), Halt>, EvaluationError> {
         let is_last = self.task.series.is_some_and(SeriesPlace::is_last);
         let is_recorded = |event: &Event| matches!(event, Event::Predictions { .. });
@@ -420,8 +422,8 @@ impl<'a> Playing<'a> {
     }
 }
 
-/// Returns the sprite types that the last question of a series asks about. They are the types present at the
-/// start of the selected levels of the game.
+/// Returns the sprite types in a series's last question: the types present at the start of the game's
+/// selected levels.
 fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     let subject = task.subject;
     let at = subject.levels.iter().position(|level| level.number == task.level.number).unwrap_or_default();
@@ -430,7 +432,7 @@ fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     kinds_at_start(&subject.analysis, levels)
 }
 
-/// Grades an answer to the last question of a series. Without a usable answer, no prediction is correct, and
+/// Grades an answer to the last question in a series. Without a usable answer, no prediction is correct, and
 /// the insight is 0.
 pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: Option<&Predicted>) -> Grade {
     match predicted {
@@ -442,13 +444,13 @@ pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: O
     }
 }
 
-/// Returns the action that is played if a player chooses `asked`. The result is [`Action::Nil`] if that
-/// action is unavailable.
+/// Returns the action to play if a player chooses `asked`: that action, or [`Action::Nil`] if it is
+/// unavailable.
 pub(crate) fn available(game: &Game, state: &State, asked: Action) -> Action {
     if game.actions(state).contains(&asked) { asked } else { Action::Nil }
 }
 
-/// Returns the first decision at or after index `from`, together with its index.
+/// Returns the first decision at or after index `from`, with its index.
 fn decision_after(events: &[Event], from: usize, commit: Commitment) -> Option<(usize, Choice)> {
     events.iter().enumerate().skip(from).find_map(|(at, event)| match event {
         Event::Step { action, validity: Validity::Valid, .. } if commit.is_one() => {

@@ -1,4 +1,4 @@
-//! Plays the episodes of an evaluation in parallel, each with its own log.
+//! Plays an evaluation's episodes in parallel, each with its own log.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, NEXT_STEP, decisions};
@@ -23,76 +23,76 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// The name of the lock file, which is locked by the program that writes to a results folder.
+/// The name of the lock file, locked by the program that writes to a results folder.
 const LOCK_FILE: &str = ".lock";
 
-/// The number of consecutive episodes aborted by environment failures that stops an evaluation. The remaining
-/// episodes are left open.
+/// The number of consecutive episodes aborted by environment failures after which an evaluation stops. The
+/// remaining episodes are left open.
 const FAILURES_IN_A_ROW: u64 = 8;
 
-/// A results folder, which holds everything needed to compute all metrics and to replay every episode. It
-/// contains `evaluation.json`, the texts of the games in `games/`, and one log per episode in `episodes/`.
+/// A results folder, which contains everything needed to compute all metrics and to replay every episode:
+/// `evaluation.json`, the games' texts in `games/`, and one log per episode in `episodes/`.
 #[derive(Debug)]
 pub struct Evaluation {
     folder: PathBuf,
-    /// The settings of the evaluation.
+    /// The evaluation's settings.
     pub settings: Settings,
-    /// The games of the evaluation, in the order of the settings.
+    /// The evaluation's games, in the order of the settings.
     pub subjects: Vec<Subject>,
     _lock: Option<Lock>,
 }
 
-/// The display of an evaluation's progress.
+/// Displays an evaluation's progress.
 pub trait Progress: Sync {
-    /// Called when an episode has ended or was aborted.
+    /// Called when an episode ends or is aborted.
     fn episode(&self, task: &Task<'_>, result: &PlayResult);
 
-    /// Called once, when more than a fifth of the decisions so far, and at least 20, lack a usable answer.
-    /// `is_all` is `true` if all of the first 20 decisions lack a usable answer. Returns `false` to stop the
-    /// evaluation.
+    /// Called once, as soon as more than a fifth of the decisions so far, and at least 20 decisions, lack a
+    /// usable answer. `is_all` is `true` if all of the first 20 decisions lack a usable answer. Returns
+    /// `false` to stop the evaluation.
     fn unusable(&self, _answers: &Answers, _is_all: bool) -> bool {
         true
     }
 
-    /// Called when the evaluation stops and leaves the running episodes open. Players that are waiting for
-    /// somebody can then stop waiting. May be called several times.
+    /// Called when the evaluation stops and leaves the running episodes open, so that players can stop
+    /// waiting for answers. May be called several times.
     fn stopped(&self, _halt: &Halt) {}
 }
 
-/// The numbers of episodes in an evaluation, by their final status.
+/// An evaluation's episode counts, by final status.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     /// The total number of episodes.
     pub episodes: u64,
     /// The number of episodes that ended.
     pub ended: u64,
-    /// The number of ended episodes that were won, excluding practice episodes.
+    /// The number of ended episodes with a win, excluding practice episodes.
     pub won: u64,
-    /// The numbers of episodes that the engine stopped, by game and reason.
+    /// The episodes stopped by the engine, grouped by game and reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub stopped: Vec<StoppedEpisodes>,
-    /// The games about which the player could not be asked.
+    /// The games that could not be played because the server rejected their prompts.
     #[serde(skip_serializing_if = "BTreeSet::is_empty")]
     pub unfit: BTreeSet<String>,
-    /// The total number of practice episodes, which count in no result.
+    /// The total number of practice episodes, excluded from all results.
     #[serde(skip_serializing_if = "is_zero")]
     pub practice: u64,
-    /// The numbers of decisions in all episodes, in total and without a usable answer.
+    /// The decision counts over all episodes: in total, and without a usable answer.
     #[serde(flatten)]
     pub answers: Answers,
-    /// The number of episodes that were aborted, or were not started because other episodes were aborted.
+    /// The number of aborted episodes, and of episodes not started because others were aborted.
     pub open: u64,
-    /// The reason for the first abort of an episode, if there was one.
+    /// The reason for the first aborted episode, if any.
     pub halted: Option<String>,
     /// `true` if the abort was caused by the network, the server, the disk or a player's process, rather than
     /// by a cap or the user.
     pub infrastructure: bool,
 }
 
-/// The episodes of a game that the engine stopped for the same reason.
+/// The episodes of one game that the engine stopped for the same reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct StoppedEpisodes {
-    /// The ID of the game.
+    /// The game's ID.
     pub game: String,
     /// The reason why the engine stopped the episodes.
     pub reason: String,
@@ -105,17 +105,18 @@ fn is_zero(number: &u64) -> bool {
 }
 
 impl Evaluation {
-    /// Returns `true` if the folder can be resumed. It contains an evaluation, or the interrupted creation of
-    /// one.
+    /// Returns `true` if the folder can be resumed: if it contains an evaluation, or an evaluation whose
+    /// creation was interrupted.
     pub fn is_begun(folder: &Path) -> bool {
         [SETTINGS_FILE, LOCK_FILE].iter().any(|name| folder.join(name).exists())
     }
 
-    /// Creates a results folder. The folder must be absent or empty, except for files of an interrupted creation.
+    /// Creates a results folder. The folder must be absent or empty, except for files from an interrupted
+    /// creation.
     ///
     /// # Errors
-    /// Returns an error if the folder is neither absent nor empty, if it cannot be written, or if the settings exceed
-    /// the limits of an evaluation.
+    /// Returns an error if the folder is neither absent nor empty, if it cannot be written, or if the
+    /// settings exceed the limits of an evaluation.
     pub fn create(
         folder: &Path,
         settings: Settings,
@@ -174,7 +175,8 @@ impl Evaluation {
     /// Opens the evaluation in a results folder for reading.
     ///
     /// # Errors
-    /// Returns an error if the folder has no evaluation, or if the evaluation has a newer format or is damaged.
+    /// Returns an error if the folder contains no evaluation, or if the evaluation has a newer format or is
+    /// damaged.
     pub fn open(folder: &Path) -> Result<Evaluation, EvaluationError> {
         let path = folder.join(SETTINGS_FILE);
         let text = read_text(&path, MAX_SETTINGS, RESTORE).map_err(|error| match error {
@@ -209,8 +211,8 @@ impl Evaluation {
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: None })
     }
 
-    /// Deletes the results folder if it contains no decision and no answer, so that a different player can
-    /// use it. Returns `true` if the folder was deleted.
+    /// Deletes the results folder if it contains no decisions and no answers, so that a different player can
+    /// use the folder. Returns `true` if the folder was deleted.
     ///
     /// # Errors
     /// Returns an error if a log cannot be read, or if the folder cannot be deleted.
@@ -231,17 +233,17 @@ impl Evaluation {
         Ok(true)
     }
 
-    /// Returns the settings entries for the given games.
+    /// Returns the games' entries for the settings.
     pub fn entries(subjects: &[Subject]) -> Vec<SubjectEntry> {
         subjects.iter().map(SubjectEntry::of).collect()
     }
 
-    /// Returns all episodes of the evaluation, in the order of [`tasks`].
+    /// Returns all of the evaluation's episodes, in the order of [`tasks`].
     pub fn tasks(&self) -> Vec<Task<'_>> {
         tasks(&self.settings, &self.subjects)
     }
 
-    /// Returns the events of an episode so far, or an empty list if the episode was not started.
+    /// Returns an episode's events so far, or an empty list if the episode was not started.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read, or is not a log.
@@ -250,11 +252,11 @@ impl Evaluation {
         if is_there(&path)? { crate::log::read(&path) } else { Ok(Vec::new()) }
     }
 
-    /// Checks that the folder contains no logs of other episodes. If the settings had fewer runs or games
-    /// than were played, results would be ignored.
+    /// Checks that the folder contains no logs from other episodes. If the settings listed fewer runs or
+    /// games than were played, results would be ignored.
     ///
     /// # Errors
-    /// Returns an error if there is a log of a different episode, or if the folder cannot be listed.
+    /// Returns an error if there is a log from a different episode, or if the folder cannot be listed.
     pub(crate) fn check_logs(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         let folder = self.folder.join("episodes");
         let names: BTreeSet<String> = tasks.iter().map(Task::file_name).collect();
@@ -275,8 +277,8 @@ impl Evaluation {
     /// Checks that a log belongs to the given episode, and then calls `read`.
     ///
     /// # Errors
-    /// Returns an error if the log belongs to a different episode, or if `read` fails. The message states the
-    /// file, the line and the next step.
+    /// Returns an error if the log belongs to a different episode, or if `read` fails. The message contains
+    /// the file, the line and the next step.
     pub(crate) fn checked<T>(
         &self,
         task: &Task<'_>,
@@ -291,8 +293,8 @@ impl Evaluation {
         Ok(found)
     }
 
-    /// Replays the ended episodes from their logs. An episode that a report would reject must not count as
-    /// played.
+    /// Replays the ended episodes from their logs. An episode that would be rejected by a report must not
+    /// count as played.
     fn check_ended(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         self.check_logs(tasks)?;
         tasks.par_iter().try_for_each(|task| {
@@ -308,8 +310,8 @@ impl Evaluation {
         self.folder.join("episodes").join(task.file_name())
     }
 
-    /// Plays the open episodes on the threads of the current rayon pool. `contestant` creates the player for
-    /// an episode.
+    /// Plays the open episodes on the threads of the current rayon pool. `contestant` creates an episode's
+    /// player.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`Evaluation::run_chosen`].
@@ -328,8 +330,8 @@ impl Evaluation {
     /// returns the indices of the next episodes in [`Evaluation::tasks`], or an empty list to finish.
     /// Episodes that ended in an earlier run keep their results.
     ///
-    /// The remaining episodes are left open after a cap is reached, a request is rejected by the server, or
-    /// `FAILURES_IN_A_ROW` consecutive episodes are aborted by environment failures.
+    /// The remaining episodes are left open if a cap is reached, if the server rejects a request, or if
+    /// environment failures abort `FAILURES_IN_A_ROW` consecutive episodes.
     ///
     /// # Errors
     /// Returns an error if a log cannot be read or written, or if the log of an ended episode contradicts the
@@ -439,7 +441,7 @@ impl Evaluation {
     }
 }
 
-/// Returns all episodes of an evaluation, sorted by run. If the evaluation is aborted, every level has been
+/// Returns all of an evaluation's episodes, sorted by run. If the evaluation is aborted, all levels have been
 /// played about equally often.
 pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> {
     let (seed, max_steps) = (Seed::from_text(&settings.seed), settings.max_steps);
@@ -462,7 +464,7 @@ pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a
     (0..settings.runs).flat_map(on).collect()
 }
 
-/// Locks the folder against other writers. The operating system releases the lock when the program ends for
+/// Locks the folder against other writers. The operating system releases the lock when the program exits for
 /// any reason.
 fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     let path = folder.join(LOCK_FILE);
@@ -480,7 +482,7 @@ fn names_in(folder: &Path) -> Result<Vec<OsString>, EvaluationError> {
     entries.map_err(EvaluationError::io("list", folder))
 }
 
-/// Returns `true` if a folder is empty, or contains only an interrupted creation without settings.
+/// Returns `true` if a folder is empty, or contains only files from an interrupted creation without settings.
 fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     let begun = [LOCK_FILE, "games", "episodes"];
     let episodes = folder.join("episodes");
@@ -490,7 +492,7 @@ fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     Ok(is_ours && (!is_there(&episodes)? || names_in(&episodes)?.is_empty()))
 }
 
-/// Returns the name of the first field in which two evaluations differ. The server of a model is ignored,
+/// Returns the name of the first field that differs between two evaluations. The model's server is ignored,
 /// because it does not affect the model's answers.
 fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
     let fields = |settings: &Settings| {
@@ -519,8 +521,7 @@ fn is_absent(error: &std::io::Error) -> bool {
     matches!(error.kind(), std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory)
 }
 
-/// Returns `true` if an ID from a results folder is safe as a file name, so that it cannot lead outside the
-/// folder.
+/// Returns `true` if an ID from a results folder is safe as a file name and cannot lead outside the folder.
 fn is_file_name(id: &str) -> bool {
     !id.is_empty()
         && !id.starts_with('.')

@@ -1,4 +1,4 @@
-//! Whole evaluations, as results folders with settings, games and the logs of all episodes.
+//! Entire evaluations, stored as results folders with settings, games and all episode logs.
 
 pub(crate) mod clock;
 mod episode;

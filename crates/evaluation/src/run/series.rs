@@ -1,12 +1,11 @@
-//! Series of levels. One player plays the levels of a game one after the other, and remembers the earlier
-//! levels.
+//! Series of levels. One player plays a game's levels in succession, and remembers the earlier levels.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal};
 use crate::player::{Contestant, Halt, Validity};
 use crate::run::episode::{Context, PlayResult, Task, play_watched};
 
-/// A series of episodes in order. A level that is played alone is a series of one episode.
+/// A series of episodes, in order. A level played alone is a series of one episode.
 pub(crate) struct Series<'a> {
     pub(crate) tasks: &'a [Task<'a>],
     /// A function that receives the validity of each new decision, and can abort the episode.
@@ -15,15 +14,15 @@ pub(crate) struct Series<'a> {
     pub(crate) is_stopped: &'a dyn Fn() -> bool,
 }
 
-/// Divides the episodes of an evaluation into series.
+/// Divides an evaluation's episodes into series.
 pub(crate) fn series_of<'a>(tasks: &'a [Task<'a>]) -> Vec<&'a [Task<'a>]> {
     let is_next = |_: &Task<'_>, next: &Task<'_>| next.series.is_some_and(|place| place.index > 0);
     tasks.chunk_by(is_next).collect()
 }
 
-/// Plays the episodes of a series with one player. Returns the results of the episodes that were begun, each
-/// with `true` if it is practice. Ended episodes are replayed only if a later episode is open, so that the
-/// player remembers them.
+/// Plays the episodes of a series with one player. Returns the results of the started episodes, each with
+/// `true` if it is practice. Ended episodes are replayed only if a later episode is open, so that the player
+/// remembers them.
 pub(crate) fn play_series(
     series: &Series<'_>,
     contestant: &impl Fn(&Task<'_>) -> Result<Contestant, Halt>,
@@ -65,7 +64,7 @@ pub(crate) fn play_series(
 
 /// Plays the episodes of one series, or a single episode, with one player, as in an evaluation. `open`
 /// returns the log of an episode, and `played` receives each episode with its log. Returns the results of the
-/// episodes that were begun.
+/// started episodes.
 ///
 /// # Errors
 /// Returns an error if a log belongs to a different episode, or cannot be written.

@@ -1,4 +1,4 @@
-//! The settings file `evaluation.json`, which is written before the first episode.
+//! The settings file `evaluation.json`, written before the first episode.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -11,32 +11,32 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// The version of the format of results folders.
+/// The version of the results folder format.
 pub const FORMAT: u32 = 1;
 /// The name of the settings file in a results folder.
 pub const SETTINGS_FILE: &str = "evaluation.json";
 
-/// The maximum number of episodes in an evaluation, over all levels.
+/// The maximum number of episodes in an evaluation, counted over all levels.
 pub const MAX_EPISODES: u64 = 1_000_000;
-/// The maximum number of actions per episode that can be requested. No game lasts that many ticks.
+/// The maximum number of actions per episode that can be requested. No game lasts longer.
 pub const MAX_DECISIONS: u64 = 1_000_000;
 /// The maximum size of [`SETTINGS_FILE`], in bytes.
 pub(crate) const MAX_SETTINGS: usize = 1 << 26;
 
-/// The settings of an evaluation, which consist of exactly the inputs that determine its results. A resumed
-/// evaluation must have the same settings.
+/// An evaluation's settings: exactly the inputs that determine its results. A resumed evaluation must have
+/// the same settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
-    /// The version of the format ([`FORMAT`]).
+    /// The format version ([`FORMAT`]).
     pub format: u32,
     /// The version of the engine's semantics ([`engine::SEMANTICS`]).
     pub semantics: u32,
     /// The version of the suite that created the folder.
     pub suite: String,
-    /// The root digest of the snapshot that contains the games, if they come from a snapshot.
+    /// The root digest of the games' snapshot, if the games come from a snapshot.
     pub snapshot: Option<Digest>,
-    /// The player of the evaluation.
+    /// The evaluation's player.
     pub entrant: Entrant,
     /// The text from which the seeds of all episodes are derived. A seed depends only on this text, the game, the
     /// level and the run.
@@ -51,33 +51,33 @@ pub struct Settings {
     /// The track with its version, such as `masked@1`, or `None` for custom prompts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
-    /// The maximum number of levels of a game that are played in one conversation.
+    /// The maximum number of a game's levels played in one conversation.
     #[serde(default = "alone", skip_serializing_if = "is_alone")]
     pub series: u64,
-    /// The settings of the adaptive choice of levels, or `None` to play all levels.
+    /// The settings for adaptive level selection, or `None` to play all levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<Adaptive>,
-    /// The games of the evaluation.
+    /// The games in the evaluation.
     pub games: Vec<SubjectEntry>,
 }
 
-/// The settings of an adaptive choice of levels. The scale and the recorded outcomes of earlier episodes
+/// The settings for adaptive level selection. The scale and the recorded outcomes of earlier episodes
 /// determine the next levels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
-    /// The digest of the scale file.
+    /// The scale file's digest.
     pub scale: Digest,
     /// The maximum number of episodes.
     pub episodes: u64,
-    /// The standard error of the ability at which the evaluation ends, if one is set.
+    /// The standard error of the ability at which the evaluation ends, if set.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// The number of episodes chosen per batch.
     pub batch: u64,
 }
 
-/// Returns 1, the length of a series of one level.
+/// Returns 1: the length of a series with a single level.
 fn alone() -> u64 {
     1
 }
@@ -94,37 +94,37 @@ pub struct Entrant {
     pub name: String,
     /// The mode, `zero-shot` or `contextual`, or `None` for players that are not models.
     pub mode: Option<String>,
-    /// The differences of the player's prompts from the default, sorted, with one flag per difference. They
-    /// identify the variants in an ablation.
+    /// The differences of the player's prompts from the default, sorted, with one flag per difference. The
+    /// flags identify the variants in an ablation.
     pub aids: Vec<String>,
     /// All inputs that determine the player's requests and answers, such as the model, the server, the
     /// decoding, the prompt settings and digests.
     pub details: serde_json::Value,
 }
 
-/// A game of an evaluation.
+/// A game in an evaluation.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectEntry {
     /// The name of the game's folder in `games/`.
     pub id: String,
-    /// The digest of the game.
+    /// The game's digest.
     pub digest: Digest,
     /// The known facts about the game.
     pub facts: SubjectFacts,
-    /// The levels of the game to play.
+    /// The levels to play.
     pub levels: Vec<LevelEntry>,
 }
 
-/// A level of an evaluation.
+/// A level in an evaluation.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelEntry {
-    /// The number of the level in the game.
+    /// The level's number in the game.
     pub number: usize,
-    /// The digest of the level.
+    /// The level's digest.
     pub digest: Digest,
-    /// The number of ticks in the shortest win, if the win is proved to be optimal.
+    /// The length of the shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,
 }
 
@@ -146,8 +146,8 @@ impl Settings {
         ))
     }
 
-    /// Sets the track and the length of its series, and adds the track to the differences that distinguish
-    /// the player in tables.
+    /// Sets the track and its series length, and adds the track to the differences that distinguish the
+    /// player in tables.
     ///
     /// # Errors
     /// Returns an error if a game has too few levels for a series.
@@ -167,11 +167,11 @@ impl Settings {
         }
     }
 
-    /// Checks that the settings stay within the limits, and that every game and level is listed once. The
-    /// limits bound the size of a results folder for its readers.
+    /// Checks that the settings stay within their limits, and that every game and level is listed only once.
+    /// The limits bound the size of a results folder for its readers.
     ///
     /// # Errors
-    /// Returns a message that states the value that is out of range, or the repeated game or level.
+    /// Returns a message that states the out-of-range value, or the repeated game or level.
     pub fn check(&self) -> Result<(), String> {
         let levels: u64 = self.games.iter().map(|game| game.levels.len() as u64).sum();
         let episodes = self.runs.checked_mul(levels).filter(|&episodes| episodes <= MAX_EPISODES);
@@ -212,10 +212,10 @@ impl SubjectEntry {
         }
     }
 
-    /// Reads the game from the texts in a results folder.
+    /// Reads the game from its texts in a results folder.
     ///
     /// # Errors
-    /// Returns an error if the texts are missing, do not compile, or differ from the texts that were played.
+    /// Returns an error if the texts are missing, do not compile, or differ from the played texts.
     pub(crate) fn read(&self, results: &Path) -> Result<Subject, EvaluationError> {
         let folder = results.join("games").join(&self.id);
         let source = read_text(&folder.join("game.vgdl"), MAX_SOURCE, RESTORE)?;

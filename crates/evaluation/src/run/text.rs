@@ -1,4 +1,4 @@
-//! Reads files of a results folder, whose source may be untrusted. Only regular files are read, and only up
+//! Reads files from a results folder whose source may be untrusted. Only regular files are read, and only up
 //! to a size limit.
 
 use crate::error::EvaluationError;
@@ -7,11 +7,11 @@ use std::fs::File;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// The recommendation in error messages about a file of a results folder that cannot be read.
+/// The recommendation in error messages about unreadable files in a results folder.
 pub(crate) const RESTORE: &str = "restore the results folder";
 
-/// Returns `true` if a file or folder of a results folder exists. A dangling link is an error, because its
-/// target was lost.
+/// Returns `true` if a file or folder exists within a results folder. A dangling link is an error, because
+/// its target was lost.
 ///
 /// # Errors
 /// Returns an error if the path is a dangling link, or cannot be examined.
@@ -26,8 +26,8 @@ pub(crate) fn is_there(path: &Path) -> Result<bool, EvaluationError> {
     }
 }
 
-/// Opens a regular file of at most `limit` bytes. Other kinds of files, such as pipes, are not opened,
-/// because opening them could block forever. `next_step` is appended to error messages.
+/// Opens a regular file of at most `limit` bytes. Other kinds of files, such as pipes, are never opened,
+/// because opening a pipe can block forever. `next_step` is appended to error messages.
 ///
 /// # Errors
 /// Returns an error if the path is not a regular file, exceeds the limit, or cannot be read.

@@ -1,24 +1,24 @@
-//! Counts decisions without a usable answer while an evaluation runs.
+//! Counts decisions without a usable answer during an evaluation.
 
 use crate::player::{Halt, Validity};
 use serde::Serialize;
 use std::fmt;
 use std::sync::Mutex;
 
-/// The number of decisions after which a player without a single usable answer is stopped. Before this
-/// number, no warning is shown.
+/// The number of decisions after which a player without a single usable answer is stopped. No warning is
+/// shown earlier.
 const FIRST: u64 = 20;
 
-/// The reciprocal of the fraction of decisions without a usable answer above which a warning is shown.
+/// The reciprocal of a fraction. A warning is shown if a greater fraction of decisions lacks a usable answer.
 const ONE_IN: u64 = 5;
 
-/// The number of decisions, and the number of decisions without a usable answer, in which the player did
-/// nothing.
+/// The number of decisions, and the number of decisions in which the player did nothing because no answer was
+/// usable.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Answers {
     /// The total number of decisions.
     pub steps: u64,
-    /// The number of decisions without a usable answer, which is the sum of the next three fields.
+    /// The number of decisions without a usable answer: the sum of the next three fields.
     pub unusable: u64,
     /// The number of decisions whose last answer stated no available action.
     pub invalid: u64,
@@ -42,7 +42,7 @@ impl Answers {
 }
 
 impl fmt::Display for Answers {
-    /// Formats the numbers, as in `6 of 25 decisions have no usable answer (4 invalid, 2 cut off)`.
+    /// Formats the counts, as in `6 of 25 decisions have no usable answer (4 invalid, 2 cut off)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Answers { steps, unusable, invalid, truncated, refused } = self;
         let has = if *unusable == 1 { "has" } else { "have" };
@@ -58,7 +58,7 @@ impl fmt::Display for Answers {
     }
 }
 
-/// A shared count of the answers in all episodes of a run.
+/// A count of the answers in all of a run's episodes, shared between threads.
 #[derive(Debug, Default)]
 pub(crate) struct Watch(Mutex<Watched>);
 
@@ -70,8 +70,8 @@ struct Watched {
 }
 
 impl Watch {
-    /// Counts a decision. `tell` is called once, when too many decisions lack a usable answer. Its second
-    /// argument is `true` if all decisions lack a usable answer. `tell` returns `false` to stop the
+    /// Counts a decision. Calls `tell` once, when too many decisions lack a usable answer. Its second
+    /// argument is `true` if none of the decisions have a usable answer. `tell` returns `false` to stop the
     /// evaluation.
     pub(crate) fn decided(
         &self,
@@ -94,7 +94,7 @@ impl Watch {
         watched.halt.clone()
     }
 
-    /// Returns the reason to stop the evaluation, if there is one.
+    /// Returns the reason for stopping the evaluation, if any.
     pub(crate) fn halt(&self) -> Option<Halt> {
         self.0.lock().expect("no holder panics").halt.clone()
     }
@@ -104,8 +104,8 @@ impl Watch {
 mod tests {
     use super::*;
 
-    /// Checks the decisions at which a notice is shown, each with `true` if no answer was usable. In
-    /// `decisions`, `v` stands for a valid answer.
+    /// Checks at which decisions a notice is shown, each with `true` if no answer was usable. In `decisions`,
+    /// `v` stands for a valid answer.
     #[track_caller]
     fn check(decisions: &str, expect: &[(u64, bool)]) {
         let (watch, mut told) = (Watch::default(), Vec::new());

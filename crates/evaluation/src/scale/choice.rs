@@ -1,5 +1,5 @@
-//! Chooses levels with a scale. A plan chooses levels for a target in advance, and the adaptive choice
-//! selects each next level from the results of previous episodes.
+//! Chooses levels with a scale. A plan chooses levels for a target in advance. The adaptive choice selects
+//! each next level from the results of previous episodes.
 
 use super::file::ScaleFile;
 use crate::run::{Adaptive, Settings, SubjectEntry};
@@ -9,43 +9,43 @@ use statistics::scale::{Chosen, MismatchPrior, PlayedGame, PlayedLevel, Selectio
 /// The sum of the two normal quantiles for a two-sided test at the 5% level with 80% power.
 const POWER: f64 = 1.959964 + 0.841621;
 
-/// The levels of an evaluation, with their difficulties for a player.
+/// An evaluation's levels, with their difficulties for a player.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaledLevels {
-    /// The levels, indexed by game and level of the evaluation.
+    /// The levels, indexed by game and level in the evaluation.
     games: Vec<PlayedGame>,
-    /// The standard error that the difficulties of all levels share.
+    /// The standard error shared by the difficulties of all levels.
     link: f64,
     prior: MismatchPrior,
-    /// `true` if `arcade study scale` could estimate the player's ability from results on all of the levels.
+    /// `true` if `arcade study scale` could estimate the player's ability from results on all levels.
     pub is_linked: bool,
 }
 
-/// The target of a plan.
+/// A plan's target.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Target {
     /// The given standard error of the ability, in logits.
     Error(f64),
-    /// The given difference in logits between two players on the same levels, to be detected at the 5% level
-    /// in 80% of evaluations.
+    /// The given difference in logits between two players on the same levels, detectable at the 5% level in
+    /// 80% of evaluations.
     Difference(f64),
     /// The given number of episodes.
     Episodes(u64),
 }
 
-/// A plan for an evaluation, with the levels to play and the expected errors.
+/// An evaluation plan: the levels to play and the expected errors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plan {
-    /// The target of the plan.
+    /// The plan's target.
     pub target: Target,
-    /// The expected ability of the player.
+    /// The player's expected ability.
     pub ability: f64,
-    /// The indices of the levels to play, for each game.
+    /// The indices of the levels to play, by game.
     pub levels: Vec<Vec<usize>>,
     /// The number of episodes per level.
     pub runs: u64,
-    /// The number of episodes and the errors of the plan.
+    /// The plan's number of episodes and expected errors.
     pub errors: PlannedErrors,
     /// `true` if the plan reaches the target.
     pub is_reached: bool,
@@ -58,20 +58,20 @@ pub struct Plan {
 pub struct PlannedErrors {
     /// The number of episodes.
     pub episodes: u64,
-    /// The number of games on which the episodes are played.
+    /// The number of games played.
     pub games: u64,
-    /// The standard error of the ability.
+    /// The ability's standard error.
     pub error: f64,
-    /// The smallest difference between two players on the same levels that is detected at the 5% level in 80%
-    /// of evaluations.
+    /// The smallest difference between two players on the same levels detectable at the 5% level in 80% of
+    /// evaluations.
     pub difference: f64,
 }
 
 impl ScaledLevels {
-    /// Finds the levels of an evaluation on a scale.
+    /// Locates an evaluation's levels on a scale.
     ///
     /// # Errors
-    /// Returns a message if any of the levels is not on the scale.
+    /// Returns a message if any level is missing from the scale.
     pub fn of(scale: &ScaleFile, games: &[SubjectEntry], is_reader: bool) -> Result<ScaledLevels, String> {
         let (side, mut link, mut is_linked) = (usize::from(is_reader), 0.0_f64, true);
         let mut found = Vec::new();
@@ -93,7 +93,7 @@ impl ScaledLevels {
         Ok(ScaledLevels { games: found, link, prior: scale.mismatch_prior(is_reader), is_linked })
     }
 
-    /// Plans an evaluation for a target. Episodes are spread over games first: each round takes the most
+    /// Plans an evaluation for a target. Episodes are spread over games first: each round adds the most
     /// informative remaining level of each game at the given ability. If one run of all levels does not reach
     /// the target, each level is played up to `most_runs` times. Cost: O(levels² + levels · log `most_runs`).
     pub fn plan(&self, ability: f64, target: Target, most_runs: u64) -> Plan {
@@ -136,7 +136,7 @@ impl ScaledLevels {
         Plan { target, ability, levels, runs, errors, is_reached: is_reached(&errors), others }
     }
 
-    /// Returns all levels, in the order in which a plan adds them.
+    /// Returns all levels, in the order in which plans add them.
     fn order(&self, ability: f64) -> Vec<(usize, usize)> {
         let mut order: Vec<(usize, f64, usize, usize)> = Vec::new();
         for (game, of) in self.games.iter().enumerate() {
@@ -182,29 +182,29 @@ impl ScaledLevels {
 }
 
 /// The adaptive choice of an evaluation's episodes. The choice depends only on the scale, the settings and
-/// the outcomes so far. Therefore, the logs of an evaluation reproduce its choices.
+/// the outcomes so far. Therefore, an evaluation's logs reproduce its choices.
 #[derive(Clone, Debug)]
 pub struct AdaptiveChoice {
     selection: Selection,
     adaptive: Adaptive,
     /// The indices of the game and the level, for each episode of a run.
     places: Vec<(usize, usize)>,
-    /// The number of times that each level has been chosen.
+    /// The number of times each level has been chosen.
     runs: Vec<u64>,
     link: f64,
     choices: Vec<AdaptiveStep>,
 }
 
-/// A chosen episode, with the estimate of the ability before the episode.
+/// A chosen episode, with the ability estimated before the episode.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AdaptiveStep {
-    /// The ID of the game.
+    /// The game's ID.
     pub game: String,
-    /// The number of the level.
+    /// The level number.
     pub level: usize,
-    /// The index of the episode among the episodes on this level.
+    /// The episode's index among the episodes on this level.
     pub run: u64,
-    /// The ability estimated from the previous episodes.
+    /// The ability estimated from previous episodes.
     pub ability: f64,
     /// The standard error of the estimated ability.
     pub error: f64,
@@ -227,8 +227,8 @@ impl AdaptiveChoice {
         })
     }
 
-    /// Returns the indices of the next episodes among all episodes of the evaluation, or an empty list to
-    /// finish. `played` holds the episodes that have ended since the last call, with `true` for wins.
+    /// Returns the indices of the next episodes, counted over all the evaluation's episodes, or an empty list
+    /// to finish. `played` contains the episodes that have ended since the last call, with `true` for wins.
     pub fn next(&mut self, settings: &Settings, played: &[(usize, bool)]) -> Vec<usize> {
         for &(episode, won) in played {
             let (game, level) = self.places[episode % self.places.len()];

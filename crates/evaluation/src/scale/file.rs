@@ -1,5 +1,5 @@
-//! The file `scale.json`, which contains the examinees, the spreads, and the levels of each release with
-//! their difficulties.
+//! The file `scale.json`, which contains the examinees, the spreads, and each release's levels with their
+//! difficulties.
 
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
@@ -17,39 +17,39 @@ use std::hash::Hash;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// The version of the scale file's format.
+/// The version of the scale file format.
 pub const SCALE_FORMAT: u32 = 1;
-/// The maximum size of the file, in bytes. A level takes about 300 bytes, so the maximum suffices for a
+/// The maximum size of the file, in bytes. A level occupies about 300 bytes, so the maximum suffices for a
 /// hundred months of 500 levels.
 const MAX_SCALE: usize = 1 << 24;
 
-/// The maximum absolute value of a logit on a scale. At this value, a player wins or loses all but one in 10⁴³⁴
-/// episodes.
+/// The maximum absolute value of a logit on a scale. At this value, a player wins (or loses) all but one in
+/// 10⁴³⁴ episodes.
 const MAX_LOGIT: f64 = 1000.0;
-/// The maximum misfit of a game.
+/// The maximum misfit for a game.
 const MAX_MISFIT: f64 = 1e12;
-/// The minimum standard deviation of the model. Calibrations estimate logarithms of standard deviations, so
-/// the value must not be 0.
+/// The minimum standard deviation in the model. Calibrations estimate the logarithms of standard deviations,
+/// so 0 is not allowed.
 const LEAST_SPREAD: f64 = 1e-6;
 /// The maximum number of bootstrap replicates.
 const MAX_REPLICATES: f64 = 10_000.0;
 
-/// The recommendation in error messages about a file that is not a scale.
+/// The recommendation in error messages about files other than scales.
 const NEXT_STEP: &str = "pass the scale.json that `arcade study calibrate` wrote";
 
-/// A scale with the releases that were added to it.
+/// A scale, with the releases placed on it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScaleFile {
-    /// The version of the format ([`SCALE_FORMAT`]).
+    /// The format version ([`SCALE_FORMAT`]).
     pub format: u32,
     /// The version of the suite that calibrated the first release.
     pub suite: String,
     /// The maximum number of actions per episode.
     pub max_steps: u64,
-    /// The examinees whose results put releases on the scale.
+    /// The examinees whose results place releases on the scale.
     pub examinees: Vec<ExamineeEntry>,
-    /// The standard deviations and slopes of the statistical model.
+    /// The standard deviations and slopes in the statistical model.
     pub spreads: SpreadsEntry,
     /// The covariance matrix of three groups of parameters: the examinees' abilities, the origins for
     /// planners and readers, and the planners' ease. The matrix is stored by rows.
@@ -57,13 +57,13 @@ pub struct ScaleFile {
     /// The mean difficulties of the first release for planners and for readers, in the coordinates of the
     /// abilities.
     pub origins: [f64; 2],
-    /// The mean logit of the planners on the first release.
+    /// The planners' mean logit on the first release.
     pub ease: f64,
     /// The correlation between the difficulties for planners and for readers.
     pub correlation: Option<Span>,
     /// The number of parametric bootstrap replicates used to estimate the spreads and the correlation.
     pub replicates: u64,
-    /// The releases on the scale, starting with the first release.
+    /// The releases on the scale, in chronological order.
     pub months: Vec<MonthEntry>,
 }
 
@@ -71,7 +71,7 @@ pub struct ScaleFile {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExamineeEntry {
-    /// The name of the examinee.
+    /// The examinee's name.
     pub name: String,
     /// The family of the examinee.
     pub family: String,
@@ -89,7 +89,7 @@ pub struct ExamineeEntry {
 pub struct Estimate {
     /// The estimated value, in logits.
     pub value: f64,
-    /// The standard error of the estimate.
+    /// The estimate's standard error.
     pub error: f64,
 }
 
@@ -99,9 +99,9 @@ pub struct Estimate {
 pub struct Span {
     /// The estimated value.
     pub value: f64,
-    /// The lower bound of the interval.
+    /// The interval's lower bound.
     pub low: f64,
-    /// The upper bound of the interval.
+    /// The interval's upper bound.
     pub high: f64,
 }
 
@@ -109,25 +109,24 @@ pub struct Span {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MonthEntry {
-    /// The name of the release.
+    /// The release's name.
     pub name: String,
     /// The root digest of the release, if it is a snapshot.
     pub snapshot: Option<Digest>,
     /// The text from which the seeds of the release's episodes were derived.
     pub seed: String,
     /// The mean difficulty relative to the first release, for planners and for readers. The errors include
-    /// the error of the link for arbitrary players of the dimension.
+    /// the link error for arbitrary players in the dimension.
     pub shifts: [Estimate; 2],
-    /// The shift of the mean difficulty for exactly the planners of the scale.
+    /// The shift in mean difficulty for exactly the scale's planners.
     pub planners_shift: Estimate,
-    /// The standard error that the difficulties of all levels share, for planners and for readers.
+    /// The standard error shared by the difficulties of all levels, for planners and for readers.
     pub link: [f64; 2],
     /// The number of anchors that played the release. Anchors are the readers among the scale's examinees.
     pub anchors: u64,
-    /// The additional difficulty of the release for readers compared with planners, estimated from the
-    /// anchors.
+    /// The release's additional difficulty for readers compared with planners, estimated from the anchors.
     pub drift: Option<Estimate>,
-    /// The games of the release.
+    /// The release's games.
     pub games: Vec<GameEntry>,
 }
 
@@ -135,15 +134,15 @@ pub struct MonthEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameEntry {
-    /// The ID of the game.
+    /// The game's ID.
     pub id: String,
-    /// The digest of the game.
+    /// The game's digest.
     pub digest: Digest,
-    /// The standard errors that all levels of the game share, for planners and for readers.
+    /// The standard errors shared by all of the game's levels, for planners and for readers.
     pub common: [f64; 2],
-    /// The mean squared standardised residual of the game's episodes.
+    /// The mean squared standardised residual over the game's episodes.
     pub misfit: f64,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<LevelEntry>,
 }
 
@@ -151,16 +150,15 @@ pub struct GameEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelEntry {
-    /// The number of the level.
+    /// The level number.
     pub number: usize,
-    /// The digest of the level.
+    /// The level's digest.
     pub digest: Digest,
-    /// The level's difficulty for planners and for readers. The standard errors exclude the error of the
-    /// link.
+    /// The level's difficulty for planners and for readers. The standard errors exclude the link error.
     pub difficulty: [Estimate; 2],
 }
 
-/// The standard deviations and slopes of the statistical model.
+/// The standard deviations and slopes in the statistical model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(missing_docs, reason = "the fields are those of `Spreads`")]
@@ -205,8 +203,7 @@ impl From<SpreadsEntry> for Spreads {
 }
 
 impl ScaleFile {
-    /// Creates a scale without releases from a calibration. `names` holds the name and the family of each
-    /// examinee.
+    /// Creates a scale without releases from a calibration. `names` contains each examinee's name and family.
     pub fn new(found: &Calibration, names: &[(String, String)], max_steps: u64) -> ScaleFile {
         let entry = |(at, (name, family)): (usize, &(String, String))| ExamineeEntry {
             name: name.clone(),
@@ -253,7 +250,8 @@ impl ScaleFile {
     }
 
     /// Checks for values that no calibration produces, and returns an error with the key of the first such
-    /// value. Some values determine the memory use of plots and integrals, and others make results undefined.
+    /// value. Unchecked, some values could exhaust memory in plots and integrals, and others would make
+    /// results undefined.
     fn check(&self) -> Result<(), String> {
         within(format_args!("max_steps"), self.max_steps as f64, 1.0..=MAX_DECISIONS as f64)?;
         within(format_args!("replicates"), self.replicates as f64, 0.0..=MAX_REPLICATES)?;
@@ -297,8 +295,8 @@ impl ScaleFile {
         Ok(())
     }
 
-    /// Checks that the covariance matrix is symmetric, and that no covariance exceeds the limit given by the
-    /// variances.
+    /// Checks that the covariance matrix is symmetric, and that no covariance exceeds the limit implied by
+    /// the variances.
     fn check_covariance(&self) -> Result<(), String> {
         let size = self.examinees.len() + 3;
         let found = self.covariance.len();
@@ -323,7 +321,7 @@ impl ScaleFile {
         Ok(())
     }
 
-    /// Returns the scale as the text of a file.
+    /// Returns the scale as file content.
     pub fn to_text(&self) -> String {
         serde_json::to_string_pretty(self).expect("a scale is plain data") + "\n"
     }
@@ -347,8 +345,7 @@ impl ScaleFile {
         }
     }
 
-    /// Adds a release that was played with the given settings. `plays` holds the results used in its
-    /// calibration.
+    /// Adds a release, played with the given settings. `plays` contains the results used in its calibration.
     pub fn add(&mut self, name: &str, settings: &Settings, month: &Month, plays: &[GamePlays]) {
         let played = |at: usize| {
             plays.iter().flat_map(|game| &game.plays).any(|plays| plays.examinee == at && plays.of > 0.0)
@@ -391,7 +388,7 @@ impl ScaleFile {
         MismatchPrior { median, ..MismatchPrior::default() }
     }
 
-    /// Finds a level, and returns the indices of its release, its game and the level.
+    /// Finds a level, and returns the indices of its release, its game and the level itself.
     pub fn place(&self, game: Digest, level: Digest) -> Option<(usize, usize, usize)> {
         let months = self.months.iter().enumerate();
         let mut games = months
@@ -403,7 +400,7 @@ impl ScaleFile {
     }
 }
 
-/// The part of a scale file that identifies newer formats.
+/// The part of a scale file that reveals newer formats.
 #[derive(Deserialize)]
 struct Version {
     format: Option<u64>,
@@ -433,7 +430,7 @@ fn once<T: Eq + Hash + Debug>(key: &str, names: impl Iterator<Item = T>) -> Resu
 }
 
 impl MonthEntry {
-    /// Checks the values of a month, in the same way as [`ScaleFile::check`]. `at` is the index of the month.
+    /// Checks a month's values, in the same way as [`ScaleFile::check`]. `at` is the month's index.
     fn check(&self, at: usize, examinees: usize) -> Result<(), String> {
         for (side, shift) in self.shifts.iter().enumerate() {
             estimate(format_args!("months[{at}].shifts[{side}]"), shift)?;
@@ -465,8 +462,8 @@ impl MonthEntry {
 }
 
 impl GameEntry {
-    /// Returns the difficulty of a level in a dimension, and the component of its error that the other levels
-    /// of the game do not share.
+    /// Returns a level's difficulty in a dimension, with the error component not shared with the game's other
+    /// levels.
     pub(super) fn difficulty(&self, level: usize, side: usize) -> (f64, f64) {
         let levels = self.levels.iter().map(|one| {
             let Estimate { value, error } = one.difficulty[side];

@@ -1,6 +1,6 @@
-//! Scales of difficulty and ability across releases
+//! Scales for difficulty and ability across releases
 //! ([docs/explanation/scale.md](../../../../docs/explanation/scale.md)). The modules read and write the file
-//! `scale.json`, and collect the episodes from which a scale is estimated.
+//! `scale.json`, and collect the episodes used to estimate a scale.
 
 mod choice;
 mod file;

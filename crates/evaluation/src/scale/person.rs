@@ -1,4 +1,4 @@
-//! The abilities of persons on a scale. A person is a player whose results are measured on the scale.
+//! The abilities of persons on a scale. A person is a player whose results are measured with the scale.
 
 use super::file::{Estimate, ScaleFile, Span};
 use super::played::PersonPlays;
@@ -6,33 +6,33 @@ use serde::Serialize;
 use statistics::scale::{Ability, Dimension, PlayedGame, PlayedLevel, ability};
 use std::collections::BTreeMap;
 
-/// The minimum lower bound of the correlation at which planners alone can link a month for readers.
+/// The smallest lower bound of the correlation at which planners alone can link a month for readers.
 const LEAST_CORRELATION: f64 = 0.5;
-/// The minimum number of anchors that link a month for readers. With a single anchor, it is unknown how much
-/// the anchor has in common with other readers.
+/// The minimum number of anchors for linking a month for readers. With a single anchor, it is unknown how
+/// much the anchor has in common with other readers.
 const ANCHORS: u64 = 2;
 
-/// The abilities of a person, one for each release.
+/// A person's abilities, one per release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PersonAbility {
-    /// The name of the person.
+    /// The person's name.
     pub player: String,
     /// `true` if the person is a reader.
     pub is_reader: bool,
-    /// The abilities on the releases that the person played, in the order of the scale.
+    /// The abilities on the person's releases, in the order of the scale.
     pub months: Vec<MonthAbility>,
-    /// The number of distinct episodes on levels that are not on the scale.
+    /// The number of distinct episodes on levels missing from the scale.
     pub unknown: u64,
-    /// The numbers of episodes with settings for which the scale was not calibrated. The key lists the
+    /// The number of episodes for each group of settings outside the scale's calibration. The key lists the
     /// differing settings, such as `--commit 3`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub left_out: BTreeMap<String, u64>,
 }
 
-/// The ability of a person, estimated from one release.
+/// A person's ability, estimated from one release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MonthAbility {
-    /// The name of the release.
+    /// The release's name.
     pub month: String,
     /// The number of wins among the distinct episodes.
     pub won: u64,
@@ -40,50 +40,50 @@ pub struct MonthAbility {
     pub episodes: u64,
     /// The number of games played.
     pub games: u64,
-    /// The ability in logits, relative to the mean difficulty of the first release.
+    /// The ability in logits, relative to the first release's mean difficulty.
     pub ability: Option<Span>,
-    /// For the lower and the upper end of the interval, `true` if the data determine that end.
+    /// For the lower and the upper end of the interval, `true` if that end is determined by the data.
     pub is_bounded: [bool; 2],
     /// The total standard error of the ability, and its components.
     pub error: Option<ErrorParts>,
     /// The standard deviation of the person's mismatches with games.
     pub mismatch_sd: Option<f64>,
-    /// The reason why the ability could not be estimated.
+    /// The reason why the ability could not be estimated, if it could not.
     pub refusal: Option<Refusal>,
-    /// The drift of the release, estimated from the anchors.
+    /// The release's drift, estimated from the anchors.
     pub drift: Option<Estimate>,
 }
 
-/// A standard error and its components, with total² = sampling² + mismatch² + link².
+/// A standard error and its components. The components satisfy total² = sampling² + mismatch² + link².
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorParts {
     /// The total standard error.
     pub total: f64,
     /// The component caused by the limited number of episodes.
     pub sampling: f64,
-    /// The component caused by errors of the difficulties, and by games that suit the person better or worse
+    /// The component caused by errors in the difficulties, and by games that suit the person better or worse
     /// than others.
     pub mismatch: f64,
     /// The component caused by the link between the release and the first release.
     pub link: f64,
 }
 
-/// The reason why an ability could not be estimated.
+/// The reason for a missing ability.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Refusal {
-    /// The release has fewer than two anchors, so only planners link it to the scale, and planners are not
-    /// informative enough about readers.
+    /// The release has fewer than two anchors, so only planners link the release to the scale, and planners
+    /// are not informative enough about readers.
     FewAnchors {
         /// The number of anchors that played the release.
         anchors: u64,
-        /// The lower bound of the correlation between the difficulties for planners and for readers, if it is
+        /// The lower bound of the correlation between the difficulties for planners and for readers, if
         /// known.
         correlation_low: Option<f64>,
     },
 }
 
-/// Returns the abilities of persons on each release that they played.
+/// Returns the persons' abilities on each of their releases.
 pub fn abilities(scale: &ScaleFile, persons: &[PersonPlays]) -> Vec<PersonAbility> {
     persons.iter().map(|person| of_person(scale, person)).collect()
 }

@@ -1,4 +1,4 @@
-//! Reads the results of persons by level from results folders. Identical episodes count once.
+//! Reads persons' results by level from results folders. Identical episodes count once.
 
 use crate::error::EvaluationError;
 use crate::metrics::EpisodeMetrics;
@@ -12,32 +12,32 @@ use statistics::scale::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// The results of a person, by level.
+/// A person's results, by level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PersonPlays {
     /// The person who played the episodes.
     pub player: Player,
     /// The person's dimension. Players that see the state are planners, and all other players are readers.
     pub dimension: Dimension,
-    /// The numbers of episodes with settings for which the scale was not calibrated. The key lists the
+    /// The number of episodes for each group of settings outside the scale's calibration. The key lists the
     /// differing settings, such as `--commit 3`. These episodes are not included in `levels`.
     pub left_out: BTreeMap<String, u64>,
-    /// The versions of the suite with which the person was evaluated, by the digest of the game.
+    /// The versions of the suite that evaluated the person, by game digest.
     pub suites: BTreeMap<Digest, BTreeSet<String>>,
-    /// The number of wins and the number of distinct episodes, by the digests of game and level.
+    /// The number of wins and the number of distinct episodes, by game digest and level digest.
     pub levels: BTreeMap<(Digest, Digest), (u64, u64)>,
 }
 
-/// Reads results folders. Their persons are distinguished as in reports. Aborted episodes do not count. An
-/// episode does not count either if its track, commitment or step limit differs from those of a scale with
-/// `max_steps`, because the difficulties of the scale would not apply to it.
+/// Reads results folders, and distinguishes their persons as in reports. Aborted episodes do not count.
+/// Episodes with a different track, commitment or step limit than a scale with `max_steps` do not count,
+/// because the scale's difficulties would not apply.
 ///
-/// Cost: that of [`replay_course`](crate::metrics::replay_course) for each episode, on the threads of the
-/// current rayon pool.
+/// Cost: one [`replay_course`](crate::metrics::replay_course) per episode, on the threads of the current
+/// rayon pool.
 ///
 /// # Errors
 /// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders
-/// hold different episodes of the same person, level, run and seed.
+/// contain different episodes of the same person, level, run and seed.
 pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, EvaluationError> {
     let (persons, settings) = persons(folders)?;
     let person = |(player, episodes): (Player, Vec<EpisodeMetrics>)| {
@@ -90,8 +90,8 @@ pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, E
 }
 
 impl Settings {
-    /// Returns the command-line flags for the settings that differ from those of a scale with the given step
-    /// limit. Returns `None` if there is no difference.
+    /// Returns the command-line flags for the settings that differ from a scale with the given step limit.
+    /// Returns `None` if there is no difference.
     pub fn apart_from(&self, max_steps: u64) -> Option<String> {
         let track = self.track.as_deref().and_then(|id| id.split('@').next());
         let track = track.filter(|name| *name != Track::Told.name()).map(|name| format!("--track {name}"));

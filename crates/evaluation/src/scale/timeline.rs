@@ -1,4 +1,4 @@
-//! A timeline of the months on one scale, with the abilities of players and the difficulty of each month.
+//! A timeline of the months on a scale, with players' abilities and each month's difficulty.
 
 use super::file::{Estimate, ScaleFile, Span};
 use super::person::{MonthAbility, PersonAbility, Refusal, of_person};
@@ -10,24 +10,24 @@ use serde::Serialize;
 use statistics::{Z95, benjamini_hochberg, chi_squared_p};
 use std::collections::BTreeSet;
 
-/// The months of a scale, with the abilities of players on them.
+/// A scale's months, with players' abilities.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Timeline {
     /// The maximum number of actions per episode.
     pub max_steps: u64,
     /// The correlation between the difficulties for planners and for readers.
     pub correlation: Option<Span>,
-    /// The months of the scale, starting with the first month.
+    /// The months of the scale, in chronological order.
     pub months: Vec<TimelineMonth>,
-    /// The players of the timeline. Players that were not used to calibrate the scale come first. Each of the
-    /// two groups is sorted by descending mean ability.
+    /// The timeline's players. Players that were not used to calibrate the scale come first. Each of the two
+    /// groups is sorted by descending mean ability.
     pub players: Vec<TimelinePlayer>,
 }
 
-/// A month of a timeline.
+/// A month in a timeline.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimelineMonth {
-    /// The name of the month.
+    /// The month's name.
     pub name: String,
     /// The root digest of the month, if it is a snapshot.
     pub snapshot: Option<Digest>,
@@ -39,57 +39,56 @@ pub struct TimelineMonth {
     pub shifts: [Estimate; 2],
     /// The mean difficulty relative to the first month, for exactly the planners of the scale.
     pub planners_shift: Estimate,
-    /// The standard deviations of the difficulties of the month's levels, for planners and for readers.
+    /// The standard deviations of the level difficulties, for planners and for readers.
     pub spreads: [f64; 2],
-    /// The mean misfit of the month's games, which is about 1 if the episodes fit the model.
+    /// The mean misfit of the month's games. The value is about 1 if the episodes fit the model.
     pub misfit: f64,
     /// The number of anchors that played the month. Anchors are the readers among the scale's examinees.
     pub anchors: u64,
-    /// The additional difficulty of the month for the anchors, beyond the value implied by its difficulty for
+    /// The month's additional difficulty for the anchors, beyond the value implied by its difficulty for
     /// planners.
     pub drift: Option<Estimate>,
-    /// `true` if the 95% interval of the drift excludes 0.
+    /// `true` if the drift's 95% interval excludes 0.
     pub is_drift_flagged: bool,
 }
 
-/// A player of a timeline.
+/// A player in a timeline.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimelinePlayer {
-    /// The abilities of the player.
+    /// The player's abilities.
     #[serde(flatten)]
     pub ability: PersonAbility,
     /// `true` if the player was used to calibrate the scale, so that its abilities are not independent
     /// evidence.
     pub is_examinee: bool,
-    /// The versions of the suite with which the player was evaluated, in the order of the ability's `months`.
+    /// The versions of the suite that evaluated the player, in the order of the ability's `months`.
     pub suites: Vec<BTreeSet<String>>,
-    /// The evidence that the ability changed. `None` if the player has both won and lost in fewer than two
+    /// The evidence for a change in ability. `None` if the player has both won and lost in fewer than two
     /// months.
     pub change: Option<Change>,
 }
 
-/// The evidence that a player's ability changed over the months.
+/// The evidence for a change in a player's ability over the months.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// The number of months in which the player both won and lost episodes. In other months, the interval of
-    /// the ability has only one end.
+    /// The number of months in which the player both won and lost episodes. In other months, the ability's
+    /// interval has only one end.
     pub months: u64,
-    /// The mean of the abilities, weighted by the inverse squares of their errors.
+    /// The mean ability, weighted by the inverse squares of the errors.
     pub mean: Estimate,
     /// The ability in the last month minus the ability in the first month. Only months in which the player
     /// both won and lost are considered.
     pub from_first_to_last: Span,
-    /// The sum of the squared deviations from the mean, each divided by the square of the ability's error.
+    /// The sum of the squared deviations from the mean, each divided by the ability's squared error.
     pub chi_squared: f64,
-    /// The probability that the sum is at least as large if the ability never changed.
+    /// The probability of a sum at least as large if the ability never changed.
     pub p: f64,
     /// The p-value adjusted for the number of players by the Benjamini–Hochberg method.
     pub q: f64,
 }
 
 impl Timeline {
-    /// Computes the abilities of the players on the months of a scale. Cost: one estimate of an ability for
-    /// each player and month.
+    /// Computes the players' abilities on a scale's months. Cost: one ability estimate per player and month.
     pub fn of(scale: &ScaleFile, persons: &[PersonPlays]) -> Timeline {
         let mut players = persons.iter().map(|person| TimelinePlayer::of(scale, person)).collect_vec();
         let tested = (0..players.len()).filter(|&at| players[at].change.is_some()).collect_vec();
@@ -150,8 +149,7 @@ impl Timeline {
         )
     }
 
-    /// Returns all numbers as tables. The tables contain the abilities, the changes, the months, and the
-    /// underlying results.
+    /// Returns all numbers as tables: the abilities, the changes, the months, and the underlying results.
     pub fn tables(&self) -> Vec<Table> {
         vec![self.abilities(), self.changes(), self.difficulties(), self.plays()]
     }
@@ -259,7 +257,7 @@ impl Timeline {
         table
     }
 
-    /// Returns a table of the results by player and month, with the number of wins and the number of distinct
+    /// Returns a table of results by player and month, with the number of wins and the number of distinct
     /// episodes.
     fn plays(&self) -> Table {
         let note = "Wins and distinct episodes that were placed. A dash: the player did not play. Suite: \
@@ -311,8 +309,8 @@ impl TimelinePlayer {
 }
 
 impl Change {
-    /// Computes the change of an ability. Returns `None` if fewer than two months have both wins and losses.
-    /// `q` is set to `p` until it is adjusted.
+    /// Computes the change in an ability. Returns `None` if fewer than two months contain both wins and
+    /// losses. `q` is set to `p` until it is adjusted.
     fn of(months: &[MonthAbility]) -> Option<Change> {
         let placed = months.iter().filter(|month| month.is_bounded == [true, true]);
         let placed =

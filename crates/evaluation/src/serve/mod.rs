@@ -1,9 +1,9 @@
-//! Players of known strength that see only the prompt. They are served behind chat completions on loopback,
-//! or called directly ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)).
+//! Players of known strength that see only the prompt. The players are served as chat completions on
+//! loopback, or called directly ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)).
 //!
-//! These players have no access to the game that is played, so everything they know comes from the
-//! conversation. Therefore, they test the whole path from the state through the prompt and the answer to the
-//! action. They can also test third-party harnesses. The same conversation always gets the same answer.
+//! Such players have no access to the game, so all their knowledge comes from the conversation. Therefore,
+//! they test the entire path from the state through the prompt and the answer to the action. They can also
+//! test third-party harnesses. The same conversation always gets the same answer.
 
 mod origin;
 mod prompted;
@@ -35,16 +35,16 @@ pub const PROMPT_PLAYERS: &[&str] = &["random", "reflex"];
 pub enum PromptPlayer {
     /// Plays random actions other than nil, derived from the digest of the conversation.
     Random,
-    /// Takes the shortest way to a good target according to the rules, as described in [the
+    /// Takes the shortest path to a good target according to the rules, as described in [the
     /// documentation](../../../../docs/how-to/serve-player.md).
     Reflex,
-    /// Plans from the position reconstructed from the prompt. The prompt of the game must show everything
-    /// relevant.
+    /// Plans from the position reconstructed from the prompt. The prompt must show all relevant information
+    /// about the game.
     Planner(PlannerSpec),
 }
 
 impl PromptPlayer {
-    /// Checks that the player can answer a conversation. Cost: that of reading the conversation.
+    /// Checks that the player can answer a conversation. Cost: parsing the conversation once.
     ///
     /// # Errors
     /// Returns an error if the conversation lacks information that the player needs.
@@ -57,8 +57,8 @@ impl PromptPlayer {
         }
     }
 
-    /// Returns the player's answer to a conversation. Cost: O(bytes), or the budget in forward-model calls
-    /// for a planner.
+    /// Returns the player's answer to a conversation. Cost: O(bytes), or a planner's budget in forward-model
+    /// calls.
     ///
     /// # Errors
     /// Returns an error if the conversation lacks information that the player needs.
@@ -129,7 +129,7 @@ impl Model for PromptPlayer {
     }
 }
 
-/// Returns the seed of the player's random choices, which is a digest of every byte of the conversation.
+/// Returns the seed for the player's random choices: a digest of every byte of the conversation.
 fn seed(messages: &[ChatMessage]) -> Seed {
     let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 served conversation");
     for message in messages {
@@ -142,7 +142,7 @@ fn seed(messages: &[ChatMessage]) -> Seed {
     Seed::from_text(&hasher.finalize().to_hex())
 }
 
-/// Returns the number of tokens that the server bills for a text, which is one per four bytes.
+/// Returns the number of tokens that the server bills for a text: one per four bytes.
 fn tokens(text: &str) -> u64 {
     text.len().div_ceil(4) as u64
 }

@@ -3,8 +3,8 @@
 //!
 //! Any web page can make a browser send requests to 127.0.0.1. Three headers reveal such requests:
 //!
-//! - `Host` holds the requested host name, which DNS rebinding cannot hide.
-//! - `Origin` holds the origin of the page.
+//! - `Host` contains the requested host name, which DNS rebinding cannot hide.
+//! - `Origin` contains the page's origin.
 //! - `Content-Type` is not JSON. A page may send text to any server, but JSON only to servers that allow it,
 //!   and this server does not.
 
@@ -24,7 +24,7 @@ pub(super) async fn check(request: Request, next: Next) -> Response {
     }
 }
 
-/// Returns the reason for rejecting a request with the given method and headers, if there is one.
+/// Returns the reason for rejecting a request with the given method and headers, if any.
 fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static str, &'static str)> {
     let all = |name| headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default());
     let hosts: Vec<&str> = all(header::HOST).collect();

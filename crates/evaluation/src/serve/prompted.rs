@@ -1,5 +1,5 @@
-//! A served player that is called directly, without a server. It gets the same prompts, and its answers are
-//! read in the same way.
+//! A served player called directly, without a server. The player gets the same prompts, and its answers are
+//! parsed identically.
 
 use super::PromptPlayer;
 use crate::log::Journal;
@@ -8,8 +8,8 @@ use crate::prompt::{Attempt, Past, Prompter};
 use crate::turn::Turn;
 use std::sync::Arc;
 
-/// An agent that plays the answers of a [`PromptPlayer`] to the prompts of a game. Its log contains no
-/// prompts, because they are determined by the settings and the state.
+/// An agent that plays a [`PromptPlayer`]'s answers to a game's prompts. The agent's log contains no prompts,
+/// because they are determined by the settings and the state.
 #[derive(Debug)]
 pub struct Prompted {
     player: PromptPlayer,

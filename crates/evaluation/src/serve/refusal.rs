@@ -1,4 +1,4 @@
-//! Error responses for requests that are rejected.
+//! Error responses for rejected requests.
 
 use axum::Json;
 use axum::http::StatusCode;

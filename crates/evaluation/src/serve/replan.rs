@@ -1,8 +1,8 @@
-//! Plans from a position that is reconstructed from the prompt.
+//! Plans from a position reconstructed from the prompt.
 //!
-//! The prompt must show everything relevant. The rules must be shown as VGDL, the game must be deterministic
-//! and wait for the player, and the sprites must have no hidden state. If any of these conditions is
-//! uncertain, the player does not answer.
+//! The prompt must show all relevant information. The rules must be shown as VGDL, the game must be
+//! deterministic and wait for the player, and the sprites must have no hidden state. If any of these
+//! conditions is uncertain, the player does not answer.
 
 use super::Unanswerable;
 use super::shown::Shown;
@@ -14,7 +14,7 @@ use engine::syntax::{Description, MappingLine, parse};
 use engine::{Action, Analysis, Direction, Game, Level, State};
 use std::collections::BTreeMap;
 
-/// The number of forward-model calls per decision, if the planner's name does not contain a budget.
+/// The number of forward-model calls per decision, if the planner's name contains no budget.
 const BUDGET: Budget = Budget(1000);
 
 /// The effects that change only sprite positions and the avatar's resources.
@@ -48,7 +48,7 @@ const SHOWN_ENDINGS: &[&str] = &["SpriteCounter", "SpriteCounterMore", "MultiSpr
 ///
 /// # Errors
 /// Returns an error if the prompt does not show a position from which the player can plan. The message states
-/// what is missing.
+/// the missing information.
 pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Result<Vec<Action>, Unanswerable> {
     let (game, state) = position(shown, seed.child("unused", 0))
         .map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))?;
@@ -70,8 +70,8 @@ pub(super) fn check(shown: &Shown<'_>, spec: &PlannerSpec) -> Result<(), Unanswe
     found.map(drop).map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))
 }
 
-/// Reconstructs the position that a prompt shows, in an equivalent game. Returns the reason if this is
-/// impossible. The result does not depend on the seed.
+/// Reconstructs the position shown in a prompt, within an equivalent game. Returns the reason if this
+/// reconstruction is impossible. The result does not depend on the seed.
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
         return Err("the planner needs the rules as VGDL: pass --rules vgdl to `arcade evaluate`, or set \
@@ -101,8 +101,8 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     Ok((game, state))
 }
 
-/// Checks that the state of a game is determined by the board and by the avatar's resources and direction.
-/// Returns the reason if the state is not determined.
+/// Checks that a game's state is determined by the board and by the avatar's resources and direction. Returns
+/// the reason if the state is not determined.
 fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     let game = analysis.game();
     let possible = || game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
@@ -142,7 +142,7 @@ fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     }
 }
 
-/// A reconstructed position: a game with a suitable level mapping, and the position in the form of a level.
+/// A reconstructed position: a game with a suitable level mapping, and the position as a level.
 struct Position {
     game: Game,
     level: Level,
@@ -225,8 +225,7 @@ mod tests {
         (seen.outcome, avatar, resources, board)
     }
 
-    /// Positions of corpus games that are reconstructed from prompts continue in the same way as the original
-    /// states.
+    /// Corpus game positions reconstructed from prompts continue in the same way as the original states.
     #[test]
     fn positions_read_from_a_board_play_like_the_original() {
         let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };

@@ -1,4 +1,4 @@
-//! A server with OpenAI-compatible chat completions, which a player answers.
+//! A server with OpenAI-compatible chat completions, answered by a player.
 
 use super::refusal::refusal;
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use tokio::sync::oneshot;
 
-/// A server that is bound to its port but does not answer yet.
+/// A server bound to its port that does not serve requests yet.
 #[derive(Debug)]
 pub struct Server {
     player: PromptPlayer,
@@ -28,7 +28,7 @@ pub struct Server {
 }
 
 impl Server {
-    /// Binds a port of 127.0.0.1, or any free port if `port` is 0. Only programs on this machine can reach
+    /// Binds a port on 127.0.0.1, or any free port if `port` is 0. Only programs on this machine can reach
     /// the server.
     ///
     /// # Errors
@@ -47,18 +47,17 @@ impl Server {
         Server { bounds, ..self }
     }
 
-    /// Returns the address of the server.
+    /// Returns the server's address.
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// Returns the base URL that clients must use.
+    /// Returns the base URL for clients.
     pub fn base_url(&self) -> String {
         format!("http://{}/v1", self.address)
     }
 
-    /// Answers requests until the program ends. A player that thinks for a long time does not delay other
-    /// requests.
+    /// Serves requests until the program ends. A slow player does not delay other requests.
     ///
     /// # Errors
     /// Returns an error if the server cannot be started.
@@ -66,7 +65,7 @@ impl Server {
         self.run_until(std::future::pending())
     }
 
-    /// Answers requests in the background until the returned handle is dropped.
+    /// Serves requests in the background until the returned handle is dropped.
     pub fn spawn(self) -> Running {
         let base_url = self.base_url();
         let (stop, stopped) = oneshot::channel();
@@ -96,7 +95,7 @@ pub struct Running {
 }
 
 impl Running {
-    /// Returns the base URL that clients must use.
+    /// Returns the base URL for clients.
     pub fn base_url(&self) -> &str {
         &self.base_url
     }
@@ -136,7 +135,7 @@ fn router(player: PromptPlayer, bounds: Bounds) -> Router {
         .with_state(Arc::new(Serving { player, bodies: Bodies::new(bounds) }))
 }
 
-/// The state that is needed to answer a request.
+/// The state needed to answer a request.
 struct Serving {
     player: PromptPlayer,
     bodies: Bodies,
@@ -189,7 +188,7 @@ async fn complete(
     }
 }
 
-/// Returns the response to a request whose body could not be read.
+/// Returns the response to a request with an unreadable body.
 fn unreadable(why: &Unread) -> Response {
     let (status, code) = match why {
         Unread::TooLarge(_) => (StatusCode::PAYLOAD_TOO_LARGE, "unreadable_body"),

@@ -1,4 +1,4 @@
-//! Parses the text of a conversation (`docs/reference/prompts.md` describes the sections of prompts).
+//! Parses a conversation's text (`docs/reference/prompts.md` describes the prompt sections).
 
 use super::unanswerable::Unanswerable;
 use crate::client::ChatMessage;
@@ -9,23 +9,23 @@ use std::collections::BTreeMap;
 /// the game lasts.
 const MAX_PLAN: u64 = 1000;
 
-/// The character of the avatar, unless the legend defines a different character.
+/// The avatar's default character, unless the legend defines a different one.
 const AVATAR: char = '@';
 
-/// The parsed content of a prompt.
+/// A prompt's parsed content.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shown<'a> {
-    /// The sentences of the rules in order, including the sentences about the keys.
+    /// The rules' sentences in order, including the sentences about the keys.
     pub(super) rules: Vec<&'a str>,
-    /// The rules as VGDL, if the prompt has them in this form.
+    /// The rules as VGDL, if the prompt shows them in this form.
     pub(super) vgdl: Option<&'a str>,
     pub(super) actions: Vec<Action>,
-    /// The number of columns of the board, or 0 if there is no board.
+    /// The number of board columns, or 0 if there is no board.
     pub(super) columns: usize,
-    /// The names in each cell, in row-major order. Within a cell, they run from the lowest to the uppermost
-    /// sprite, without floors.
+    /// The names in each cell, in row-major order. Within a cell, the names are ordered from bottom to top,
+    /// without floors.
     pub(super) cells: Vec<Vec<&'a str>>,
-    /// The names of floors, which the board does not show.
+    /// The names of floors, omitted from the board.
     pub(super) floors: Vec<&'a str>,
     pub(super) tick: u32,
     /// The player's position and type, or `None` if the player is gone.
@@ -36,14 +36,14 @@ pub(super) struct Shown<'a> {
     pub(super) due: u64,
     /// `true` if the prompt requests a plan instead of a single action.
     is_plan: bool,
-    /// The numbered actions, if answers must be numbers, as in the reference's style.
+    /// The numbered actions, if answers must be numbers, as in the reference style.
     numbered: Option<Vec<Action>>,
 }
 
-/// The position and type of the player.
+/// The player's position and type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct You<'a> {
-    /// The player's type as stated in the prompt, or else the name of the player in the legend.
+    /// The player's type as stated in the prompt, or else the player's name in the legend.
     pub(super) name: &'a str,
     pub(super) cell: usize,
     pub(super) facing: Option<Action>,
@@ -59,7 +59,7 @@ fn section<'a>(message: &'a ChatMessage, heading: &str) -> Option<&'a str> {
 
 impl<'a> Shown<'a> {
     /// Parses a conversation. The static part is in the first message, and the turn is in the last message
-    /// that contains one.
+    /// that contains a turn.
     ///
     /// # Errors
     /// Returns an error if the conversation lists no actions.
@@ -114,7 +114,7 @@ impl<'a> Shown<'a> {
         Ok(shown)
     }
 
-    /// Formats actions in the form that the conversation requires, which is a single action or a plan.
+    /// Formats actions as required by the conversation: as a single action or a plan.
     pub(super) fn answer(&self, actions: &[Action]) -> String {
         let action = actions.first().copied().unwrap_or(Action::Nil);
         match &self.numbered {
@@ -175,7 +175,7 @@ impl<'a> Shown<'a> {
         self.you = self.you.filter(|you| you.cell < self.cells.len());
     }
 
-    /// Parses piles of sprites, one per line, such as `frost over snow: (3,4) (5,4)`.
+    /// Parses stacks of sprites, one per line, such as `frost over snow: (3,4) (5,4)`.
     fn read_stacks(&mut self, section: &'a str) {
         for line in section.lines() {
             let Some((names, places)) = line.split_once(": ") else { continue };
@@ -201,7 +201,7 @@ struct Symbols<'a> {
 
 impl<'a> Symbols<'a> {
     /// Parses a legend with lines such as `w wall`, `@ you: bare or armed` and `. nothing or floor`, or with
-    /// lines such as `wall -> 'w'` in the reference's style.
+    /// lines such as `wall -> 'w'` in the reference style.
     fn of(legend: &'a str) -> Symbols<'a> {
         let mut symbols = Symbols { names: BTreeMap::new(), you: AVATAR, floors: Vec::new() };
         for line in legend.lines() {

@@ -44,59 +44,58 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 const LEVEL: f64 = 0.95;
-/// The maximum number of rows in a comparison table of a report. The data of the study contain all rows.
+/// The maximum number of rows in a report's comparison tables. The study's data contain all rows.
 const MAX_COMPARISONS: usize = 100;
 
-/// The results of several players and their analysis. Indices named `player` and `game` refer to the lists
-/// `players` and `games`.
+/// The analysed results of several players. Indices named `player` and `game` refer to the lists `players`
+/// and `games`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Study {
-    /// The players of the study, in the order in which their results were given.
+    /// The study's players, in the order in which their results were given.
     pub players: Vec<Player>,
-    /// The games of the study.
+    /// The study's games.
     pub games: Vec<StudyGame>,
     /// All episodes, including aborted episodes, sorted by player, game, level and run.
     pub episodes: Vec<StudyEpisode>,
-    /// The notes about limits of the comparisons, such as different step limits or missing episodes.
+    /// Notes about the limits of the comparisons, such as different step limits or missing episodes.
     pub notes: Vec<String>,
     /// The leaderboard, best player first.
     pub leaderboard: Vec<LeaderRow>,
-    /// The heat maps by game, one for each [`Scope`] that has models. Without models, there is only one heat
-    /// map, for both modes.
+    /// The heat maps by game, one per [`Scope`] with models. Without models, there is only one heat map, for
+    /// both modes.
     pub by_game: Vec<Matrix>,
-    /// The heat maps by level, one for each [`Scope`] that has models.
+    /// The heat maps by level, one per [`Scope`] with models.
     pub by_level: Vec<Matrix>,
-    /// The comparisons of models with each other, and with players that are not models.
+    /// The comparisons between models, and between models and other players.
     pub pairs: Contrasts,
-    /// The comparisons of each model in zero-shot mode with the same model in contextual mode.
+    /// The comparisons between each model's zero-shot mode and its contextual mode.
     pub modes: Contrasts,
-    /// The comparisons of each model without an aid with the same model with the aid.
+    /// The comparisons between each model without an aid and the same model with the aid.
     pub aids: Contrasts,
     /// The correlations between winning and other variables.
     pub correlations: Correlations,
-    /// The failure modes, which compare the movement in won episodes with the movement in other episodes.
+    /// The failure modes, which compare the movement in won episodes with the movement in all other episodes.
     pub failures: Vec<FailureMode>,
     /// The levels on which players move back and forth, highest oscillation rate first.
     pub oscillations: Vec<OscillationRow>,
-    /// The results of each player by game.
+    /// Each player's results by game.
     pub sweeps: Vec<Sweep>,
     /// The difficulty of games and levels.
     pub difficulties: Vec<DifficultyRow>,
     /// The durations of decisions.
     pub times: Vec<TimeRow>,
-    /// The episodes that were not won, by player, game and cause.
+    /// The episodes without a win, by player, game and cause.
     pub endings: Vec<EndingRow>,
-    /// The episodes that were not won, summarised by player.
+    /// The episodes without a win, summarised by player.
     pub ending_summaries: Vec<EndingSummary>,
-    /// The results by the kind of game that the release states. The list is empty if the results record no
-    /// kinds.
+    /// The results by kind of game, as stated by the release. The list is empty if no kinds are recorded.
     pub kinds: Vec<TaxonomyRow>,
-    /// The results by the taxonomy that is derived from the rules.
+    /// The results by kind of game, as derived from the rules.
     pub taxonomy: Vec<TaxonomyRow>,
-    /// The horizons of the players that have several commitments, by kind of game.
+    /// The horizons of players with several commitments, by kind of game.
     pub horizons: Vec<HorizonRow>,
-    /// The reference results on the levels, with the results of the players on the same levels. The list is
-    /// empty if the releases contain no reference results.
+    /// The reference results on the levels, with the players' results on the same levels. The list is empty
+    /// if the releases contain no reference results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<MarkRow>,
     /// The players' predictions of the rules after series of levels.
@@ -109,21 +108,21 @@ pub struct Study {
 /// A game of a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StudyGame {
-    /// The name of the game's folder.
+    /// The game's folder name.
     pub id: String,
-    /// The title of the game in its own theme.
+    /// The game's title in its own theme.
     pub title: String,
-    /// The kind of game that the release states. The text is empty if the kind is not recorded.
+    /// The kind of game stated by the release. The text is empty if the kind is not recorded.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub kind: String,
-    /// The kind of game according to its rules, as one sentence for each aspect of the taxonomy.
+    /// The kind of game according to its rules, with one sentence per aspect of the taxonomy.
     pub taxonomy: Vec<String>,
-    /// `true` for a stochastic game, or `None` if it is unknown whether the game is stochastic.
+    /// `true` for a stochastic game, or `None` if unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub is_stochastic: Option<bool>,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<StudyLevel>,
-    /// The reference results for the levels, which the release contains.
+    /// The release's reference results for the levels.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<LevelMark>,
 }
@@ -131,9 +130,9 @@ pub struct StudyGame {
 /// A level of a game in a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StudyLevel {
-    /// The number of the level.
+    /// The level number.
     pub number: usize,
-    /// The number of ticks in the shortest win, if the win is proved to be optimal.
+    /// The length of the shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,
 }
 
@@ -155,9 +154,9 @@ impl From<&Subject> for StudyGame {
 }
 
 impl Study {
-    /// Builds a study from the episodes of players. A game or level that occurs in an episode but not in
-    /// `games` is added with only its ID or number. Cost: O(episodes log episodes), and one Fisher test for
-    /// each pair of players on each level.
+    /// Builds a study from the episodes of players. A game or level that occurs in an episode but is missing
+    /// from `games` is added with only its ID or number. Cost: O(episodes log episodes), plus one Fisher test
+    /// per pair of players and level.
     pub fn new(results: Vec<(Player, Vec<EpisodeMetrics>)>, games: Vec<StudyGame>) -> Study {
         let mut study = Study { games, ..Study::default() };
         let mut practice = 0;
@@ -262,8 +261,8 @@ impl Study {
         }
     }
 
-    /// Returns the players that are included in numbers about several players. They are the players on the
-    /// track of the first player, and the baselines that read no prompts.
+    /// Returns the players included in numbers about several players: the players on the first player's
+    /// track, and the baselines that read no prompts.
     pub(crate) fn on_first_track(&self) -> impl Iterator<Item = usize> + '_ {
         let first = self.players.iter().find(|player| player.track().is_some() || !player.is_reference());
         let first = first.or(self.players.first());
@@ -282,8 +281,7 @@ impl Study {
         scopes.collect()
     }
 
-    /// Returns the episodes of a player. If a game or a level is given, only its episodes are returned. Cost:
-    /// O(log episodes).
+    /// Returns a player's episodes, optionally restricted to a game or a level. Cost: O(log episodes).
     pub fn on(&self, player: usize, game: Option<usize>, level: Option<usize>) -> &[StudyEpisode] {
         let first = (player, game.unwrap_or(0), level.unwrap_or(0));
         let last = (player, game.unwrap_or(usize::MAX), level.unwrap_or(usize::MAX));
@@ -308,7 +306,7 @@ impl Study {
         level.map_or_else(|| id.clone(), |level| format!("{id}-{level}"))
     }
 
-    /// Returns the title of a game, or its ID if it has no title.
+    /// Returns a game's title, or its ID if it has no title.
     pub fn title(&self, game: usize) -> &str {
         let StudyGame { id, title, .. } = &self.games[game];
         if title.is_empty() { id } else { title }
@@ -340,7 +338,7 @@ impl Study {
     }
 }
 
-/// Returns the player, game and level of an episode, which form the sort key of episodes.
+/// Returns an episode's player, game and level, which form the sort key.
 fn place(episode: &StudyEpisode) -> (usize, usize, usize) {
     (episode.player, episode.game, episode.metrics.level)
 }

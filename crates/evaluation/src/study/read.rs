@@ -18,19 +18,18 @@ use std::path::{Path, PathBuf};
 impl Study {
     /// Reads a study from results folders. Every episode is replayed from its log.
     ///
-    /// Folders of the same person are merged. Persons are the same if their name, mode, aids, prompts,
-    /// decoding and served version are equal.
+    /// A person's folders are merged. Persons are the same if their name, mode, aids, prompts, decoding and
+    /// served version are equal.
     ///
-    /// Games with the same ID count as one game in two cases. Either their rules are equal except for names,
-    /// and their levels start in the same states, or their rules and levels are mirrored. Results on the two
+    /// Games with the same ID count as one game in two cases: their rules are equal except for names and
+    /// their levels start in the same states, or their rules and levels are mirrored. Results on the two
     /// variants belong to separate players.
     ///
-    /// Cost: that of [`replay`](crate::metrics::replay) for each episode, on the threads of the current rayon
-    /// pool.
+    /// Cost: one [`replay`](crate::metrics::replay) per episode, on the threads of the current rayon pool.
     ///
     /// # Errors
     /// Returns an error if a folder or log cannot be read, if a replay differs from its log, if two folders
-    /// hold the same episode of the same player, or if the same name stands for different games or levels.
+    /// contain the same episode of the same player, or if the same name stands for different games or levels.
     pub fn read(folders: &[PathBuf]) -> Result<Study, EvaluationError> {
         let mut results: Vec<PersonResults> = Vec::new();
         let mut names = Names::default();
@@ -103,7 +102,7 @@ impl Study {
     }
 }
 
-/// The games and the episodes in the folders read so far, by name.
+/// The games and episodes in the folders read so far, by name.
 #[derive(Default)]
 struct Names {
     games: Vec<KnownGame>,
@@ -114,25 +113,26 @@ struct Names {
 struct KnownGame {
     game: StudyGame,
     rules: Game,
-    /// The canonical texts of the levels, by number.
+    /// The levels' canonical texts, by number.
     levels: BTreeMap<usize, String>,
     /// The hashes of the levels' first states under a fixed seed, by number.
     starts: BTreeMap<usize, StateHash>,
 }
 
-/// The relation of a game to a game in an earlier folder.
+/// A game's relation to a game in an earlier folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Surface {
-    /// The game is the same game, or the first game with its ID.
+    /// The game is identical to the earlier game, or is the first game with its ID.
     Own,
-    /// The game is the same except for its names, and its levels start in the same states.
+    /// The game is identical except for its names, and its levels start in the same states.
     Renamed,
     /// The game is the left-right mirror image.
     Mirrored,
 }
 
 impl Surface {
-    /// Returns a phrase for the difference from the earlier game, or `None` if there is no difference.
+    /// Returns a phrase that describes the difference from the earlier game, or `None` if there is no
+    /// difference.
     fn words(self) -> Option<&'static str> {
         match self {
             Surface::Own => None,
@@ -143,7 +143,7 @@ impl Surface {
 }
 
 impl KnownGame {
-    /// Returns the relation to a different game with the same ID. If there is no such relation, returns a
+    /// Returns the relation to a different game with the same ID. If the games are unrelated, returns a
     /// description of the difference.
     fn surface(&self, subject: &Subject, levels: &BTreeMap<usize, String>) -> Result<Surface, String> {
         let differing = |image: fn(&str) -> String| {
@@ -260,8 +260,8 @@ impl Names {
 /// different games in several folders may share an ID.
 pub(crate) type Persons = (Vec<(Player, Vec<EpisodeMetrics>)>, Vec<Settings>);
 
-/// Reads the persons in results folders, which are distinguished as in a study. Practice episodes are
-/// omitted. The metrics of the other episodes are those of [`EpisodeMetrics::of_course`].
+/// Reads the persons in results folders, and distinguishes them as in a study. Practice episodes are omitted.
+/// The metrics of all other episodes are computed by [`EpisodeMetrics::of_course`].
 ///
 /// # Errors
 /// Returns an error if a folder or log cannot be read, or if a replay differs from its log.
@@ -289,7 +289,7 @@ pub(crate) fn persons(folders: &[PathBuf]) -> Result<Persons, EvaluationError> {
     Ok((persons, settings))
 }
 
-/// Returns the metrics of an episode, or `None` if the episode was not started.
+/// Returns an episode's metrics, or `None` if the episode was not started.
 fn measured(
     evaluation: &Evaluation,
     task: &Task<'_>,

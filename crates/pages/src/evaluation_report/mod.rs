@@ -1,5 +1,4 @@
-//! The report on evaluations, which consists of a self-contained page, Markdown, JSON, and every table as CSV
-//! and LaTeX.
+//! The evaluation report: a self-contained page, Markdown, JSON, and every table as CSV and LaTeX.
 
 mod page;
 mod plots;
@@ -12,9 +11,9 @@ use evaluation::study::Study;
 use evaluation::{Entrant, Evaluation};
 use serde::Serialize;
 
-/// The input of a report on evaluations.
+/// The input of an evaluation report.
 pub struct Results<'a> {
-    /// The study of the results.
+    /// The study with the results.
     pub study: &'a Study,
     /// The results folders, which provide the replays and the settings.
     pub evaluations: &'a [Evaluation],
@@ -22,7 +21,7 @@ pub struct Results<'a> {
     pub replays: usize,
 }
 
-/// The content of `report.json`. It contains no folder names, so that the same results give the same bytes
+/// The content of `report.json`. Folder names are omitted, so that the same results give the same bytes
 /// wherever they are stored.
 #[derive(Serialize)]
 struct Document<'a> {
@@ -30,7 +29,7 @@ struct Document<'a> {
     study: &'a Study,
 }
 
-/// The settings of a player's evaluation. The games are omitted, because the study lists them.
+/// A player's evaluation settings. The games are omitted, because the study lists them.
 #[derive(Serialize)]
 struct Asked<'a> {
     entrant: &'a Entrant,
@@ -42,8 +41,8 @@ struct Asked<'a> {
     max_steps: u64,
 }
 
-/// Returns the files of the report: `report.html`, `report.md`, `report.json` and the files in `tables/`. The
-/// same results give the same bytes.
+/// Returns the report files: `report.html`, `report.md`, `report.json` and the files in `tables/`. The same
+/// results give the same bytes.
 ///
 /// # Errors
 ///

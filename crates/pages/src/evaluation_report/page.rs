@@ -1,4 +1,4 @@
-//! The page of the report, which is one self-contained HTML file.
+//! The report page, a single self-contained HTML file.
 
 use super::Results;
 use super::replay::Replays;
@@ -16,7 +16,7 @@ const TEMPLATE: &str = include_str!("page.html");
 const PARTS: [(&str, &str); 2] =
     [("page.css", include_str!("page.css")), ("replay.js", include_str!("replay.js"))];
 
-/// The approximate size of the page, in bytes. The replays may use the space that the plots leave.
+/// The approximate page size, in bytes. The replays may use the space left by the plots.
 const BYTES: usize = 12_000_000;
 
 #[derive(Serialize)]
@@ -26,7 +26,7 @@ struct Page<'a> {
     headlines: Vec<Fact>,
     /// A paragraph that summarises the results.
     lead: Option<&'a String>,
-    /// The sentences about failures, one for each player.
+    /// The sentences about failures, one per player.
     fails: &'a [String],
     counted: &'a [String],
     warnings: &'a [String],
@@ -35,7 +35,7 @@ struct Page<'a> {
     tab_rules: String,
     replays: Option<Replays>,
     /// The nonce of the page's script, which prevents all other scripts from running. The nonce is derived
-    /// from the whole content of the page, so the content cannot contain the nonce.
+    /// from the page's entire content, so the content cannot contain the nonce.
     nonce: String,
 }
 
@@ -63,8 +63,8 @@ pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Re
     crate::page::render(&PARTS, TEMPLATE, &page)
 }
 
-/// Returns the figures at the top of the page. They show the best models, or the best players if there is no
-/// model, and the reference players to compare them with.
+/// Returns the figures at the top of the page: the best models, or the best players if there are no models,
+/// and the reference players to compare them with.
 fn headlines(study: &Study) -> Vec<Fact> {
     let is_model = |row: &&LeaderRow| !study.players[row.player].is_reference();
     let models = study.leaderboard.iter().filter(is_model).take(3);

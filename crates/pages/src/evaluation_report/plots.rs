@@ -1,4 +1,4 @@
-//! The plots of the page, drawn from the numbers of the study.
+//! The page's plots, drawn from the study's numbers.
 
 use crate::page::plots::{
     CurvePoint, ForestRow, HeatMap, Label, Violin, curve, forest, group_width, heat_map, matrix, violins,
@@ -10,9 +10,9 @@ use evaluation::study::{
 use serde::Serialize;
 use std::fmt::Write;
 
-/// The approximate number of columns in one group of a heat map.
+/// The approximate number of columns per group in a heat map.
 const COLUMNS: usize = 6;
-/// The width of one group of a heat map in pixels, which fits a phone.
+/// The width in pixels of one group in a heat map, which fits a phone screen.
 const WIDTH: f64 = 240.0;
 
 #[derive(Serialize)]
@@ -29,7 +29,7 @@ pub(super) struct Group {
     plots: Vec<Plot>,
 }
 
-/// The heat maps of the page. Only one heat map is visible at a time.
+/// The page's heat maps. Only one heat map is visible at a time.
 #[derive(Serialize)]
 pub(super) struct Heats {
     measures: Vec<String>,
@@ -37,7 +37,7 @@ pub(super) struct Heats {
     panels: Vec<Panel>,
 }
 
-/// The heat maps of one measure in one scope, over all games.
+/// The heat maps for one measure in one scope, over all games.
 #[derive(Serialize)]
 struct Panel {
     measure: usize,
@@ -51,7 +51,7 @@ struct Panel {
 }
 
 impl Heats {
-    /// Creates the heat maps of all measures in all scopes.
+    /// Creates the heat maps for all measures in all scopes.
     pub(super) fn of(study: &Study) -> Heats {
         let scopes = study.by_level.iter().map(|matrix| match matrix.scope {
             Scope::ZeroShot | Scope::Contextual => matrix.scope.name().to_owned(),
@@ -65,7 +65,7 @@ impl Heats {
         Heats { measures, scopes: scopes.collect(), panels: panels.collect() }
     }
 
-    /// Returns the total size of the heat maps in the page, in bytes.
+    /// Returns the total size of the page's heat maps, in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.panels.iter().flat_map(|panel| &panel.svgs).map(String::len).sum()
     }
@@ -151,7 +151,7 @@ impl Panel {
     }
 }
 
-/// Formats a value such as `.45` or `1`. The zero before the decimal point is omitted, so that the text fits
+/// Formats a value, as in `.45` or `1`. The zero before the decimal point is omitted, so that the text fits
 /// into a cell.
 fn two_digits(value: f64) -> String {
     let text = format!("{value:.2}");
@@ -162,7 +162,7 @@ fn two_digits(value: f64) -> String {
     }
 }
 
-/// Returns an image of a heat map's colour scale, from its low end to its high end.
+/// Returns an image of a heat map's colour scale, from the low end to the high end.
 fn key() -> String {
     let step =
         |at: usize| format!("<g class=\"q{at}\"><rect x=\"{}\" width=\"12\" height=\"12\"/></g>", 12 * at);
@@ -170,8 +170,8 @@ fn key() -> String {
     format!("<svg width=\"132\" height=\"12\" viewBox=\"0 0 132 12\" aria-hidden=\"true\">{steps}</svg>")
 }
 
-/// Splits the columns of a matrix into groups of about [`COLUMNS`]. A game is split only if it has more
-/// columns. Several games share a group if their titles fit.
+/// Splits a matrix's columns into groups of about [`COLUMNS`]. A game is split only if it has more columns.
+/// Several games share a group if their titles fit.
 fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     let mut stretches: Vec<(f64, Vec<usize>)> = Vec::new();
     for game in 0..study.games.len() {
@@ -192,8 +192,8 @@ fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     stretches.into_iter().map(|(_, columns)| columns).collect()
 }
 
-/// Returns a player's label in two parts. The first part is the name. The second part contains the mode and
-/// aids, or states that the player is a reference player.
+/// Returns a player's label in two parts: the name, and a note with the mode and aids, or with the fact that
+/// the player is a reference player.
 fn label(name: &str, reference: bool) -> Label {
     match name.split_once(" (") {
         Some((name, note)) => Label { name: name.to_owned(), note: note.trim_end_matches(')').to_owned() },
@@ -204,7 +204,7 @@ fn label(name: &str, reference: bool) -> Label {
     }
 }
 
-/// Plots the win rates of all players over all episodes.
+/// Plots all players' win rates over all episodes.
 pub(super) fn win_rates(study: &Study) -> Plot {
     let rows: Vec<ForestRow> = study
         .leaderboard
@@ -222,7 +222,7 @@ pub(super) fn win_rates(study: &Study) -> Plot {
     }
 }
 
-/// Plots win rates by commitment, one plot for each player and kind of game.
+/// Plots win rates by commitment, one plot per player and kind of game.
 pub(super) fn horizons(study: &Study) -> Vec<Plot> {
     let plot = |row: &HorizonRow| {
         let points: Vec<CurvePoint> = row
@@ -276,7 +276,7 @@ fn forest_row(label: Label, scores: &Scores, reference: bool) -> ForestRow {
     ForestRow { label, share, of, reference }
 }
 
-/// Plots the failure-mode metrics in won episodes and in other episodes.
+/// Plots the failure-mode metrics in won episodes and in all other episodes.
 pub(super) fn failures(study: &Study) -> Vec<Plot> {
     let shown = [
         FailureMeasure::BumpRate,
@@ -296,7 +296,7 @@ pub(super) fn failures(study: &Study) -> Vec<Plot> {
     modes.map(plot).collect()
 }
 
-/// Plots the correlation matrices. Returns no plots if there are no episodes.
+/// Plots the correlation matrices. Returns no plots without episodes.
 pub(super) fn correlations(study: &Study) -> Vec<Plot> {
     if study.correlations.episodes == 0 {
         return Vec::new();

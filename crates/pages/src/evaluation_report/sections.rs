@@ -1,4 +1,4 @@
-//! The sections of the page. Each section answers a question with plots and tables.
+//! The page sections. Each section answers a question with plots and tables.
 
 use super::plots::{self, Group, Heats, Plot};
 use crate::page::tables::{Column, Row, Shown};
@@ -23,14 +23,14 @@ impl Section {
         Section { id, title, note: note.into(), ..Section::default() }
     }
 
-    /// Returns the size of the section's heat maps in bytes. Heat maps are by far the largest part of the
+    /// Returns the size of the section's heat maps, in bytes. Heat maps are by far the largest part of the
     /// page.
     pub(super) fn bytes(&self) -> usize {
         self.heats.as_ref().map_or(0, Heats::bytes)
     }
 }
 
-/// Returns all sections of the page, and the style rules of the heat maps.
+/// Returns all page sections, and the style rules for the heat maps.
 pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let of = |ids: &[&str]| -> Vec<Shown> {
         let found = ids.iter().flat_map(|id| tables.iter().filter(move |table| table.id == *id));
@@ -126,7 +126,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     (first.chain(others).collect(), rules)
 }
 
-/// Returns a row for the leaderboard with the mean length of the proved shortest wins.
+/// Returns a leaderboard row with the mean length of the proved shortest wins.
 fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     let levels: Vec<Option<usize>> =
         study.games.iter().flat_map(|game| &game.levels).map(|level| level.optimal_ticks).collect();
@@ -145,7 +145,7 @@ fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     (!known.is_empty()).then(|| Row { cells: columns.iter().map(cell).collect(), mark: true })
 }
 
-/// Returns a table of the study, in which rows about players that are not models are marked as such.
+/// Returns a table from the study, with rows marked if their player is not a model.
 fn shown(study: &Study, table: &Table) -> Shown {
     let labels = |marks: bool| -> Vec<String> {
         let players = study.players.iter().filter(|player| player.is_reference() == marks);

@@ -1,4 +1,4 @@
-//! The introduction of the report, which states which episodes count and why other episodes do not.
+//! The report's introduction, which states which episodes count, and why other episodes do not.
 
 use super::Results;
 use crate::page::words;
@@ -9,14 +9,14 @@ use itertools::Itertools;
 use report::{Table, in_markdown};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The introductory text of the page and of the Markdown file.
+/// The introductory text for the page and the Markdown file.
 pub(super) struct Told {
     pub(super) title: String,
     /// A line about the source of the results.
     pub(super) subtitle: String,
-    /// The summary of the results, followed by a paragraph on the failures of each player.
+    /// A summary of the results, followed by one paragraph per player about its failures.
     pub(super) verdict: Vec<String>,
-    /// Sentences about the numbers of episodes, players and levels that count.
+    /// Sentences about the numbers of counted episodes, players and levels.
     pub(super) counted: Vec<String>,
     /// Warnings about the limits of comparisons.
     pub(super) warnings: Vec<String>,
@@ -78,7 +78,7 @@ fn levels(study: &Study) -> u64 {
     study.games.iter().map(|game| game.levels.len() as u64).sum()
 }
 
-/// Returns a sentence for citing the result, if all results are on releases.
+/// Returns a sentence for citing the result, if all results come from releases.
 fn citation(evaluations: &[Evaluation]) -> Option<String> {
     let one = |evaluation: &Evaluation| {
         let root = evaluation.settings.snapshot?;
@@ -116,8 +116,7 @@ fn subtitle(evaluations: &[Evaluation]) -> String {
     )
 }
 
-/// Returns a sentence with the number of episodes that count, and the reasons why other episodes do not
-/// count.
+/// Returns a sentence with the number of counted episodes, and the reasons why other episodes do not count.
 fn episodes(study: &Study) -> String {
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     let mut excluded: BTreeMap<String, u64> = BTreeMap::new();
@@ -168,7 +167,7 @@ fn common(study: &Study, levels: u64) -> String {
     }
 }
 
-/// Returns a sentence with statistics about the models' answers, if there are answers.
+/// Returns a sentence with statistics about the models' answers, if any.
 fn answers(study: &Study) -> Option<String> {
     let models = study.leaderboard.iter().filter(|row| !study.players[row.player].is_reference());
     let mut all = Choices::default();

@@ -1,5 +1,4 @@
-//! The parts that the pages of all reports share. They include the wording and layout of figures and tables,
-//! and the templates that show them.
+//! The parts shared by all report pages: the wording and layout of figures and tables, and their templates.
 
 pub(crate) mod facts;
 pub(crate) mod plots;
@@ -28,25 +27,25 @@ pub(crate) struct Figure {
     png: String,
     size: [u32; 2],
     head: String,
-    /// A text that is always empty. The field is kept because the page's nonce is computed over it.
+    /// An always empty text. The field is kept because the page's nonce is computed over it.
     line: &'static str,
 }
 
 impl Figure {
-    /// Converts a picture to a PNG image with a caption.
+    /// Creates a captioned PNG image from a drawing.
     pub(crate) fn of(picture: &Picture, head: String) -> Result<Figure, RenderError> {
         let size = [picture.width(), picture.height()];
         Ok(Figure { png: STANDARD.encode(png(picture)?), size, head, line: "" })
     }
 
-    /// Returns the size of the PNG in bytes.
+    /// Returns the PNG size in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.png.len()
     }
 }
 
-/// Renders a page from a template as one self-contained HTML file. The template may include or import the
-/// given `parts` by name, in addition to the shared parts. The same arguments give the same bytes.
+/// Renders a page from a template as a single self-contained HTML file. The template may include or import
+/// the given `parts` by name, in addition to the shared parts. The same arguments give the same bytes.
 pub(crate) fn render(
     parts: &[(&'static str, &'static str)],
     template: &'static str,

@@ -1,13 +1,13 @@
-//! Tables in the pages of reports.
+//! Tables in report pages.
 
 use super::words;
 use report::{Table, TableCell};
 use serde::Serialize;
 
-/// The maximum number of rows that a page shows of a table. The table's file contains all rows.
+/// The maximum number of table rows shown on a page. The table's file contains all rows.
 const MOST: usize = 150;
 
-/// A table in the form required by the template `table`.
+/// A table as required by the template `table`.
 #[derive(Serialize)]
 pub(crate) struct Shown {
     pub(crate) id: String,
@@ -15,14 +15,14 @@ pub(crate) struct Shown {
     note: String,
     pub(crate) columns: Vec<Column>,
     pub(crate) rows: Vec<Row>,
-    /// A phrase with the number of omitted rows. The text is empty if no row is omitted.
+    /// A phrase about the number of omitted rows. The text is empty if no rows are omitted.
     more: String,
     /// `true` if each row is shown as a list of cells on a narrow page. This layout suits tables with long
     /// texts.
     stack: bool,
 }
 
-/// A column of a table. The flag is `true` if the column contains numbers, which are aligned to the right.
+/// A table column. The flag is `true` if the column contains right-aligned numbers.
 #[derive(Serialize)]
 pub(crate) struct Column {
     pub(crate) name: String,
@@ -62,8 +62,8 @@ impl Shown {
         Shown { stack: true, ..self }
     }
 
-    /// Keeps only the first rows of a long table, and sets the `mark` of the rows for which `is_marked`
-    /// returns `true`.
+    /// Truncates a long table to its first rows, and sets `mark` for the rows for which `is_marked` returns
+    /// `true`.
     pub(crate) fn cut(mut self, is_marked: impl Fn(&[String]) -> bool) -> Shown {
         let more = self.rows.len().saturating_sub(MOST) as u64;
         self.more = if more == 0 { String::new() } else { words::many(more, "row") };

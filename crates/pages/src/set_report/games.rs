@@ -15,8 +15,8 @@ use validators::Difficulty;
 /// The approximate length of a board's longer side, in pixels.
 const SIDE: u32 = 380;
 
-/// Returns the files of the report on a set of games. `games` must be in the order of the report's rows. The
-/// page shows the title, the method and the elapsed time in seconds. Cost: O(pixels), and half an episode per
+/// Returns the report files for a set of games. `games` must be in the order of the report's rows. The page
+/// shows the title, the method and the elapsed time in seconds. Cost: O(pixels), and half an episode per
 /// game.
 ///
 /// # Errors
@@ -63,8 +63,8 @@ pub fn game_report(
     files(&report.set, &showcase)
 }
 
-/// Draws the costs of the judges, largest first. Each cost is divided into three parts: levels that were
-/// accepted, levels that were rejected, and levels whose game was rejected.
+/// Draws the judges' costs, largest first. Each cost is divided into three parts: accepted levels, rejected
+/// levels, and levels whose game was rejected.
 fn costs(cost: &Tally) -> Option<(String, String)> {
     let mut judges: Vec<(&String, &JudgeCost)> =
         cost.judges.iter().filter(|(_, cost)| cost.calls() > 0).collect();
@@ -86,8 +86,8 @@ fn drawn(game: &SurveyedGame) -> Result<Option<Picture>, PageError> {
     picture(&looks, &state, &Style::bare(cell(level, SIDE, 40))).map(Some).map_err(failed)
 }
 
-/// Returns the level closest to the middle of the game for which a win is known, and its state halfway
-/// through that win. If no win is known, returns the middle level in its initial state.
+/// Returns the level closest to the middle of the game with a known win, and its state halfway through that
+/// win. Without known wins, returns the middle level in its initial state.
 fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     let SurveyedGame { game, levels, report, .. } = surveyed;
     let half = levels.len() / 2;
@@ -104,7 +104,7 @@ fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     Some((&levels[at], state))
 }
 
-/// Returns the class and the text of a level's label.
+/// Returns the class and the text for a level's label.
 fn chip(number: usize, label: Option<Difficulty>) -> (String, String) {
     // The classes range from `d0` for very easy levels to `d5` for unbeaten levels.
     let class = label.map_or("dx".to_owned(), |label| format!("d{}", label as usize));

@@ -1,5 +1,5 @@
-//! The report on a set of levels or games, as three files: `report.json`, `report.html` and `sheet.png`.
-//! `report.html` is a self-contained page.
+//! The report on a set of levels or games, as three files: `report.json`, the self-contained page
+//! `report.html`, and `sheet.png`.
 
 mod games;
 mod levels;
@@ -14,7 +14,7 @@ use render::{Picture, RenderError, png, sheet};
 use report::SetReport;
 use serde::Serialize;
 
-/// The parts of a page that are not in the [`SetReport`].
+/// The parts of a page beyond the [`SetReport`].
 #[derive(Serialize)]
 struct Showcase<'a> {
     title: String,
@@ -22,24 +22,24 @@ struct Showcase<'a> {
     subtitle: String,
     /// The manual page that explains the figures.
     manual: &'static str,
-    /// The heading above the images, and a note about the images.
+    /// The heading above the images, with a note about the images.
     items: [String; 2],
     pictures: Vec<Shot>,
     /// The images of the game's own levels.
     examples: Vec<Shot>,
-    /// The plots of expressive ranges as SVG, each with its caption.
+    /// The expressive range plots as SVG, each with its caption.
     ranges: Vec<(String, String)>,
     /// The plot of the judges' costs as SVG, with its caption.
     costs: Option<(String, String)>,
-    /// The IDs of the tables that are shown next to the images.
+    /// The IDs of the tables shown next to the images.
     #[serde(skip)]
     grids: &'a [&'static str],
     #[serde(skip)]
     sheet: Sheet,
 }
 
-/// The contact sheet. The fields are the images with their captions, the number of images per row, and the
-/// side of an image's square in pixels.
+/// A contact sheet: the images with their captions, the number of images per row, and the side length of an
+/// image's square in pixels.
 struct Sheet(Vec<(Picture, String)>, usize, u32);
 
 /// An image of a level or a game.
@@ -54,7 +54,7 @@ struct Shot {
     chips: Vec<(String, String)>,
 }
 
-/// The maximum number of levels or games that are drawn. The tables contain all of them.
+/// The maximum number of levels or games to draw. The tables contain all levels or games.
 const MOST: usize = 120;
 
 /// Returns `report.json`, `report.html` and `sheet.png`. The JSON depends only on the report, and contains no
@@ -70,7 +70,7 @@ fn files(report: &SetReport, showcase: &Showcase<'_>) -> Result<Vec<File>, PageE
         .into())
 }
 
-/// Returns the size of a cell in pixels, chosen so that the longer side of the board has about `side` pixels.
+/// Returns the cell size in pixels, chosen so that the board's longer side has about `side` pixels.
 fn cell(level: &engine::Level, side: u32, most: u32) -> u32 {
     let longest = u32::try_from(level.columns().max(level.rows())).unwrap_or(u32::MAX);
     (side / longest.max(1)).clamp(8, most)

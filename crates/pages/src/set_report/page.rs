@@ -1,4 +1,4 @@
-//! The page of the report, which is one self-contained HTML file.
+//! The report page, a single self-contained HTML file.
 
 use super::Showcase;
 use crate::PageError;
@@ -14,7 +14,7 @@ struct Page<'a> {
     showcase: &'a Showcase<'a>,
     headlines: Vec<Fact>,
     sections: Vec<Section>,
-    /// The tables that are shown next to the images.
+    /// The tables shown next to the images.
     grids: Vec<Shown>,
     every: Vec<Shown>,
 }

@@ -1,4 +1,4 @@
-//! The timeline report, which consists of one page, and of all numbers as JSON, CSV and LaTeX.
+//! The timeline report: a page, and all numbers as JSON, CSV and LaTeX.
 
 mod page;
 mod told;
@@ -6,8 +6,8 @@ mod told;
 use crate::{File, PageError};
 use evaluation::scale::Timeline;
 
-/// Returns the files of the timeline report: `timeline.html`, `timeline.json` and the files in `tables/`. The
-/// same timeline gives the same bytes.
+/// Returns the timeline report's files: `timeline.html`, `timeline.json` and the files in `tables/`. The same
+/// timeline gives the same bytes.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! The page of the timeline, which is one self-contained HTML file without scripts.
+//! The timeline page, a single self-contained HTML file without scripts.
 
 use super::told;
 use crate::PageError;
@@ -14,13 +14,13 @@ use statistics::Z95;
 
 const TEMPLATE: &str = include_str!("page.html");
 
-/// The number of distinct colours for lines.
+/// The number of distinct line colours.
 const HUES: usize = 6;
-/// The width and height of the plotting area for all players together, in pixels.
+/// The width and height in pixels of the plotting area for all players together.
 const WIDE: [f64; 2] = [860.0, 420.0];
-/// The width and height of the plotting areas of the lower plots, in pixels.
+/// The width and height in pixels of the plotting areas in the lower plots.
 const LOW: [f64; 2] = [860.0, 220.0];
-/// The width and height of the plotting area for a single player, in pixels.
+/// The width and height in pixels of the plotting area for a single player.
 const SMALL: [f64; 2] = [300.0, 170.0];
 
 #[derive(Serialize)]
@@ -32,10 +32,10 @@ struct Page {
     refusals: Vec<String>,
     /// The plot of all players' abilities on one axis.
     abilities: String,
-    /// The plots of individual players, with intervals.
+    /// The plots for individual players, with intervals.
     panels: Vec<Panel>,
     difficulties: String,
-    /// The plot of the drift. The text is empty if no anchor played.
+    /// The drift plot. The text is empty if no anchor played.
     drift: String,
     correlation: String,
     tables: Vec<Shown>,
@@ -141,7 +141,7 @@ fn headlines(timeline: &Timeline) -> Vec<Fact> {
     facts
 }
 
-/// Returns the line of a player in a plot over the months.
+/// Returns a player's line in a plot over the months.
 fn series(months: &[String], player: &TimelinePlayer, class: &str, whiskers: bool) -> MonthSeries {
     let point = |name: &String| {
         let month = player.ability.months.iter().find(|month| month.month == *name)?;
@@ -153,7 +153,7 @@ fn series(months: &[String], player: &TimelinePlayer, class: &str, whiskers: boo
 }
 
 /// Returns the range of the ability axis. The range includes all abilities whose intervals have two ends, and
-/// each interval up to two logits from its ability.
+/// up to two logits of each interval on either side of its ability.
 fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     let months = players.iter().flat_map(|player| &player.ability.months);
     let spans = months.filter(|month| month.is_bounded == [true, true]).filter_map(|month| month.ability);
@@ -162,7 +162,7 @@ fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     whole(&ends)
 }
 
-/// Returns the smallest range with whole numbers of logits at its ends that includes 0 and all given ranges.
+/// Returns the smallest range with integer logits at its ends that includes 0 and all given ranges.
 fn whole(ends: &[[f64; 2]]) -> [f64; 2] {
     let least = ends.iter().fold(0.0_f64, |least, [low, _]| least.min(*low));
     let most = ends.iter().fold(0.0_f64, |most, [_, high]| most.max(*high));
@@ -178,7 +178,7 @@ fn estimates(name: &str, class: &str, all: impl Iterator<Item = Option<Estimate>
     MonthSeries { name: name.to_owned(), class: class.to_owned(), points, whiskers: true }
 }
 
-/// Returns the ends of the intervals of all given lines.
+/// Returns the interval ends of all given lines.
 fn ends(lines: &[MonthSeries]) -> Vec<[f64; 2]> {
     lines.iter().flat_map(|line| &line.points).flatten().map(|point| point.band).collect()
 }

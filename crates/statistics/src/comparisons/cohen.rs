@@ -1,11 +1,12 @@
 //! Cohen's h, an effect size for two proportions that is independent of the number of trials (J. Cohen,
 //! *Statistical Power Analysis for the Behavioral Sciences*, 1988, chapter 6).
 
-/// Returns Cohen's h, `2 asin √p − 2 asin √q`, within [−π, π]. An h of 0.2 is called small, 0.5 medium, and
-/// 0.8 large.
+/// Returns Cohen's h, `2 asin √p − 2 asin √q`, within [−π, π]. By convention, an h of 0.2 is small, 0.5 is
+/// medium, and 0.8 is large.
 ///
-/// The arcsine makes the variance of a proportion of `n` trials about `1 / n` for any proportion. Therefore,
-/// equal values of h are equally hard to detect. Returns NaN if a value is not a proportion.
+/// The arcsine transformation makes the variance of a proportion from `n` trials about `1 / n`, whatever the
+/// proportion. Therefore, equal values of h are equally hard to detect. Returns NaN if a value is not a
+/// proportion.
 ///
 /// ```
 /// use infinite_arcade_statistics::cohens_h;
@@ -24,7 +25,7 @@ pub(crate) fn angle(p: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The test vectors are those of `spec/06` §3.1. More digits were computed with decimal arithmetic.
+    /// The test vectors come from `spec/06` §3.1. More digits were computed with decimal arithmetic.
     #[test]
     #[expect(clippy::approx_constant, reason = "printed like the others")]
     fn published_vectors() {

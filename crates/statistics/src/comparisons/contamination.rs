@@ -1,29 +1,29 @@
-//! Exact tests of memory, which detect players that have memorised published content.
+//! Exact memory tests, which detect players that have memorised published content.
 //!
-//! A coin has decided which of two items is published. The items are two renamings of a game, or two winning
-//! episodes of a level. Only a player that knows the published item can distinguish the two items. For given
-//! results of a player on both sides, either side was equally likely to be the published side, whatever the
-//! player's skills.
+//! A coin decided which of two items was published. The items are two renamings of a game, or two winning
+//! episodes on a level. Only a player that knows the published item can distinguish the two. Given a player's
+//! results on both sides, either side was equally likely to be the published one, regardless of the player's
+//! skills.
 //!
 //! Therefore, the distribution of the sum of the differences is known without any assumption about players or
-//! games (R. A. Fisher, *The Design of Experiments*, 1935, §21). For differences of 1, the test is that of Q.
-//! McNemar ("Note on the sampling error of the difference between correlated proportions", 1947).
+//! games (R. A. Fisher, *The Design of Experiments*, 1935, §21). If all differences are 1, the test reduces
+//! to Q. McNemar's ("Note on the sampling error of the difference between correlated proportions", 1947).
 
 use crate::planning::design::{Spread, logistic};
 
 /// The result of a coin test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoinTest {
-    /// The one-sided exact p-value, which is the probability that the sum is at least this large if the
-    /// player knows no coin.
+    /// The one-sided exact p-value: the probability that the sum is at least this large if the player knows
+    /// none of the coins.
     pub p: f64,
     /// The sum of the differences, published side minus sealed side.
     pub sum: i64,
-    /// The number of coins whose two sides have different results. The other coins are not evidence.
+    /// The number of coins whose two sides have different results. Coins with equal results are not evidence.
     pub informative: usize,
 }
 
-/// Tests whether results depend on coins. `differences` holds, for each coin, the result on the published
+/// Tests whether results depend on coins. `differences` contains, for each coin, the result on the published
 /// side minus the result on the sealed side. A result is a number of wins, or a number of episodes that begin
 /// like the witness. Both sides must have the same number of episodes.
 ///
@@ -78,7 +78,7 @@ pub fn coin_power(coins: u64, more: f64, less: f64, alpha: f64) -> f64 {
     (0..=coins).map(|count| informative[count as usize] * detected(count)).sum::<f64>().min(1.0)
 }
 
-/// Returns the binomial probability of each number of successes.
+/// Returns the binomial probability for each number of successes.
 fn binomial(trials: u64, p: f64) -> Vec<f64> {
     if p <= 0.0 || p >= 1.0 {
         let mut sure = vec![0.0; trials as usize + 1];
@@ -98,17 +98,17 @@ fn binomial(trials: u64, p: f64) -> Vec<f64> {
 /// A player that has memorised some levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Memoriser {
-    /// The fraction of the levels that the player knows.
+    /// The fraction of levels that the player knows.
     pub share: f64,
-    /// The player's win rate on levels that it knows.
+    /// The player's win rate on known levels.
     pub known: f64,
-    /// The player's win rate on levels that it does not know.
+    /// The player's win rate on unknown levels.
     pub clean: f64,
 }
 
 impl Memoriser {
-    /// Returns two probabilities: that the player wins only on a level's published sibling, and that it wins
-    /// only on the sealed sibling.
+    /// Returns two probabilities: that the player wins only the published sibling of a level, and that the
+    /// player wins only the sealed sibling.
     pub fn sibling_chances(&self, spread: Spread) -> (f64, f64) {
         let ability = spread.ability(self.clean);
         let square =
@@ -138,7 +138,7 @@ impl Memoriser {
 mod tests {
     use super::*;
 
-    /// The p-value matches an enumeration of all outcomes of the coins.
+    /// The p-value matches an enumeration of all coin outcomes.
     #[test]
     fn every_fall_counted() {
         let differences = [3, -1, 0, 2, 1, -2, 1];
@@ -185,8 +185,8 @@ mod tests {
         assert!((more - 0.24).abs() < 1e-12 && (less - 0.04).abs() < 1e-12);
     }
 
-    /// A player that has memorised a fifth of the levels is detected by prefixes. A player that has memorised
-    /// half of the levels is detected by siblings.
+    /// The prefix test detects a player that has memorised a fifth of the levels. The sibling test detects a
+    /// player that has memorised half of the levels.
     #[test]
     fn power_of_planned_tests() {
         let fifth = Memoriser { share: 0.2, known: 0.9, clean: 0.27 };

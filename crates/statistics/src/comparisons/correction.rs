@@ -1,7 +1,7 @@
 //! Corrections for multiple tests (Y. Benjamini and Y. Hochberg, "Controlling the false discovery rate", 1995; C. E.
 //! Bonferroni, "Teoria statistica delle classi e calcolo delle probabilità", 1936).
 
-/// Returns the Benjamini–Hochberg adjusted values (q-values) of `p`, in the given order. If all tests with a
+/// Returns the Benjamini–Hochberg adjusted values (q-values) for `p`, in the given order. If all tests with a
 /// q-value of at most 5% are rejected, the expected fraction of false rejections is at most 5%. No adjusted
 /// value exceeds 1. Cost: O(n log n).
 ///
@@ -27,9 +27,9 @@ pub fn benjamini_hochberg(p: &[f64]) -> Vec<f64> {
     adjusted
 }
 
-/// Returns the Bonferroni adjusted values of `p`, in the given order. If all tests with an adjusted value of
-/// at most 5% are rejected, the probability of any false rejection is at most 5%. Adjusted values are at
-/// most 1. Cost: O(n).
+/// Returns the Bonferroni adjusted values for `p`, in the given order. If all tests with an adjusted value of
+/// at most 5% are rejected, the probability of any false rejection is at most 5%. Adjusted values are at most
+/// 1. Cost: O(n).
 ///
 /// All results are NaN if a value is not a probability.
 ///
@@ -48,7 +48,7 @@ pub fn bonferroni(p: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// The test vector is that of `spec/06` §3.1.
+    /// The test vector comes from `spec/06` §3.1.
     #[test]
     fn published_vector() {
         let found = benjamini_hochberg(&[0.01, 0.04, 0.03, 0.005, 0.5, 0.2, 0.008]);

@@ -1,22 +1,21 @@
-//! Fisher's exact test for equal success rates of two groups (R. A. Fisher, "On the interpretation of χ² from
+//! Fisher's exact test for equal success rates in two groups (R. A. Fisher, "On the interpretation of χ² from
 //! contingency tables, and the calculation of P", 1922).
 //!
-//! The probabilities are those of the hypergeometric distribution. They are computed from the ratios of
-//! neighbouring probabilities, with only `*`, `/` and sums in a fixed order. Logarithms of factorials are
-//! avoided, because their last bits differ between platforms.
+//! The hypergeometric probabilities are computed from the ratios of neighbouring probabilities, using only
+//! `*`, `/` and sums in a fixed order. Logarithms of factorials are avoided, because their last bits differ
+//! between platforms.
 
 /// The factor by which a table may appear more likely than the observed table and still count as equally
 /// likely. The factor exceeds rounding errors, but not any true difference between tables of counts that fit
 /// in memory.
 pub(crate) const SAME: f64 = 1.0 + 1e-7;
 
-/// Returns the two-sided p-value for the numbers of `successes` among `trials` in two groups. The p-value is
-/// the probability of a table that is at most as likely as the observed table, among all tables with the same
-/// totals.
+/// Returns the two-sided p-value for `successes` among `trials` in two groups. The p-value is the total
+/// probability of all tables with the same totals that are at most as likely as the observed table.
 ///
-/// Returns 1 if there is nothing to compare, because there are no trials, only successes, or no successes.
-/// Returns NaN if a group has more successes than trials. Cost: O(number of tables with these totals), which
-/// is at most the size of the smaller group.
+/// Returns 1 if there is nothing to compare: no trials, only successes, or no successes. Returns NaN if a
+/// group has more successes than trials. Cost: O(number of tables with these totals), which is at most the
+/// size of the smaller group.
 ///
 /// ```
 /// use infinite_arcade_statistics::fisher;
@@ -35,8 +34,8 @@ pub fn fisher(successes: [u64; 2], trials: [u64; 2]) -> f64 {
 pub(crate) struct Tables {
     /// The minimum number of successes in the first group.
     pub(crate) first: u64,
-    /// The probability of each table from `first` on, relative to the most likely table. The weights do not
-    /// overflow, and weights that underflow are negligible.
+    /// The probability of each table, starting at `first`, relative to the most likely table. The weights do
+    /// not overflow, and underflowing weights are negligible.
     pub(crate) weights: Vec<f64>,
 }
 
@@ -86,7 +85,7 @@ mod tests {
         }
     }
 
-    /// The test vectors are those of `spec/06` §3.1.
+    /// The test vectors come from `spec/06` §3.1.
     #[test]
     fn published_vectors() {
         for (a, b, expect) in [

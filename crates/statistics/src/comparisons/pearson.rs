@@ -1,10 +1,10 @@
-//! The linear correlation of two measures (K. Pearson, "Note on regression and inheritance in the case of two
-//! parents", 1895).
+//! The linear correlation between two measures (K. Pearson, "Note on regression and inheritance in the case
+//! of two parents", 1895).
 
 use crate::student::student_p;
 
-/// Returns Pearson's correlation of pairs, from −1 to 1. Returns `None` if there are fewer than two pairs, if
-/// all values on one side are equal, or if a value is not finite. Cost: O(n).
+/// Returns Pearson's correlation for pairs of values, from −1 to 1. Returns `None` if there are fewer than
+/// two pairs, if all values on one side are equal, or if a value is not finite. Cost: O(n).
 ///
 /// ```
 /// use infinite_arcade_statistics::pearson;
@@ -27,12 +27,13 @@ pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
     (spread > 0.0).then(|| (product(|x, y| x * y) / spread).clamp(-1.0, 1.0))
 }
 
-/// Returns the two-sided p-value of a correlation `r` of `pairs` pairs, which is the probability that
-/// unrelated pairs correlate at least as strongly. Returns `None` if there are fewer than three pairs, or if
-/// `r` is not within −1..=1.
+/// Returns the two-sided p-value for a correlation `r` between `pairs` pairs: the probability that unrelated
+/// pairs correlate at least as strongly. Returns `None` if there are fewer than three pairs, or if `r` is not
+/// within −1..=1.
 ///
 /// For [`pearson`], the p-value is exact if one side is normally distributed. For
-/// [`spearman`](crate::spearman), the p-value is an approximation, which is good from about ten pairs on.
+/// [`spearman`](crate::spearman), the p-value is an approximation that is accurate for about ten or more
+/// pairs.
 ///
 /// ```
 /// use infinite_arcade_statistics::correlation_p;
@@ -58,8 +59,8 @@ mod tests {
         assert!((found - expect).abs() <= 1e-8 * expect.abs(), "{found}, not {expect}");
     }
 
-    /// The test vectors are those of `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355). More
-    /// digits were computed with decimal arithmetic.
+    /// The test vectors come from `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355). More digits
+    /// were computed with decimal arithmetic.
     #[test]
     fn published_vectors() {
         let pairs: Vec<(f64, f64)> = X.into_iter().zip(Y).collect();
@@ -70,7 +71,8 @@ mod tests {
         close(correlation_p(ordered, 8).unwrap(), 0.00748355217395917);
     }
 
-    /// The correlations are the six of `spec/06` §5.5, over 2250 episodes. The p-values go down to 1e-238.
+    /// The six correlations come from `spec/06` §5.5, over 2250 episodes. The smallest p-values are about
+    /// 1e-238.
     #[test]
     fn published_corrections() {
         let r = [0.21, -0.28, -0.18, -0.10, 0.30, 0.62];

@@ -1,9 +1,9 @@
-//! The rank correlation of two measures (C. Spearman, "The proof and measurement of association between two things",
-//! 1904).
+//! The rank correlation between two measures (C. Spearman, "The proof and measurement of association between
+//! two things", 1904).
 
-/// Returns Spearman's rank correlation of pairs, from −1 to 1, which is the correlation of their ranks. Equal
-/// values share their mean rank. Returns `None` if there are fewer than two pairs, if all values on one side
-/// are equal, or if a value is NaN. Cost: O(n log n).
+/// Returns Spearman's rank correlation for pairs of values, from −1 to 1: the correlation between their
+/// ranks. Equal values share their mean rank. Returns `None` if there are fewer than two pairs, if all values
+/// on one side are equal, or if a value is NaN. Cost: O(n log n).
 ///
 /// ```
 /// use infinite_arcade_statistics::spearman;
@@ -40,7 +40,7 @@ fn ranks(values: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// The test vector is that of `spec/06` §3.1.
+    /// The test vector comes from `spec/06` §3.1.
     #[test]
     fn published_vector() {
         let x = [1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0];

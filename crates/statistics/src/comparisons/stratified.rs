@@ -1,37 +1,37 @@
 //! A stratified test of two players, level by level. Pooling levels of different difficulty can hide or
-//! invent a difference. The stratified test compares only episodes of the same level, and sums the evidence
+//! create a difference. The stratified test compares only episodes on the same level, and sums the evidence
 //! (N. Mantel and W. Haenszel, "Statistical aspects of the analysis of data from retrospective studies of
 //! disease", 1959).
 //!
 //! The test is exact. For given totals on every level, all assignments of wins to episodes are equally
-//! likely. Therefore, the wins of one side are a sum of independent hypergeometric numbers, whose
+//! likely. Therefore, one side's number of wins is a sum of independent hypergeometric variables, whose
 //! distribution is computed exactly. A permutation test within strata would estimate the same distribution by
 //! sampling.
 
 use super::fisher::{SAME, Tables, ascending};
 
-/// The numbers of successes and trials of two groups on one level.
+/// The success and trial counts of two groups on one level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stratum {
-    /// The numbers of successes in the first and in the second group.
+    /// The number of successes in each group.
     pub successes: [u64; 2],
-    /// The numbers of trials in the first and in the second group.
+    /// The number of trials in each group.
     pub trials: [u64; 2],
 }
 
 /// The comparison of two groups over all levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stratified {
-    /// The two-sided exact p-value. With a single stratum, the p-value equals that of
+    /// The two-sided exact p-value. With a single stratum, the p-value equals the result of
     /// [`fisher`](super::fisher).
     pub p: f64,
     /// The first group's rate minus the second group's rate, as a weighted mean over the levels. The weights
-    /// are those of Mantel and Haenszel, the harmonic mean of the numbers of trials. `None` if no level has
+    /// (Mantel and Haenszel) are based on the harmonic means of the numbers of trials. `None` if no level has
     /// trials in both groups.
     pub difference: Option<f64>,
-    /// Mantel and Haenszel's estimate of the common odds ratio, which is the first group's odds divided by
-    /// the second group's odds. The ratio is infinite if all evidence favours the first group, and `None` if
-    /// there is no evidence for either group.
+    /// Mantel and Haenszel's estimate of the common odds ratio: the first group's odds divided by the second
+    /// group's. The ratio is infinite if all evidence favours the first group, and `None` if there is no
+    /// evidence for either group.
     pub odds_ratio: Option<f64>,
 }
 
@@ -77,7 +77,7 @@ pub fn stratified(strata: &[Stratum]) -> Stratified {
     }
 }
 
-/// Returns the weight of each sum of two independent numbers, relative to the most likely sum.
+/// Returns the weight for each sum of two independent numbers, relative to the most likely sum.
 fn convolved(a: &[f64], b: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; a.len() + b.len() - 1];
     for (i, a) in a.iter().enumerate() {
@@ -108,8 +108,8 @@ mod tests {
         }
     }
 
-    /// There are two levels, each with one trial per side and one win. The first side has 0, 1 or 2 wins with
-    /// probabilities of 1/4, 2/4 and 1/4.
+    /// In this test, there are two levels, each with one trial per side and one win. The first side has 0, 1
+    /// or 2 wins with probabilities of 1/4, 2/4 and 1/4.
     #[test]
     fn worked_by_hand() {
         let found = stratified(&[stratum(1, 1, 0, 1), stratum(1, 1, 0, 1)]);
@@ -137,7 +137,7 @@ mod tests {
         assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
     }
 
-    /// The data are the admissions to Berkeley's six departments (P. J. Bickel and others, "Sex bias in
+    /// The data are the admissions to six departments at Berkeley (P. J. Bickel and others, "Sex bias in
     /// graduate admissions", 1975). Women were admitted less often overall, but slightly more often within
     /// departments. The common odds ratio is known.
     #[test]

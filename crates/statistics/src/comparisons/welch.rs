@@ -1,20 +1,20 @@
-//! Welch's test for equal means of two groups with possibly different variances (B. L. Welch, "The generalization of
-//! 'Student's' problem when several different population variances are involved", 1947).
+//! Welch's test for equal means in two groups with possibly different variances (B. L. Welch, "The
+//! generalization of 'Student's' problem when several different population variances are involved", 1947).
 
 use crate::student::student_p;
 
 /// The result of Welch's t test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Welch {
-    /// The t statistic, which is the mean of `ours` minus the mean of `theirs`, in standard errors.
+    /// The t statistic: the mean of `ours` minus the mean of `theirs`, in standard errors.
     pub t: f64,
     /// The degrees of freedom, computed by the Welch–Satterthwaite equation.
     pub df: f64,
-    /// The two-sided p-value of the test.
+    /// The test's two-sided p-value.
     pub p: f64,
 }
 
-/// Performs Welch's t test of the means of `ours` and `theirs`. Returns `None` if a side has fewer than two
+/// Performs Welch's t test on the means of `ours` and `theirs`. Returns `None` if a side has fewer than two
 /// values, if a value is not finite, or if neither side varies. Cost: O(n).
 ///
 /// ```
@@ -35,7 +35,7 @@ pub fn welch(ours: &[f64], theirs: &[f64]) -> Option<Welch> {
     Some(Welch { t, df, p: student_p(t, df) })
 }
 
-/// The mean of a sample, the square of its standard error, and its degrees of freedom.
+/// A sample's mean, its squared standard error, and its degrees of freedom.
 struct Side {
     mean: f64,
     square: f64,
@@ -73,7 +73,7 @@ mod tests {
         assert!((swapped.t + found.t).abs() < 1e-12 && (swapped.p - found.p).abs() < 1e-12);
     }
 
-    /// The test vectors are those of `spec/06` §3.1 (t 1.396501, df 8.353065, p .198555; t −5.418683, df
+    /// The test vectors come from `spec/06` §3.1 (t 1.396501, df 8.353065, p .198555; t −5.418683, df
     /// 5.102377, p .00272304). More digits were computed with decimal arithmetic.
     #[test]
     fn published_vectors() {

@@ -1,20 +1,20 @@
 //! Percentile bootstrap intervals for statistics without a formula (B. Efron, "Bootstrap methods: another
 //! look at the jackknife", 1979).
 //!
-//! The random draws come from ChaCha8, with bounds by Lemire's method. Both algorithms are fixed, so the same
-//! seed gives the same interval everywhere.
+//! The random numbers come from ChaCha8, and are bounded by Lemire's method. Both algorithms are fixed, so
+//! the same seed gives the same interval everywhere.
 
 use super::wilson::Interval;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Returns the percentile interval of a statistic of `values`. The statistic can be a mean, for example, or a
-/// difference of means between groups if each value carries its group.
+/// Returns the percentile interval for a statistic over `values`. The statistic can be a mean, for example,
+/// or a difference in means between groups if each value includes its group.
 ///
 /// Draws `resamples` samples of the same size with replacement, and returns the range of the central `level`
-/// (0.95 for 95%) of their statistics. With `m` resamples, the ends are the values of rank ⌊(1 − level) / 2 ·
-/// (m − 1)⌋ from below and from above. Returns `None` if there are no values or resamples, if a statistic is
-/// NaN, or if `level` is not within 0..1. Cost: O(resamples · values).
+/// (0.95 for 95%) of their statistics. With `m` resamples, the bounds are the values with rank ⌊(1 − level) /
+/// 2 · (m − 1)⌋ from below and from above. Returns `None` if there are no values or resamples, if a statistic
+/// is NaN, or if `level` is not within 0..1. Cost: O(resamples · values).
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap;
@@ -42,8 +42,8 @@ pub fn bootstrap<T: Copy>(
     percentiles(found.collect(), level)
 }
 
-/// Returns the percentile interval of the mean of `ours` minus the mean of `theirs`. The method is that of
-/// [`bootstrap`], with a separate sample for each side. The sample of `ours` is drawn first.
+/// Returns the percentile interval for the mean of `ours` minus the mean of `theirs`. The method is the same
+/// as in [`bootstrap`], with a separate sample for each side. The sample from `ours` is drawn first.
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap_difference;
@@ -104,7 +104,7 @@ mod tests {
         sample.iter().sum::<f64>() / sample.len() as f64
     }
 
-    /// The expected bits occur in reports, so a change must be deliberate.
+    /// The expected bits occur in reports, so any change must be deliberate.
     #[test]
     fn golden() {
         let values: Vec<f64> = (0..25).map(f64::from).collect();

@@ -1,9 +1,9 @@
-//! The cluster bootstrap of means over episodes of several games.
+//! The cluster bootstrap for means over episodes from several games.
 //!
-//! Episodes of the same game are similar, so twenty-five of them are not twenty-five independent observations
-//! of a player. Therefore, whole games are resampled with all their episodes (A. C. Davison and D. V.
-//! Hinkley, *Bootstrap Methods and their Application*, 1997, §3.8). The result applies to similar games, not
-//! only to the games played.
+//! Episodes of the same game are similar, so twenty-five such episodes are not twenty-five independent
+//! observations of a player. Therefore, entire games are resampled with all their episodes (A. C. Davison and
+//! D. V. Hinkley, *Bootstrap Methods and their Application*, 1997, §3.8). The result applies to similar
+//! games, not only to the played games.
 //!
 //! With fewer than about thirty games, the interval is too narrow. If all games agree, the interval has no
 //! width. For win rates, [`rate_over_games`](crate::rate_over_games) is better.
@@ -11,7 +11,7 @@
 use super::bootstrap::bootstrap;
 use super::wilson::Interval;
 
-/// Returns the percentile interval of the mean of all values, with clusters drawn with replacement. Clusters
+/// Returns the percentile interval for the mean of all values, with clusters drawn with replacement. Clusters
 /// without values are ignored. Returns `None` if there are no values, if a value is NaN, or if `level` is not
 /// within 0..1. Cost: O(values + resamples · clusters).
 ///
@@ -38,7 +38,7 @@ pub fn clustered_mean<C: AsRef<[f64]>>(
     bootstrap(&sums, mean, resamples, level, seed)
 }
 
-/// Returns the sum and the number of the values.
+/// Returns the sum and the number of values.
 fn sum(values: &[f64]) -> (f64, f64) {
     (values.iter().sum(), values.len() as f64)
 }

@@ -1,14 +1,14 @@
-//! An interval for the difference of two win rates. The hybrid score interval remains reliable for few trials and
-//! near 0 and 1 (R. G. Newcombe, "Interval estimation for the difference between independent proportions", 1998,
-//! method 10).
+//! An interval for the difference between two win rates. The hybrid score interval remains reliable for few
+//! trials and near 0 and 1 (R. G. Newcombe, "Interval estimation for the difference between independent
+//! proportions", 1998, method 10).
 
 use super::wilson::{Interval, wilson};
 
-/// Returns the interval of the first proportion minus the second proportion, within [−1, 1]. The confidence
+/// Returns the interval for the first proportion minus the second proportion, within [−1, 1]. The confidence
 /// is given by `z` standard deviations ([`Z95`](crate::Z95) for 95%). A side without trials may have any
 /// rate.
 ///
-/// Both ends are NaN if [`wilson`] returns NaN for a side.
+/// Both bounds are NaN if [`wilson`] returns NaN for a side.
 ///
 /// ```
 /// use infinite_arcade_statistics::{Z95, difference};
@@ -44,7 +44,7 @@ mod tests {
         );
     }
 
-    /// The examples are those of Newcombe's table II, method 10.
+    /// The examples come from Newcombe's table II, method 10.
     #[test]
     fn published_vectors() {
         check([56, 48], [70, 80], 0.0524, 0.3339);

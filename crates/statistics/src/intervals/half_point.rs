@@ -1,12 +1,12 @@
-//! Estimates the dose at which half of the trials succeed. The trials are at several doses, on several items
-//! of unequal difficulty.
+//! Estimates the dose at which half of the trials succeed. The trials use several doses and several items of
+//! unequal difficulty.
 
 use super::bootstrap::below;
 use super::wilson::Interval;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-/// The trials of one item at one dose.
+/// The trials on one item at one dose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoseTrials {
     /// The dose, which must be positive.
@@ -20,35 +20,35 @@ pub struct DoseTrials {
 /// A dose at which half of the trials on an average item succeed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfPoint {
-    /// The estimated dose, which is the half point.
+    /// The estimated half point.
     pub dose: f64,
-    /// The decrease in the logit of success when the natural logarithm of the dose increases by one.
+    /// The decrease in the logit of success per unit increase in the natural logarithm of the dose.
     pub slope: f64,
-    /// The confidence interval of the dose.
+    /// The dose's confidence interval.
     pub interval: Interval,
 }
 
 /// The precision of the items' effects, in logits. The value is the reciprocal of the combined variance of
-/// games (1.3²) and of their levels (1.0²).
+/// games (1.3²) and levels (1.0²).
 const ITEM_PRECISION: f64 = 1.0 / (1.3 * 1.3 + 1.0);
-/// The mean and the precision of the prior of the slope. The prior is weak, but it keeps the estimate defined
-/// if all trials succeed or all trials fail.
+/// The mean and the precision of the slope's prior. The prior is weak, but it keeps the estimate defined if
+/// all trials succeed or all trials fail.
 const SLOPE: (f64, f64) = (1.0, 1.0);
-/// The precision of the prior of the intercept, whose mean is 0.
+/// The precision of the intercept's prior, whose mean is 0.
 const INTERCEPT_PRECISION: f64 = 1.0 / (20.0 * 20.0);
 /// The maximum number of Newton steps. Six steps are typical.
 const STEPS: usize = 60;
-/// The factor by which a reported dose may lie outside the range of the tried doses. The data contain no
+/// The maximum factor by which a reported dose may lie outside the range of tried doses. The data contain no
 /// information about doses further outside.
 const BEYOND: f64 = 4.0;
 
-/// Estimates the dose at which half of the trials succeed. `groups` holds the items of each group with their
-/// trials, such as the levels of each game.
+/// Estimates the dose at which half of the trials succeed. `groups` contains each group's items with their
+/// trials, such as each game's levels.
 ///
-/// The model is logit P = a + item − b ln dose with b ≥ 0.05 and normal effects of items. The parameters are
-/// maximum a posteriori estimates. The interval comes from a hierarchical bootstrap, which draws groups with
-/// replacement, and items within each group. If the estimate is more than four times below or above the tried
-/// doses, the bound is reported instead.
+/// The model is logit P = a + item − b ln dose with b ≥ 0.05 and normally distributed item effects. The
+/// parameters are maximum a posteriori estimates. The interval comes from a hierarchical bootstrap, which
+/// draws groups with replacement, and items within each group. If the estimate is more than four times below
+/// or above the tried doses, the bound is reported instead.
 ///
 /// Returns `None` if there are no trials, if a dose is not positive, or if `level` is not within 0..1. Cost:
 /// O(resamples · trials).
@@ -95,8 +95,8 @@ pub fn half_point(
     Some(HalfPoint { dose: dose(fitted), slope: fitted.1, interval: Interval { low, high } })
 }
 
-/// Returns the intercept and the slope, computed by Newton's method. The effects of the items are eliminated
-/// one by one, so that a step costs O(trials).
+/// Returns the intercept and the slope, computed by Newton's method. The item effects are eliminated one by
+/// one, so that each step costs O(trials).
 fn fit(items: &[&[DoseTrials]]) -> (f64, f64) {
     let (mut a, mut b) = (0.0, SLOPE.0);
     let mut effects = vec![0.0; items.len()];

@@ -1,4 +1,4 @@
-//! Interval estimates of proportions, means and doses.
+//! Interval estimates for proportions, means and doses.
 
 pub(crate) mod bootstrap;
 pub(crate) mod clustered;

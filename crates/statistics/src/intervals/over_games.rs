@@ -1,36 +1,35 @@
 //! Intervals for win rates and their differences that apply to games similar to the played games. Games are
-//! the sampling unit, because episodes of the same game are similar, and players differ in which games suit
-//! them. Both intervals keep their coverage with six or more games (`cargo xtask simulate`).
+//! the sampling unit, because episodes of the same game are similar, and different games suit different
+//! players. Both intervals maintain their coverage with six or more games (`cargo xtask simulate`).
 
 use super::wilson::{Interval, score_interval};
 use crate::student::{student_p, student_quantile};
 
-/// A rate over several games and its interval.
+/// A rate over several games, with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateOverGames {
     /// The total number of successes divided by the total number of trials.
     pub rate: f64,
-    /// The effective sample size, which is the number of independent trials that would be equally
-    /// informative.
+    /// The effective sample size: the number of independent trials that would be equally informative.
     pub effective: f64,
-    /// The standard error of the rate, or `None` if all games have the same rate.
+    /// The rate's standard error, or `None` if all games have the same rate.
     pub error: Option<f64>,
-    /// The confidence interval of the rate.
+    /// The rate's confidence interval.
     pub interval: Interval,
 }
 
-/// Returns the rate of all successes among all trials, with a confidence interval that applies to similar
-/// games. `games` holds the numbers of successes and trials of each game. Games without trials are ignored.
+/// Returns the fraction of successes among all trials, with a confidence interval that applies to similar
+/// games. `games` contains each game's numbers of successes and trials. Games without trials are ignored.
 ///
-/// The method is that of E. L. Korn and B. I. Graubard ("Confidence intervals for proportions with small
-/// expected number of positive counts estimated from survey data", 1998), but with Wilson's interval instead
-/// of theirs. Wilson's interval is computed from the effective number of trials, and from a quantile of
-/// Student's t. The degrees of freedom are the number of games minus one.
+/// The method follows E. L. Korn and B. I. Graubard ("Confidence intervals for proportions with small
+/// expected number of positive counts estimated from survey data", 1998), but uses Wilson's interval.
+/// Wilson's interval is computed from the effective number of trials, and from a quantile of Student's t. The
+/// degrees of freedom are the number of games minus one.
 ///
 /// The effective number of trials follows from the variance between games (W. G. Cochran, *Sampling
 /// Techniques*, 1977, §3.12). If all games have the same rate, the variance is unknown, and the effective
-/// number is the number of games. For example, if no episode is won in six games of 25 episodes, rates up to
-/// 0.52 remain possible.
+/// number is the number of games. For example, if no episode is won in six games with 25 episodes each, rates
+/// up to 0.52 remain possible.
 ///
 /// Returns `None` if there are fewer than two games, if a game has more successes than trials, or if `level`
 /// is not within 0..1. Cost: O(games).
@@ -46,9 +45,9 @@ pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames
     share_over_games(&games, level)
 }
 
-/// Returns the mean of many fractions, with a confidence interval that applies to similar games. The
-/// fractions can be the win rates of equally weighted levels, for example. The method is that of
-/// [`rate_over_games`]. `games` holds the sum and the number of the fractions of each game.
+/// Returns the mean of many fractions, with a confidence interval that applies to similar games. For example,
+/// the fractions can be the win rates of equally weighted levels. The method is the same as in
+/// [`rate_over_games`]. `games` contains the sum and the number of fractions for each game.
 ///
 /// ```
 /// use infinite_arcade_statistics::share_over_games;
@@ -79,30 +78,29 @@ pub fn share_over_games(games: &[(f64, f64)], level: f64) -> Option<RateOverGame
     Some(RateOverGames { rate, effective, error, interval })
 }
 
-/// The comparison of two players over the games that both players played.
+/// A comparison of two players over the games that both played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairedOverGames {
-    /// The rates of the two players, as means over the games.
+    /// The two players' rates, as means over the games.
     pub rates: [f64; 2],
     /// The first player's rate minus the second player's rate.
     pub difference: f64,
-    /// The confidence interval of the difference.
+    /// The difference's confidence interval.
     pub interval: Interval,
-    /// The two-sided p-value of the difference.
+    /// The difference's two-sided p-value.
     pub p: f64,
 }
 
-/// Compares two players by their rates on each game, with the t test of the paired differences ("Student",
-/// "The probable error of a mean", 1908). Each game counts once, whatever its number of episodes. The
-/// difficulty of a game cancels out.
+/// Compares two players by their rates on each game, with a t test on the paired differences ("Student", "The
+/// probable error of a mean", 1908). Each game counts once, regardless of its number of episodes. A game's
+/// difficulty cancels out.
 ///
-/// The p-value is at least 2 · 2⁻ᵍ for g games, which is the minimum of the exact sign test (R. A. Fisher,
-/// *The Design of Experiments*, 1935, §21). Therefore, fewer than six games cannot prove a difference at the
-/// 5% level.
+/// The p-value is at least 2 · 2⁻ᵍ for g games, the minimum of the exact sign test (R. A. Fisher, *The Design
+/// of Experiments*, 1935, §21). Therefore, fewer than six games cannot prove a difference at the 5% level.
 ///
-/// If all games have the same difference, its variance is unknown. The p-value is then the minimum, or 1 if
-/// the difference is zero. The interval is then Newcombe's, computed from the Wilson intervals of the two
-/// rates with the games as trials.
+/// If the difference is the same on all games, its variance is unknown. In that case, the p-value is the
+/// minimum, or 1 if the difference is zero. The interval is Newcombe's, computed from the Wilson intervals
+/// for the two rates with the games as trials.
 ///
 /// Returns `None` if there are fewer than two games, if a rate is not a proportion, or if `level` is not
 /// within 0..1. Cost: O(games).
@@ -142,7 +140,7 @@ pub fn paired_over_games(games: &[[f64; 2]], level: f64) -> Option<PairedOverGam
     Some(PairedOverGames { rates, difference, interval, p })
 }
 
-/// Returns the minimum two-sided p-value of a sign test on the given number of differences.
+/// Returns the minimum two-sided p-value in a sign test on the given number of differences.
 pub(crate) fn least_p(games: usize) -> f64 {
     (0..games.min(1000)).fold(2.0, |least: f64, _| least / 2.0).min(1.0)
 }
@@ -172,7 +170,7 @@ mod tests {
         close(found.interval.high, 0.5 + half);
     }
 
-    /// All episodes count if games differ no more than chance explains.
+    /// All episodes count if games differ no more than randomness explains.
     #[test]
     fn equal_games_keep_their_episodes() {
         let games: Vec<(u64, u64)> = (0..400).map(|game| (10 + game % 2, 25)).collect();
@@ -184,7 +182,7 @@ mod tests {
         );
     }
 
-    /// Even for a player that never wins or always wins, the rate is not known exactly.
+    /// Even if a player always wins or never wins, the rate is not known exactly.
     #[test]
     fn games_that_agree_leave_doubt() {
         for games in 2..40 {
@@ -198,7 +196,7 @@ mod tests {
         }
     }
 
-    /// The expected p-value was computed by scipy.stats.ttest_rel.
+    /// The expected p-value was computed with scipy.stats.ttest_rel.
     #[test]
     fn a_paired_test() {
         let games = [[0.4, 0.2], [0.8, 0.4], [1.0, 0.8], [0.2, 0.0], [0.0, 0.2], [0.6, 0.2]];
@@ -213,8 +211,8 @@ mod tests {
         close(back.p, found.p);
     }
 
-    /// For a player that wins everything, the p-value is as low as the number of games allows. Five games
-    /// prove nothing.
+    /// If a player wins everything, the p-value is as low as the number of games allows. Five games prove
+    /// nothing.
     #[test]
     fn few_games_prove_little() {
         for (games, p) in [(2, 0.5), (5, 0.0625), (6, 0.03125), (12, 0.00048828125)] {

@@ -1,17 +1,17 @@
 //! The Wilson score interval for a proportion (E. B. Wilson, "Probable inference, the law of succession, and
-//! statistical inference", 1927). Unlike the textbook interval, the Wilson interval keeps its coverage for
-//! few trials and for proportions near 0 and 1.
+//! statistical inference", 1927). Unlike the textbook interval, the Wilson interval maintains its coverage
+//! for few trials and for proportions near 0 and 1.
 
 /// The quantile of the normal distribution for a two-sided 95% interval.
 pub const Z95: f64 = 1.959963984540054;
 
-/// A closed interval with `low ≤ high`. Intervals of proportions are within [0, 1], and intervals of their
-/// differences within [−1, 1].
+/// A closed interval with `low ≤ high`. Intervals for proportions are within [0, 1], and intervals for
+/// differences between proportions are within [−1, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// The lower bound of the interval.
+    /// The interval's lower bound.
     pub low: f64,
-    /// The upper bound of the interval.
+    /// The interval's upper bound.
     pub high: f64,
 }
 
@@ -21,7 +21,7 @@ pub struct Interval {
 /// Without trials, the interval is [0, 1]. Without successes, `low` is exactly 0. If all trials succeed,
 /// `high` is exactly 1. Counts above 2^53 are rounded to the nearest `f64`.
 ///
-/// Both ends are NaN if `successes` exceeds `trials`, or if `z` is negative or not finite.
+/// Both bounds are NaN if `successes` exceeds `trials`, or if `z` is negative or not finite.
 pub fn wilson(successes: u64, trials: u64, z: f64) -> Interval {
     if successes > trials || !z.is_finite() || z < 0.0 {
         return Interval { low: f64::NAN, high: f64::NAN };
@@ -33,7 +33,7 @@ pub fn wilson(successes: u64, trials: u64, z: f64) -> Interval {
     score_interval(successes as f64 / n, n, z)
 }
 
-/// Returns Wilson's interval for a proportion `p` of `n` trials. `p` must be a proportion, and `n` must be
+/// Returns Wilson's interval for a proportion `p` among `n` trials. `p` must be a proportion, and `n` must be
 /// positive. `n` may be fractional, because it can be an effective sample size.
 pub(crate) fn score_interval(p: f64, n: f64, z: f64) -> Interval {
     let z2 = z * z;
@@ -61,8 +61,7 @@ mod tests {
         );
     }
 
-    /// The test vectors are those of the evaluation paper's tables, to six digits, with the paper's z of
-    /// 1.96.
+    /// The test vectors come from the evaluation paper's tables, to six digits, with the paper's z of 1.96.
     #[test]
     fn published_vectors() {
         for (successes, low, high) in [
@@ -103,7 +102,7 @@ mod tests {
         check(347, 2246, 1.96, 0.140140, 0.170033, 5.1e-7);
     }
 
-    /// The results agree with decimal arithmetic with 60 digits to within the last bit or two.
+    /// The results agree with 60-digit decimal arithmetic to within the last one or two bits.
     #[test]
     fn exact_vectors() {
         check(1, 5, Z95, 0.03622410863243017, 0.6244653702374747, 2.3e-16);
@@ -114,7 +113,7 @@ mod tests {
         check(1, 1000000, Z95, 1.765245767453715e-07, 5.664911804311442e-06, 2.3e-16);
     }
 
-    /// The expected bits occur in reports, so a change must be deliberate.
+    /// The expected bits occur in reports, so any change must be deliberate.
     #[test]
     fn golden_bits() {
         let Interval { low, high } = wilson(19, 25, Z95);

@@ -1,8 +1,8 @@
 //! The power of a planned comparison of two players over games, levels and runs, for given variances.
 //!
 //! In the model, the logit of a player's probability of winning is the sum of four terms: the player's
-//! ability, the ease of the game, the ease of the level, and the match between player and game. The last
-//! three terms are normally distributed and independent of each other. The test is
+//! ability, the game's ease, the level's ease, and the match between player and game. The last three terms
+//! are normally distributed and mutually independent. The test is
 //! [`paired_over_games`](crate::paired_over_games).
 
 use crate::intervals::over_games::least_p;
@@ -10,29 +10,29 @@ use crate::student::student_quantile;
 use libm::{exp, lgamma, log};
 use statrs::function::erf::erfc;
 
-/// The standard deviations of the model, in logits.
+/// The model's standard deviations, in logits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// The standard deviation of the ease of games.
+    /// The standard deviation of game ease.
     pub games: f64,
-    /// The standard deviation of the ease of the levels within a game.
+    /// The standard deviation of level ease within a game.
     pub levels: f64,
-    /// The standard deviation of the match between a player and a game. The match is how much better the
-    /// player does on a game than on equally hard games.
+    /// The standard deviation of the match between a player and a game. A match states how much better the
+    /// player performs on the game than on equally hard games.
     pub matches: f64,
 }
 
 impl Default for Spread {
     /// Returns standard deviations of 1.3 for games, 1.0 for levels and 0.9 for matches. The values for games
-    /// and levels were measured on built-in players. The value for matches is based on the published results
-    /// of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`), which give 0.88 by
-    /// maximum likelihood.
+    /// and levels were measured with built-in players. The value for matches is based on the published
+    /// results of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`). The
+    /// maximum-likelihood estimate is 0.88.
     fn default() -> Spread {
         Spread { games: 1.3, levels: 1.0, matches: 0.9 }
     }
 }
 
-/// The design of a comparison, which consists of the numbers of games, levels per game, and runs per level.
+/// The design of a comparison: the numbers of games, levels per game, and runs per level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Design {
     /// The number of games.
@@ -43,11 +43,11 @@ pub struct Design {
     pub runs: u64,
 }
 
-/// The distance between the nodes of an integral over a normal variable, in standard deviations. With
+/// The distance between the nodes for integrating over a normal variable, in standard deviations. With
 /// [`SIDE`] nodes on either side of 0, the trapezoidal rule is accurate to about 1e-7 for functions as smooth
 /// as the logistic function.
 const STEP: f64 = 0.75;
-/// The number of nodes on either side of 0 in an integral over a normal variable.
+/// The number of nodes on either side of 0 for integrating over a normal variable.
 const SIDE: i32 = 6;
 
 impl Design {
@@ -62,8 +62,8 @@ impl Design {
     }
 
     /// Returns the probability that the test over games at level `alpha` distinguishes two players with the
-    /// given win rates, in the right direction. Returns 0 if there are fewer games than the test needs. Cost:
-    /// O(1), about a millisecond.
+    /// given win rates, in the right direction. Returns 0 if the test requires more games. Cost: O(1), about
+    /// a millisecond.
     ///
     /// ```
     /// use infinite_arcade_statistics::{Design, Spread};
@@ -88,7 +88,7 @@ impl Design {
     }
 
     /// Returns the smallest win rate above `base` that the test at level `alpha` distinguishes from `base`
-    /// with the given power. Returns `None` if there is no such rate.
+    /// with the given power. Returns `None` if no rate can be distinguished.
     pub fn detectable(&self, base: f64, spread: Spread, alpha: f64, power: f64) -> Option<f64> {
         let (mut low, mut high) = (base, 0.999);
         if low >= high || self.power([high, base], spread, alpha) < power {
@@ -174,7 +174,7 @@ impl Spread {
     }
 }
 
-/// Returns the nodes of an integral over a standard normal variable, with their weights.
+/// Returns the nodes for integrating over a standard normal variable, with their weights.
 fn nodes() -> impl Iterator<Item = (f64, f64)> {
     (-SIDE..=SIDE).map(|node| {
         let z = f64::from(node) * STEP;
@@ -190,12 +190,11 @@ pub(crate) fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + exp(-x))
 }
 
-/// Returns an upper tail of the noncentral t distribution. It is the probability that a normal variable with
-/// mean `shift`, divided by √(χ²/`df`) for an independent χ² with `df` degrees of freedom, exceeds
-/// `quantile`.
+/// Returns an upper tail of the noncentral t distribution: the probability that a normal variable with mean
+/// `shift`, divided by √(χ²/`df`) for an independent χ² with `df` degrees of freedom, exceeds `quantile`.
 ///
-/// Means of skewed values are correlated with their standard errors. Therefore, the root is multiplied by
-/// √(1 + `skewness` · z), where z is the deviation of the normal variable.
+/// Means of skewed values are correlated with their standard errors. Therefore, the root is multiplied by √(1
+/// + `skewness` · z), where z is the deviation of the normal variable.
 fn shifted_tail(quantile: f64, df: f64, shift: f64, skewness: f64) -> f64 {
     // The integral is over s = √(χ²/df), whose density is 2 (df/2)^(df/2) / Γ(df/2) · s^(df−1) · exp(−df
     // s²/2).
@@ -244,8 +243,7 @@ mod tests {
         assert!(Spread::default().ability(0.1) < none.ability(0.1) - 0.5);
     }
 
-    /// Without random effects, the variance of a game's difference is that of the difference of two
-    /// binomials.
+    /// Without random effects, a game's difference has the variance of a difference between two binomials.
     #[test]
     fn variances_without_spread() {
         let none = Spread { games: 0.0, levels: 0.0, matches: 0.0 };

@@ -1,10 +1,10 @@
-//! Random numbers for simulations. They come from ChaCha8, and are the same on every machine.
+//! Random numbers for simulations. The numbers come from ChaCha8, and are the same on every machine.
 
 use libm::{log, sqrt};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// A stream of random numbers that is determined by its seed.
+/// A stream of random numbers, determined by its seed.
 pub(crate) struct Draws(ChaCha8Rng);
 
 impl Draws {
@@ -29,8 +29,7 @@ impl Draws {
         }
     }
 
-    /// Draws the number of successes in `trials` independent trials, each of which succeeds with probability
-    /// `chance`.
+    /// Draws the number of successes in `trials` independent trials, each with success probability `chance`.
     pub(crate) fn successes(&mut self, chance: f64, trials: u64) -> u64 {
         (0..trials).filter(|_| self.uniform() < chance).count() as u64
     }

@@ -1,10 +1,10 @@
-//! Power analysis for win rates, which computes the number of episodes needed to detect a difference. The
-//! analysis is intended for planning a run. With five episodes per side, only two kinds of results are
-//! significant: five wins against at most one win, and four wins against none.
+//! Power analysis for win rates: computes the number of episodes needed to detect a difference. The analysis
+//! is intended for planning a run. With five episodes per side, only two kinds of result are significant:
+//! five wins against at most one win, and four wins against none.
 //!
 //! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral
-//! Sciences*, 1988, §6.4). [`fisher_power`] sums over all tables, and computes the power of the test that
-//! follows the run. Fisher's test is more conservative, especially for few trials.
+//! Sciences*, 1988, §6.4). [`fisher_power`] sums over all tables, and computes the power of the test
+//! performed after the run. Fisher's test is more conservative, especially for few trials.
 
 use crate::comparisons::cohen::{angle, cohens_h};
 use crate::comparisons::fisher::fisher;
@@ -13,9 +13,9 @@ use statrs::function::erf::erfc_inv;
 /// The error rates of a comparison between two win rates. Both sides have the same number of trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power {
-    /// The probability that a two-sided test reports a difference that does not exist, usually 0.05.
+    /// The probability that a two-sided test reports a nonexistent difference, usually 0.05.
     pub alpha: f64,
-    /// The probability of detecting a difference that exists, usually 0.8.
+    /// The probability of detecting an actual difference, usually 0.8.
     pub power: f64,
 }
 
@@ -40,7 +40,7 @@ impl Power {
     }
 
     /// Returns the nearest rates below and above `base` that `trials` trials per side can distinguish from
-    /// `base`. A rate is `None` if there is no such rate, or if `base` is not a proportion.
+    /// `base`. A rate is `None` if no rate can be distinguished, or if `base` is not a proportion.
     ///
     /// ```
     /// use infinite_arcade_statistics::Power;
@@ -69,15 +69,15 @@ impl Power {
         (h.abs() > 0.0).then(|| (2.0 * ratio * ratio).ceil() as u64)
     }
 
-    /// Returns the size of a difference that is detected with the required power, in standard deviations.
+    /// Returns the size of a difference detectable with the required power, in standard deviations.
     fn deviations(&self) -> f64 {
         quantile(1.0 - self.alpha / 2.0) + quantile(self.power)
     }
 }
 
-/// Returns the probability that [`fisher`] returns at most `alpha`, if two players with the win rates `rates`
-/// play the numbers of episodes in `trials`. Returns NaN if a rate is not a proportion. Cost: cubic in the
-/// number of trials, which is acceptable for a few hundred trials.
+/// Returns the probability that [`fisher`] returns at most `alpha`, if two players with win rates `rates`
+/// play `trials` episodes. Returns NaN if a rate is not a proportion. Cost: cubic in the number of trials. A
+/// few hundred trials are feasible.
 ///
 /// ```
 /// use infinite_arcade_statistics::fisher_power;
@@ -131,8 +131,8 @@ mod tests {
         assert!(quantile(0.5).abs() < 1e-15);
     }
 
-    /// The expected values are those of Cohen's table 6.4.1 for a two-sided test at the 5% level with a power
-    /// of 0.8.
+    /// The expected values come from Cohen's table 6.4.1 for a two-sided test at the 5% level with a power of
+    /// 0.8.
     #[test]
     fn published_sizes() {
         let ask = Power::default();
@@ -171,8 +171,8 @@ mod tests {
         assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
     }
 
-    /// The arcsine approximation agrees with the number of trials that Fisher's test needs, apart from the
-    /// conservatism of Fisher's test.
+    /// The arcsine approximation agrees with the number of trials required by Fisher's test, apart from the
+    /// latter's conservatism.
     #[test]
     fn the_approximation_is_near() {
         for (p, q) in [(0.1, 0.4), (0.5, 0.7), (0.05, 0.2)] {

@@ -1,8 +1,9 @@
-//! Estimates the ability of a player from its episodes on levels of known difficulty.
+//! Estimates a player's ability from its episodes on levels of known difficulty.
 //!
-//! The likelihood is integrated by quadrature over three kinds of unknowns: the match of the player and each
-//! game, the errors of the difficulties, and the standard deviation of the matches. Nothing is approximated
-//! by a normal distribution. Therefore, even a player without wins has an interval.
+//! The likelihood is integrated by quadrature over three kinds of unknowns: the match between the player and
+//! each game, the errors in the difficulties, and the standard deviation of the matches. None of the
+//! distributions are approximated by a normal distribution. Therefore, even a player without wins gets an
+//! interval.
 
 use super::logistic::{logistic, softplus};
 use crate::intervals::wilson::{Interval, Z95};
@@ -10,31 +11,31 @@ use crate::intervals::wilson::{Interval, Z95};
 /// A player's results on one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlayedLevel {
-    /// The difficulty of the level.
+    /// The level's difficulty.
     pub difficulty: f64,
-    /// The standard error of the difficulty, without the component that the levels of the game share.
+    /// The difficulty's standard error, without the component shared by all of the game's levels.
     pub own: f64,
     /// The number of episodes won.
     pub won: f64,
-    /// The number of episodes, with identical episodes counted once.
+    /// The number of episodes. Identical episodes are counted once.
     pub of: f64,
 }
 
 /// A player's results on one game.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlayedGame {
-    /// The standard error that the difficulties of the game's levels share.
+    /// The standard error shared by the difficulties of the game's levels.
     pub common: f64,
     /// The results on the game's levels.
     pub levels: Vec<PlayedLevel>,
 }
 
-/// The lognormal prior of the standard deviation of a player's matches with games.
+/// The lognormal prior for the standard deviation of a player's matches with games.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MismatchPrior {
     /// The median of the prior, in logits.
     pub median: f64,
-    /// The standard deviation of the standard deviation's natural logarithm.
+    /// The standard deviation of the natural logarithm of the standard deviation.
     pub log_sd: f64,
 }
 
@@ -44,45 +45,46 @@ impl Default for MismatchPrior {
     }
 }
 
-/// An estimated ability and the components of its error, with total² = sampling² + mismatch² + link².
+/// An estimated ability, with the components of its error. The components satisfy total² = sampling² +
+/// mismatch² + link².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ability {
-    /// The mean of the posterior, in logits above the mean difficulty of the first release's levels.
+    /// The posterior mean, in logits above the mean difficulty of the first release's levels.
     pub value: f64,
-    /// The total standard error of the ability.
+    /// The ability's total standard error.
     pub error: f64,
-    /// The component of the error that is caused by the limited number of episodes. It is the error that
-    /// would remain if the difficulty of each level for this player were known.
+    /// The error component caused by the limited number of episodes: the error that would remain if each
+    /// level's difficulty for this player were known.
     pub sampling: f64,
-    /// The component of the error that is caused by games that suit the player better or worse than others,
-    /// and by the errors of their difficulties.
+    /// The error component caused by games that suit the player better or worse than others, and by the
+    /// errors in their difficulties.
     pub mismatch: f64,
-    /// The component of the error that is caused by the link between the month and the first release.
+    /// The error component caused by the link between the month and the first release.
     pub link: f64,
-    /// The 95% interval of the ability.
+    /// The ability's 95% interval.
     pub interval: Interval,
-    /// For the lower and the upper end of the interval, `true` if the data determine that end. Without wins,
-    /// there is no lower bound, and without losses, there is no upper bound.
+    /// For the lower and the upper end of the interval, `true` if that end is determined by the data. Without
+    /// wins, there is no lower bound, and without losses, there is no upper bound.
     pub is_bounded: [bool; 2],
     /// The posterior mean of the standard deviation of the player's matches with games.
     pub mismatch_sd: f64,
 }
 
-/// The distance between the nodes of the grids of abilities and of logits.
+/// The distance between nodes in the grids of abilities and logits.
 pub(super) const STEP: f64 = 0.15;
 /// The number of nodes on either side of 0, so that abilities are within ±10.05 logits.
 pub(super) const SIDE: i32 = 67;
-/// The standard deviation of the prior of an ability.
+/// The standard deviation of an ability's prior.
 pub(super) const ABILITY_SD: f64 = 5.0;
-/// The grid of the standard deviation of matches, given by its smallest node, the constant ratio between
+/// The grid for the standard deviation of matches, given by its smallest node, the constant ratio between
 /// neighbouring nodes, and the number of nodes.
 const MISMATCHES: (f64, f64, usize) = (0.2, 1.4, 10);
-/// The number of standard deviations beyond which a normal distribution is cut off.
+/// The number of standard deviations beyond which a normal distribution is truncated.
 pub(super) const TAIL: f64 = 5.0;
-/// The number of parts into which each step of abilities is divided when the interval is computed.
+/// The number of parts into which each ability step is divided for computing the interval.
 const PARTS: usize = 10;
 
-/// Estimates the ability of a player. `link` is the standard error that the difficulties of all levels share.
+/// Estimates a player's ability. `link` is the standard error shared by the difficulties of all levels.
 ///
 /// Returns `None` if there are no episodes, if a number is not finite, or if an entry has more wins than
 /// episodes. Cost: O(levels + games) times several thousand.
@@ -129,10 +131,10 @@ pub fn ability(games: &[PlayedGame], prior: MismatchPrior, link: f64) -> Option<
     })
 }
 
-/// The posterior on a grid of abilities.
+/// The posterior on the ability grid.
 struct Density<'a> {
     games: &'a [PlayedGame],
-    /// The posterior weights, indexed by mismatch and ability. Their sum is 1.
+    /// The posterior weights, indexed by mismatch and ability. The weights sum to 1.
     weights: Vec<Vec<f64>>,
     mismatches: Vec<f64>,
 }
@@ -175,7 +177,7 @@ impl<'a> Density<'a> {
         Density { games, weights, mismatches }
     }
 
-    /// Returns the posterior density on the grid of abilities.
+    /// Returns the posterior density on the ability grid.
     fn abilities(&self) -> Vec<f64> {
         (0..self.weights[0].len()).map(|at| self.weights.iter().map(|of| of[at]).sum()).collect()
     }
@@ -190,8 +192,7 @@ impl<'a> Density<'a> {
         (mean, variance, mismatch.map(|(sd, weights)| sd * weights.iter().sum::<f64>()).sum())
     }
 
-    /// Returns the 2.5% and 97.5% quantiles of the ability. The logarithm of the density is interpolated by
-    /// cubics.
+    /// Returns the 2.5% and 97.5% quantiles of the ability. The log density is interpolated by cubics.
     fn ends(&self) -> [f64; 2] {
         let logs: Vec<f64> =
             self.abilities().into_iter().map(|weight| libm::log(weight.max(1e-300))).collect();
@@ -222,7 +223,7 @@ impl<'a> Density<'a> {
         })
     }
 
-    /// Returns the variance that the ability would have if the difficulty of each level for this player were
+    /// Returns the variance that the ability would have if each level's difficulty for this player were
     /// known.
     fn sampling(&self, ability: f64, mismatch: f64) -> f64 {
         let information: f64 = (self.games.iter())
@@ -261,14 +262,15 @@ impl PlayedGame {
     }
 }
 
-/// Returns the nodes of an integral over a standard normal variable, with their weights, by the trapezoidal rule.
+/// Returns the nodes for integrating over a standard normal variable by the trapezoidal rule, with their
+/// weights.
 pub(super) fn nodes() -> impl Iterator<Item = (f64, f64)> {
     // The weights are exp(−z²/2) for z from 0 to 3, divided by the sum over all nodes.
     const WEIGHTS: [f64; 4] = [0.399050279652450, 0.242036229376345, 0.054005582622414, 0.004433048175244];
     (-3i32..=3).map(|z| (f64::from(z), WEIGHTS[z.unsigned_abs() as usize]))
 }
 
-/// Returns the weights of a normal distribution with mean 0 at the steps around 0.
+/// Returns the weights of a zero-mean normal distribution at the steps around 0.
 pub(super) fn kernel(sd: f64) -> Vec<f64> {
     let half = (TAIL * sd / STEP) as i32;
     let mut weights: Vec<f64> = (-half..=half)
@@ -309,7 +311,7 @@ mod tests {
         assert!((found.interval.high / found.error - Z95).abs() < 0.1, "{found:?}");
     }
 
-    /// If the difficulty of a level is known, splitting its episodes into several entries does not change the
+    /// If a level's difficulty is known, splitting its episodes into several entries does not change the
     /// result.
     #[test]
     fn plays_may_be_counted_together() {

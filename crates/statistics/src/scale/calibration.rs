@@ -6,7 +6,7 @@ use super::posterior::{Functional, Model, Modes, Posterior};
 use super::spreads::Spreads;
 use nalgebra::DMatrix;
 
-/// Both dimensions, in the order in which pairs of values store them.
+/// Both dimensions, in the order used by pairs of values.
 const BOTH: [Dimension; 2] = [Dimension::Planner, Dimension::Reader];
 
 /// An estimated value and its standard error.
@@ -14,7 +14,7 @@ const BOTH: [Dimension; 2] = [Dimension::Planner, Dimension::Reader];
 pub struct Estimated {
     /// The estimated value.
     pub value: f64,
-    /// The standard error of the value.
+    /// The value's standard error.
     pub error: f64,
 }
 
@@ -32,12 +32,12 @@ impl Estimated {
 pub struct Difficulties {
     /// The difficulty of each level, with its standard error.
     pub levels: Vec<Estimated>,
-    /// The standard error that the levels of the game share, without the error of the link.
+    /// The standard error shared by all of the game's levels, without the link error.
     pub common: f64,
 }
 
 impl Difficulties {
-    /// Returns the component of a level's error that the other levels of the game do not share.
+    /// Returns the error component that a level does not share with the game's other levels.
     pub fn own(&self, level: usize) -> f64 {
         let rest = self.levels[level].error * self.levels[level].error - self.common * self.common;
         rest.max(0.0).sqrt()
@@ -47,48 +47,47 @@ impl Difficulties {
 /// The difficulties of a game's levels, and the fit of its episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameDifficulties {
-    /// The difficulties for planners and for readers. The standard errors exclude the error of the link.
+    /// The difficulties for planners and for readers. The standard errors exclude the link error.
     pub difficulties: [Difficulties; 2],
-    /// The mean squared standardised residual of the game's episodes. The value is about 1, and greater if
-    /// the episodes fit the model badly.
+    /// The mean squared standardised residual over the game's episodes. The value is about 1 if the episodes
+    /// fit the model, and greater otherwise.
     pub misfit: f64,
 }
 
 /// The levels of one month's release, placed on the scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Month {
-    /// The games of the release, in the order of the given results.
+    /// The release's games, in the order of the given results.
     pub games: Vec<GameDifficulties>,
-    /// The mean difficulty of the month's levels minus that of the first release's levels, for planners and
-    /// for readers. The errors include the error of the link for arbitrary players of the dimension.
+    /// The difference in mean level difficulty between the month and the first release, for planners and for
+    /// readers. The errors include the link error for arbitrary players in the dimension.
     pub shifts: [Estimated; 2],
-    /// The shift of the mean difficulty for exactly the planners of the calibration, with the error of the
-    /// link for these planners.
+    /// The shift in mean difficulty for exactly the calibration's planners, with their link error.
     pub planners_shift: Estimated,
-    /// The standard error that the difficulties of all levels share, for planners and for readers. For the
+    /// The standard error shared by the difficulties of all levels, for planners and for readers. For the
     /// first release, the error is 0.
     pub link: [f64; 2],
-    /// The additional difficulty of the month for readers, beyond the value implied by its difficulty for
+    /// The month's additional difficulty for readers, beyond the value implied by its difficulty for
     /// planners. `None` if no anchor played.
     pub drift: Option<Estimated>,
 }
 
-/// The result of a calibration, which puts examinees and a first release on a common scale.
+/// The result of a calibration, which places examinees and a first release on a common scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
-    /// The examinees of the calibration.
+    /// The calibration's examinees.
     pub examinees: Vec<Examinee>,
-    /// The estimated standard deviations and slopes of the model.
+    /// The model's estimated standard deviations and slopes.
     pub spreads: Spreads,
-    /// The abilities of the examinees. An ability is the logit of the examinee on an average game of the
-    /// distribution from which the first release was drawn.
+    /// The examinees' abilities. An ability is the examinee's logit on an average game from the distribution
+    /// of the first release's games.
     pub abilities: Vec<f64>,
     /// The covariance matrix of the abilities, the two origins and the ease, in this order, stored by rows.
     pub covariance: Vec<f64>,
-    /// The mean difficulties of the first release's levels for planners and for readers, which define the
-    /// zero of the scale.
+    /// The mean difficulties of the first release's levels for planners and for readers. The origins define
+    /// the scale's zero.
     pub origins: [f64; 2],
-    /// The mean logit of the planners on the first release.
+    /// The planners' mean logit on the first release.
     pub ease: f64,
 }
 
@@ -97,7 +96,7 @@ impl Calibration {
     /// played.
     ///
     /// Returns `None` if there are no episodes, if an entry is invalid, or if an examinee has no episodes.
-    /// Cost: O(games · effects³) for each of a few hundred evaluations.
+    /// Cost: a few hundred evaluations of O(games · effects³) each.
     pub fn new(examinees: &[Examinee], games: &[GamePlays]) -> Option<(Calibration, Month)> {
         let model = checked(examinees, games, None)?;
         let spreads = spreads_of(&model, Spreads::default())?;
@@ -142,7 +141,8 @@ impl Calibration {
         Some((calibration, base))
     }
 
-    /// Returns an examinee's ability relative to the mean difficulty of the first release's levels in its dimension.
+    /// Returns an examinee's ability relative to the mean difficulty of the first release's levels in the
+    /// examinee's dimension.
     pub fn ability(&self, examinee: usize) -> Estimated {
         let side = side(self.examinees[examinee].dimension);
         let (count, at) = (self.examinees.len(), |i: usize, j: usize| self.covariance(i, j));
@@ -224,7 +224,7 @@ impl Calibration {
     }
 }
 
-/// Returns the mean covariance of two levels, clamped between 0 and the minimum variance of a level.
+/// Returns the mean covariance of two levels, clamped between 0 and the minimum variance of any level.
 fn common(within: &DMatrix<f64>) -> f64 {
     let count = within.nrows();
     let least = (0..count).map(|at| within[(at, at)]).fold(f64::INFINITY, f64::min);
@@ -237,7 +237,7 @@ fn common(within: &DMatrix<f64>) -> f64 {
     (sum / (count * (count - 1) / 2) as f64).clamp(0.0, least.max(0.0))
 }
 
-/// Returns the index of a dimension in pairs of values.
+/// Returns a dimension's index in pairs of values.
 pub(super) fn side(dimension: Dimension) -> usize {
     match dimension {
         Dimension::Planner => 0,
@@ -260,7 +260,7 @@ fn checked<'a>(
     (is_valid && is_enough).then(|| Model::new(examinees, games, abilities))
 }
 
-/// Returns the spreads with the maximum posterior density, after all effects are integrated out.
+/// Returns the spreads with the maximum posterior density, with all effects integrated out.
 pub(super) fn spreads_of(model: &Model<'_>, start: Spreads) -> Option<Spreads> {
     let mut near: Option<Modes> = None;
     let mut density = |parameters: &[f64]| {

@@ -1,18 +1,18 @@
-//! Maximises a smooth function of a few parameters, by the quasi-Newton method of Broyden, Fletcher, Goldfarb
-//! and Shanno (J. Nocedal and S. J. Wright, *Numerical Optimization*, 2006, chapter 6).
+//! Maximises a smooth function of a few parameters with the quasi-Newton method by Broyden, Fletcher,
+//! Goldfarb and Shanno (J. Nocedal and S. J. Wright, *Numerical Optimization*, 2006, chapter 6).
 
 use nalgebra::{DMatrix, DVector};
 
-/// The maximum number of steps. 10 to 20 steps are typical.
+/// The maximum number of steps (typically 10 to 20).
 const STEPS: usize = 60;
-/// The maximum change of a parameter in one step.
+/// The maximum change in a parameter per step.
 const LONGEST: f64 = 1.0;
-/// The search ends when a step gains less than this value.
+/// The minimum gain of a step. The search ends when a step gains less.
 const GAIN: f64 = 1e-7;
 
 /// Returns the position of a local maximum near `start`. `function` returns its value and its derivatives, or
-/// `None` at positions at which it is undefined. Returns `None` if `function` is undefined at `start`. Cost:
-/// one call of `function` for most steps, and a few calls for some.
+/// `None` at positions where it is undefined. Returns `None` if `function` is undefined at `start`. Cost: one
+/// call of `function` for most steps, and a few calls for some.
 pub(super) fn maximise(
     start: &[f64],
     function: &mut impl FnMut(&[f64]) -> Option<(f64, Vec<f64>)>,

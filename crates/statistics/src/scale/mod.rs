@@ -1,15 +1,15 @@
-//! A scale of ability over the months. The difficulties of levels and the abilities of players are estimated
-//! from episodes of examinees that never change.
+//! A scale for ability over the months. Level difficulties and player abilities are estimated from the
+//! episodes of unchanging examinees.
 //!
-//! The logit of the probability of winning is a sum of terms. The ability of the player is added, and the
-//! difficulties of the month, the game and the level are subtracted. Two matches are added: between the
-//! player's family and the game, and between the player and the game.
+//! The logit of the probability of winning is a sum of terms. The player's ability is added, and the
+//! difficulties of the month, the game and the level are subtracted. Two matches are added: one between the
+//! player's family and the game, and one between the player and the game.
 //!
 //! Difficulty has two dimensions, one for planners and one for readers. The difficulty for readers is a slope
-//! times the difficulty for planners, plus an independent rest.
+//! times the difficulty for planners, plus an independent remainder.
 //!
 //! [`Calibration`] estimates spreads by Laplace's method, corrects their shrinkage by a parametric bootstrap,
-//! and adds months with fixed abilities and spreads. [`ability()`] estimates the ability of a player by
+//! and adds months with fixed abilities and spreads. [`ability()`] estimates a player's ability by
 //! quadrature. [`expected_error`] supports planning, and [`Selection`] chooses levels adaptively.
 
 mod ability;

@@ -1,6 +1,6 @@
 //! The parametric bootstrap of a calibration. In each replicate, the same examinees play the same number of
-//! new games, which are drawn from the estimated model. Laplace's method shrinks spreads if there are few
-//! episodes. The replicates measure this shrinkage, and the variance of the estimates.
+//! new games drawn from the estimated model. Laplace's method shrinks the spreads if there are few episodes.
+//! The replicates measure this shrinkage, and the variance of the estimates.
 
 use super::calibration::{Calibration, spreads_of};
 use super::logistic::logistic;
@@ -10,19 +10,19 @@ use super::spreads::Spreads;
 use crate::intervals::wilson::{Interval, Z95};
 use crate::planning::draws::Draws;
 
-/// A correlation and its interval.
+/// A correlation, with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correlated {
     /// The estimated correlation.
     pub value: f64,
-    /// The 95% interval of the correlation.
+    /// The correlation's 95% interval.
     pub interval: Interval,
 }
 
 impl Calibration {
-    /// Simulates results of the same examinees on new games of the model, and returns the spreads estimated
-    /// from these results. The new games have the same numbers of levels and episodes as `games`. Cost: that
-    /// of [`Calibration::new`].
+    /// Simulates results of the same examinees on new games drawn from the model, and returns the spreads
+    /// estimated from these results. The new games have the same numbers of levels and episodes as `games`.
+    /// Cost: one [`Calibration::new`].
     pub fn replicate(&self, games: &[GamePlays], seed: u64) -> Option<Spreads> {
         let mut draws = Draws::new(seed);
         let model = Model::new(&self.examinees, games, None);
@@ -40,8 +40,8 @@ impl Calibration {
         spreads_of(&Model::new(&self.examinees, &games, None), self.spreads)
     }
 
-    /// Returns the spreads, corrected for the bias that the replicates show. The correction subtracts the
-    /// mean bias from logarithms of standard deviations, and from slopes. Without replicates, the spreads are
+    /// Returns the spreads, corrected for the bias found in the replicates. The correction subtracts the mean
+    /// bias from logarithms of standard deviations, and from slopes. Without replicates, the spreads are
     /// unchanged.
     pub fn corrected(&self, replicates: &[Spreads]) -> Spreads {
         let has_readers = self.has_readers();
@@ -54,9 +54,9 @@ impl Calibration {
         Spreads::from_parameters(&moved.collect::<Vec<f64>>())
     }
 
-    /// Returns the correlation between the difficulties of levels for planners and for readers, corrected for
-    /// the bias that the replicates show. The interval is computed from the variation of the replicates on
-    /// Fisher's scale. Returns `None` without readers, or with fewer than two replicates.
+    /// Returns the correlation between level difficulties for planners and for readers, corrected for the
+    /// bias found in the replicates. The interval is computed from the replicates' variation on Fisher's
+    /// scale. Returns `None` without readers, or with fewer than two replicates.
     pub fn correlation(&self, replicates: &[Spreads]) -> Option<Correlated> {
         if replicates.len() < 2 || !self.has_readers() {
             return None;
@@ -73,7 +73,7 @@ impl Calibration {
         Some(Correlated { value: libm::tanh(value), interval: Interval { low, high } })
     }
 
-    /// Returns `true` if any of the examinees is a reader.
+    /// Returns `true` if any examinee is a reader.
     pub fn has_readers(&self) -> bool {
         self.examinees.iter().any(|one| one.dimension == super::Dimension::Reader)
     }

@@ -1,15 +1,15 @@
-//! Chooses levels. The module computes the expected error of planned episodes, and chooses the next level by
-//! its information at the current ability.
+//! Chooses levels: computes the expected error of planned episodes, and chooses the next level by its
+//! information at the current ability.
 
 use super::ability::{ABILITY_SD, PlayedGame, SIDE, STEP, TAIL, kernel, nodes};
 use super::logistic::logistic;
 
 /// Returns the expected standard error of an ability after planned episodes. In `games`, `of` is the planned
-/// number of episodes on each level, and `won` is not used. `mismatch` is the standard deviation of the
-/// player's matches with games, and `link` is the standard error that the difficulties of all levels share.
+/// number of episodes on each level, and `won` is unused. `mismatch` is the standard deviation of the
+/// player's matches with games, and `link` is the standard error shared by the difficulties of all levels.
 ///
 /// The information from a game's episodes is the sum over its levels. The sum is reduced, because all levels
-/// of a game share the match. Cost: O(levels).
+/// of a game share one match. Cost: O(levels).
 ///
 /// ```
 /// use infinite_arcade_statistics::scale::{PlayedGame, PlayedLevel, expected_error};
@@ -30,8 +30,8 @@ pub fn expected_error(games: &[PlayedGame], ability: f64, mismatch: f64, link: f
     (1.0 / information + link * link).sqrt()
 }
 
-/// Returns the information from a level's episodes about the player's ability in the game. `variance` is the
-/// variance of the logit, and `own` is the standard error of the difficulty.
+/// Returns the information about the player's ability in the game from a level's episodes. `variance` is the
+/// logit's variance, and `own` is the difficulty's standard error.
 fn information(logit: f64, variance: f64, own: f64, of: f64) -> f64 {
     let sd = (variance + own * own).sqrt();
     let mean: f64 = nodes()
@@ -49,38 +49,38 @@ fn shared(within: f64, variance: f64) -> f64 {
 }
 
 /// An adaptive choice of levels. Each chosen level is the most informative one at the ability estimated from
-/// the recorded episodes. The choice depends on nothing else, so it can be reproduced from the recorded
-/// episodes.
+/// the recorded episodes. The choice depends only on the recorded episodes, so it can be reproduced from
+/// them.
 #[derive(Clone, Debug)]
 pub struct Selection {
-    /// The levels by game, with `of` as the number of recorded episodes.
+    /// The levels by game, where `of` is the number of recorded episodes.
     games: Vec<PlayedGame>,
     /// The number of chosen episodes, by game and level.
     chosen: Vec<Vec<f64>>,
     mismatch: f64,
     runs: f64,
-    /// The logarithm of the posterior density at each node of the ability grid.
+    /// The log posterior density at each node of the ability grid.
     logs: Vec<f64>,
-    /// The contribution of each game to the logarithm of the density.
+    /// Each game's contribution to the log density.
     parts: Vec<Vec<f64>>,
 }
 
-/// A chosen level, and the estimate of the ability before the level is played.
+/// A chosen level, with the ability estimated before the level is played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chosen {
-    /// The index of the game.
+    /// The game's index.
     pub game: usize,
-    /// The index of the level in the game.
+    /// The level's index in the game.
     pub level: usize,
-    /// The ability estimated from the previous episodes.
+    /// The ability estimated from previous episodes.
     pub ability: f64,
-    /// The standard error of the ability, without the error of the link.
+    /// The ability's standard error, without the link error.
     pub error: f64,
 }
 
 impl Selection {
-    /// Creates a selection without episodes. `games` holds the difficulties of the levels, and each level can
-    /// be chosen `runs` times.
+    /// Creates a selection without episodes. `games` contains the levels' difficulties. Each level can be
+    /// chosen `runs` times.
     pub fn new(games: &[PlayedGame], mismatch: f64, runs: u64) -> Selection {
         let mut games = games.to_vec();
         for level in games.iter_mut().flat_map(|game| &mut game.levels) {
@@ -96,8 +96,7 @@ impl Selection {
         Selection { games, chosen, mismatch, runs: runs as f64, logs, parts }
     }
 
-    /// Returns the ability estimated from the recorded episodes. The standard error excludes the error of the
-    /// link.
+    /// Returns the ability estimated from the recorded episodes. The standard error excludes the link error.
     pub fn ability(&self) -> (f64, f64) {
         let most = self.logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let weights: Vec<f64> = self.logs.iter().map(|log| libm::exp(log - most)).collect();
@@ -110,9 +109,9 @@ impl Selection {
         (mean, variance.sqrt())
     }
 
-    /// Chooses the next level. An episode on the chosen level adds the most information about the ability,
-    /// given the episodes chosen so far. Ties are resolved in the order of games and levels. Returns `None`
-    /// once all levels are exhausted. Cost: O(levels).
+    /// Chooses the next level: the one whose episode adds the most information about the ability, given the
+    /// episodes chosen so far. Ties are broken by the order of games and levels. Returns `None` once all
+    /// levels are exhausted. Cost: O(levels).
     pub fn choose(&mut self) -> Option<Chosen> {
         let (ability, error) = self.ability();
         let mut best: Option<(f64, usize, usize)> = None;
@@ -172,7 +171,7 @@ mod tests {
         vec![PlayedGame { common: 0.2, levels: [-3.0, 0.0, 3.0].map(level).to_vec() }; count]
     }
 
-    /// A player far below the scale gets easy levels. The first choices are one level of each game.
+    /// A player with a very low ability gets easy levels. The first choices are one level from each game.
     #[test]
     fn choices_go_where_the_player_is() {
         let mut selection = Selection::new(&games(20), 1.0, 1);
@@ -193,7 +192,7 @@ mod tests {
     }
 
     /// The ability estimated by a selection, whose mismatch is given, agrees with the ability on the scale,
-    /// where the mismatch is estimated. The expected error agrees too.
+    /// where the mismatch is estimated. The expected errors agree as well.
     #[test]
     fn errors_are_those_of_the_scale() {
         let mut played = games(60);

@@ -1,6 +1,6 @@
-//! Simulated months under the model of the scale. All true values are known, so the simulations measure the
-//! size of errors and the coverage of intervals. `cargo xtask simulate` prints tables, and the tests of this
-//! crate run small simulations.
+//! Simulated months under the scale's model. All true values are known, so the simulations measure error
+//! sizes and interval coverage. `cargo xtask simulate` prints tables, and this crate's tests run small
+//! simulations.
 
 use super::ability::{MismatchPrior, PlayedGame, PlayedLevel};
 use super::calibration::{Calibration, Difficulties, Month, side};
@@ -16,7 +16,7 @@ pub struct Plan {
     pub games: usize,
     /// The number of levels per game.
     pub levels: usize,
-    /// The number of planners of each family.
+    /// The number of planners in each family.
     pub families: Vec<usize>,
     /// The number of episodes per planner and level.
     pub runs: u32,
@@ -24,20 +24,20 @@ pub struct Plan {
     pub anchors: usize,
     /// The number of episodes per reader and level.
     pub anchor_runs: u32,
-    /// The number of bootstrap replicates used to correct the bias of the spreads.
+    /// The number of bootstrap replicates for correcting the spreads' bias.
     pub replicates: u64,
-    /// The true standard deviations and slopes of the model.
+    /// The model's true standard deviations and slopes.
     pub spreads: Spreads,
 }
 
-/// A simulated month and its true values.
+/// A simulated month, with its true values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedMonth {
-    /// The results of the examinees, by game.
+    /// The examinees' results, by game.
     pub plays: Vec<GamePlays>,
     /// The true difficulties for planners and for readers, indexed by game and level.
     pub difficulties: [Vec<Vec<f64>>; 2],
-    /// The true mean logit of the planners on all levels.
+    /// The planners' true mean logit on all levels.
     pub ease: f64,
 }
 
@@ -50,13 +50,13 @@ impl SimulatedMonth {
     }
 }
 
-/// A random stream of months that is determined by its seed.
+/// A random stream of months, determined by its seed.
 pub struct Simulator {
     draws: Draws,
     plan: Plan,
-    /// The examinees that play the months.
+    /// The examinees who play the months.
     pub examinees: Vec<Examinee>,
-    /// The true abilities of the examinees.
+    /// The examinees' true abilities.
     pub abilities: Vec<f64>,
 }
 
@@ -129,7 +129,7 @@ impl Simulator {
         SimulatedMonth { plays, difficulties, ease }
     }
 
-    /// Draws a player's results on levels of a month. Each level has one episode, and the episodes are spread
+    /// Draws a player's results on a month's levels. Each level is played once, and the episodes are spread
     /// over the games first. `month` is the calibrated month.
     pub fn person(
         &mut self,
@@ -160,7 +160,7 @@ impl Simulator {
     }
 }
 
-/// A simulated player and the number of its episodes.
+/// A simulated player, with its number of episodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbilityCase {
     /// The player's true ability.
@@ -171,14 +171,14 @@ pub struct AbilityCase {
     pub episodes: usize,
 }
 
-/// The errors of the link of a month. Each pair holds the estimate minus the truth, and the stated error.
+/// A month's link errors. Each pair contains the estimate minus the truth, and the stated error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkTrial {
-    /// The error of the link for exactly the planners of the calibration.
+    /// The link error for exactly the calibration's planners.
     pub to_these: (f64, f64),
-    /// The error of the link for arbitrary planners.
+    /// The link error for arbitrary planners.
     pub to_any: (f64, f64),
-    /// The error of the link of the month's difficulties for readers.
+    /// The link error for the month's difficulties for readers.
     pub to_readers: (f64, f64),
     /// The error of the drift estimated from the anchors. Without anchors, the pair is 0 and infinity.
     pub drift: (f64, f64),
@@ -186,7 +186,7 @@ pub struct LinkTrial {
     pub spreads: Spreads,
 }
 
-/// The result of a simulation, which compares an estimated ability with the truth.
+/// A simulation result, which compares an estimated ability with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbilityTrial {
     /// The estimated ability minus the true ability.
@@ -197,7 +197,7 @@ pub struct AbilityTrial {
     pub is_covered: bool,
 }
 
-/// Two months. The first month is calibrated, and the second month is added.
+/// Two months. The first month is calibrated, and the second month is added to the scale.
 struct Linked {
     simulator: Simulator,
     first: SimulatedMonth,
@@ -208,7 +208,7 @@ struct Linked {
 }
 
 impl Linked {
-    /// Draws and calibrates two months. The second month is harder by `shift` and has a drift of `drift`.
+    /// Draws and calibrates two months. The second month is harder by `shift`, and has a drift of `drift`.
     /// Returns `None` if a month cannot be calibrated.
     fn new(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Linked> {
         let mut simulator = Simulator::new(plan.clone(), seed);
@@ -241,8 +241,8 @@ impl Linked {
     }
 }
 
-/// Calibrates a first month, and adds a second month that is harder by `shift` and has a drift of `drift`.
-/// Returns `None` if a month cannot be calibrated.
+/// Calibrates a first month, and adds a second month, harder by `shift` and with a drift of `drift`. Returns
+/// `None` if a month cannot be calibrated.
 pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<LinkTrial> {
     let Linked { first, second, calibration, month, .. } = Linked::new(plan, shift, drift, seed)?;
     let apart = |dimension: Dimension| second.mean(dimension) - first.mean(dimension);
@@ -256,8 +256,8 @@ pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Link
     })
 }
 
-/// Calibrates two months, and simulates `persons` players of each case on the second month. Returns the
-/// results by case.
+/// Calibrates two months, and simulates `persons` players per case on the second month. Returns the results
+/// by case.
 pub fn ability_trials(
     plan: &Plan,
     dimension: Dimension,
@@ -273,12 +273,12 @@ pub fn ability_trials(
     cases.iter().map(|case| (0..persons).map(|_| trial(*case)).collect()).collect()
 }
 
-/// The ability of a player estimated with two designs from the same outcomes.
+/// A player's ability, estimated with two designs from the same outcomes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdaptiveTrial {
-    /// The result with one episode per level, where the episodes are spread over the games first.
+    /// The result with one episode per level, with episodes spread over the games first.
     pub spread: AbilityTrial,
-    /// The result after each of the given numbers of adaptively chosen episodes.
+    /// The results after each of the given numbers of adaptively chosen episodes.
     pub adaptive: Vec<AbilityTrial>,
 }
 
@@ -286,7 +286,7 @@ pub struct AdaptiveTrial {
 /// results by case.
 ///
 /// The first design spreads `episodes` episodes over the games. The second design chooses episodes
-/// adaptively, and has a result for each of the numbers in `counts`, which must be in ascending order.
+/// adaptively, and yields a result for each number in `counts`. The numbers must be in ascending order.
 pub fn adaptive_trials(
     plan: &Plan,
     cases: &[(f64, f64)],
@@ -333,7 +333,7 @@ mod tests {
         Plan { games: 24, levels: 3, families, runs: 4, anchors, anchor_runs: 2, replicates: 0, spreads }
     }
 
-    /// The links of small months have the stated errors. The link for exactly the planners of the calibration
+    /// The links between small months have the stated errors. The link for exactly the calibration's planners
     /// has the smallest error.
     #[test]
     fn links_are_as_exact_as_stated() {
@@ -365,7 +365,7 @@ mod tests {
         assert!(trials.iter().all(|trial| (0.2..0.8).contains(&trial.error)), "{trials:?}");
     }
 
-    /// Far from the mean difficulty, 65% of the episodes suffice if levels are chosen adaptively.
+    /// For players far from the mean difficulty, 65% of the episodes suffice if levels are chosen adaptively.
     #[test]
     fn adaptive_choices_save_episodes() {
         let trials = adaptive_trials(&plan(5, 0), &[(-3.0, 1.0)], (40, &[26]), 24, 3).unwrap().remove(0);
@@ -384,7 +384,7 @@ mod tests {
         assert!(found.0.abs() < 2.0 * found.1, "{found:?}");
     }
 
-    /// The estimated shift of a much harder month is not biased towards the middle.
+    /// The estimated shift for a much harder month is not biased towards the middle.
     #[test]
     fn large_shifts_have_no_bias() {
         let plan = Plan { games: 60, ..plan(6, 0) };

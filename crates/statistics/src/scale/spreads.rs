@@ -1,28 +1,28 @@
-//! The standard deviations of the model, and the slopes between the difficulties for planners and for readers.
+//! The model's standard deviations, and the slopes between the difficulties for planners and for readers.
 
-/// The standard deviations of the model in logits, and two slopes.
+/// The model's standard deviations in logits, and two slopes.
 ///
-/// The difficulty of a game for planners is normally distributed with mean 0 and standard deviation `game`.
-/// The difficulty for readers is the slope times the difficulty for planners, plus an independent rest. The
+/// A game's difficulty for planners is normally distributed with mean 0 and standard deviation `game`. The
+/// difficulty for readers is the slope times the difficulty for planners, plus an independent remainder. The
 /// same model applies to levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spreads {
-    /// The standard deviation of the difficulty of games for planners.
+    /// The standard deviation of game difficulty for planners.
     pub game: f64,
-    /// The standard deviation of the difficulty of levels within a game for planners.
+    /// The standard deviation of level difficulty within a game for planners.
     pub level: f64,
     /// The standard deviation of the match between a family of planners and a game.
     pub family: f64,
-    /// The standard deviation of the match between a planner and a game, beyond the match of its family.
+    /// The standard deviation of the match between a planner and a game, beyond its family's match.
     pub planner: f64,
     /// The increase in a game's difficulty for readers per logit of its difficulty for planners.
     pub game_slope: f64,
     /// The increase in a level's difficulty for readers, within its game, per logit of its difficulty for
     /// planners.
     pub level_slope: f64,
-    /// The standard deviation of the independent part of games' difficulty for readers.
+    /// The standard deviation of the independent component of game difficulty for readers.
     pub game_rest: f64,
-    /// The standard deviation of the independent part of levels' difficulty for readers.
+    /// The standard deviation of the independent component of level difficulty for readers.
     pub level_rest: f64,
     /// The standard deviation of the match between a reader and a game.
     pub reader: f64,
@@ -44,19 +44,18 @@ impl Default for Spreads {
     }
 }
 
-/// The number of parameters of a model without readers.
+/// The number of parameters in a model without readers.
 pub(super) const PLANNERS_ONLY: usize = 4;
-/// The number of parameters of a model with readers.
+/// The number of parameters in a model with readers.
 pub(super) const WITH_READERS: usize = 9;
 /// The mean and the standard deviation of the prior for the logarithm of a standard deviation. Two standard
-/// deviations of the prior span 0.14 to 7 logits.
+/// deviations on either side of the mean span 0.14 to 7 logits.
 const LOG_PRIOR: (f64, f64) = (0.0, 1.0);
 /// The mean and the standard deviation of the prior for a slope.
 const SLOPE_PRIOR: (f64, f64) = (0.0, 1.0);
 
 impl Spreads {
-    /// Returns the parameters in the form used for maximisation, which consists of logarithms of standard
-    /// deviations, and of slopes.
+    /// Returns the parameters for maximisation: the logarithms of standard deviations, and the slopes.
     pub(super) fn parameters(&self, has_readers: bool) -> Vec<f64> {
         let mut all: Vec<f64> = [self.game, self.level, self.family, self.planner].map(libm::log).to_vec();
         if has_readers {
@@ -66,7 +65,7 @@ impl Spreads {
         all
     }
 
-    /// Returns the spreads for the given parameters. If the parameters of readers are missing, their spreads
+    /// Returns the spreads for the given parameters. Without parameters for readers, the spreads for readers
     /// are the defaults.
     pub(super) fn from_parameters(parameters: &[f64]) -> Spreads {
         let sd = |at: usize| libm::exp(parameters[at]);
@@ -85,7 +84,7 @@ impl Spreads {
         }
     }
 
-    /// Returns the logarithm of the prior density, up to a constant, and its derivatives.
+    /// Returns the log prior density, up to a constant, and its derivatives.
     pub(super) fn log_prior(parameters: &[f64]) -> (f64, Vec<f64>) {
         let each = parameters.iter().enumerate().map(|(at, value)| {
             let (mean, sd) = if at == 4 || at == 5 { SLOPE_PRIOR } else { LOG_PRIOR };
@@ -107,7 +106,7 @@ impl Spreads {
         (planners, readers, self.game_slope * game + self.level_slope * level)
     }
 
-    /// Returns the correlation between the difficulties of levels for planners and for readers.
+    /// Returns the correlation between level difficulties for planners and for readers.
     pub fn correlation(&self) -> f64 {
         let (planners, readers, both) = self.moments();
         both / (planners * readers).sqrt()
@@ -138,7 +137,7 @@ mod tests {
         assert!((planners.game - 2.0).abs() < 1e-12 && planners.reader == Spreads::default().reader);
     }
 
-    /// With slopes of 1 and no independent part, levels are equally hard for readers and for planners.
+    /// With slopes of 1 and no independent component, levels are equally hard for readers and for planners.
     #[test]
     fn correlations() {
         let same = Spreads {

@@ -1,5 +1,5 @@
-//! Public randomness. A source publishes a random value in each round, which is stored as a file or as a log
-//! entry.
+//! Public randomness. A source publishes a random value in each round. The value is stored as a file or as a
+//! log entry.
 
 mod drand;
 
@@ -14,31 +14,31 @@ use sha2::{Digest as _, Sha256};
 /// The maximum size of a beacon file, in bytes.
 pub const MAX_BEACON: u64 = 1 << 14;
 
-/// The expected content of the file, for messages.
+/// The expected file content, for messages.
 const SHAPE: &str = "write the source's answer together with its name: \
                      { \"source\": \"drand quicknet\", \"round\": 7, \"randomness\": \"…\", \"signature\": \"…\" }";
 
-/// A value from a source of randomness, and the evidence for the value.
+/// A value from a randomness source, with the evidence for the value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawn {
-    /// The source and the number of the round.
+    /// The source and the round number.
     pub round: Round,
-    /// The random value, which has 32 bytes.
+    /// The 32-byte random value.
     pub value: Digest,
-    /// The signature whose hash is the value. Only rounds of drand have such a signature.
+    /// The signature whose hash is the value. Only drand rounds have such a signature.
     pub proof: Option<Proof>,
 }
 
-/// The signature of a round, in the form that the source publishes.
+/// A round's signature, in the format published by the source.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Proof {
     /// The signature as hexadecimal digits.
     pub signature: String,
-    /// The signature of the previous round. In chained networks, the signed message includes it.
+    /// The previous round's signature. In chained networks, the signed message includes it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub previous_signature: Option<String>,
-    /// The facts about the network, if the network has no name in this crate.
+    /// The facts about the network, if this crate does not name the network.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain: Option<Chain>,
 }
@@ -49,7 +49,7 @@ pub struct Proof {
 struct DrawnFile {
     source: String,
     round: u64,
-    /// The random value, which drand calls `randomness`.
+    /// The random value, called `randomness` by drand.
     #[serde(alias = "randomness")]
     value: Digest,
     signature: Option<String>,
@@ -76,9 +76,9 @@ impl Drawn {
         Ok(drawn)
     }
 
-    /// Checks the value. A round of drand must have its network's signature, and the value must be the
-    /// SHA-256 hash of the signature. For other sources, a signature is not verified, but the value must be
-    /// its SHA-256 hash.
+    /// Checks the value. A drand round must have its network's signature, and the value must be the SHA-256
+    /// hash of the signature. For other sources, a signature is not verified, but the value must be the
+    /// signature's SHA-256 hash.
     ///
     /// # Errors
     /// Returns a message with the fault and the recommended next step.

@@ -1,5 +1,4 @@
-//! The entries of a log. They are the statements of a publisher, in the order in which the publisher made
-//! them.
+//! Log entries. The entries are a publisher's statements, in chronological order.
 
 use crate::beacon::{Proof, check_source};
 use crate::error::TrustError;
@@ -8,70 +7,70 @@ use base::Digest;
 use base::canonical::to_canonical_json;
 use serde::{Deserialize, Serialize};
 
-/// An entry of a log, which is stored as canonical JSON.
+/// A log entry, stored as canonical JSON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Entry {
-    /// A new set of keys.
+    /// A new key set.
     Keys {
-        /// The number of the set.
+        /// The set's number.
         version: u32,
-        /// The digest of the file of the set.
+        /// The digest of the set's file.
         digest: Digest,
         /// The digest of the previous set.
         previous: Option<Digest>,
     },
-    /// A commitment to the secret of a release, which must be logged before the release is minted.
+    /// A commitment to a release's secret. The commitment must be logged before the release is minted.
     Commitment {
-        /// The name of the release.
+        /// The release's name.
         release: String,
         /// The commitment, which covers the recipe.
         commitment: Digest,
-        /// The digest of the recipe that the commitment covers.
+        /// The digest of the recipe covered by the commitment.
         recipe: Digest,
-        /// The root of the previous release.
+        /// The previous release's root.
         parent: Option<Digest>,
-        /// The round of public randomness that the recipe uses. Its value must be unknown when the commitment
+        /// The round of public randomness used by the recipe. Its value must be unknown when the commitment
         /// is logged.
         beacon: Option<Round>,
     },
-    /// A published value of public randomness.
+    /// A published public random value.
     Beacon {
-        /// The source and the round of the value.
+        /// The value's source and round.
         round: Round,
-        /// The random value, which has 32 bytes.
+        /// The 32-byte random value.
         value: Digest,
-        /// The signature of the round, which is required for a value of drand.
+        /// The round's signature, required for drand values.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         proof: Option<Proof>,
     },
-    /// A release that was minted.
+    /// A minted release.
     Root {
-        /// The name of the release.
+        /// The release's name.
         release: String,
-        /// The root of the release.
+        /// The release's root.
         root: Digest,
-        /// The root of the previous release.
+        /// The previous release's root.
         parent: Option<Digest>,
-        /// The commitment of the release, if the release is sealed.
+        /// The release's commitment, if the release is sealed.
         commitment: Option<Digest>,
-        /// The value of public randomness that is mixed into the release's seed.
+        /// The public random value mixed into the release's seed.
         beacon: Option<Digest>,
-        /// The digest of the signed statement about the release, if there is a statement.
+        /// The digest of the signed statement about the release, if any.
         statement: Option<Digest>,
     },
-    /// The revealed secret of a sealed release.
+    /// A sealed release's revealed secret.
     Reveal(Revealed),
-    /// The calibration of a release, which places it on the scale.
+    /// A release's calibration, which places the release on the scale.
     Calibration {
-        /// The name of the release.
+        /// The release's name.
         release: String,
-        /// The root of the release.
+        /// The release's root.
         root: Digest,
         /// The digest of the calibration file.
         file: Digest,
     },
-    /// A player's result, which is a row of the leaderboard.
+    /// A player's result: a row in the leaderboard.
     Result(ResultRow),
 }
 
@@ -81,49 +80,49 @@ pub enum Entry {
 pub struct Round {
     /// The source, such as `drand quicknet`.
     pub source: String,
-    /// The number of the round.
+    /// The round number.
     pub round: u64,
 }
 
-/// The published secret of a sealed release.
+/// A sealed release's published secret.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Revealed {
-    /// The name of the release.
+    /// The release's name.
     pub release: String,
-    /// The root of the release.
+    /// The release's root.
     pub root: Digest,
-    /// The text from which the seed of the release is derived.
+    /// The text from which the release's seed is derived.
     pub seed: String,
-    /// The nonce of the commitment.
+    /// The commitment's nonce.
     pub nonce: Digest,
     /// The digest of the recipe for which the secret was drawn.
     pub recipe: Digest,
 }
 
-/// A row of the leaderboard, which anyone can recompute from the logs of its episodes.
+/// A leaderboard row, which anyone can recompute from the episodes' logs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResultRow {
-    /// The name of the release.
+    /// The release's name.
     pub release: String,
-    /// The root of the release.
+    /// The release's root.
     pub root: Digest,
     /// The digest of the files in the results folder.
     pub results: Digest,
-    /// The label of the player.
+    /// The player's label.
     pub player: String,
-    /// The track with its version, or `None` for players that read no prompts and for custom prompts.
+    /// The track with its version, or `None` for custom prompts and for players that read no prompts.
     pub track: Option<String>,
-    /// The number of actions that an answer commits to, or `all`.
+    /// The number of actions per answer, or `all`.
     pub horizon: String,
     /// The number of finished episodes.
     pub episodes: u64,
-    /// The number of episodes that were aborted, are unfinished, or were not played.
+    /// The number of aborted, unfinished and unplayed episodes.
     pub open: u64,
     /// The number of won episodes.
     pub wins: u64,
-    /// The fraction of episodes that were won.
+    /// The fraction of won episodes.
     pub rate: f64,
     /// The 95% interval of the win rate.
     pub interval: (f64, f64),
@@ -131,12 +130,12 @@ pub struct ResultRow {
     pub score: Option<f64>,
 }
 
-/// The maximum relative difference between the results of two machines. Results can differ because the
-/// platform computes the logarithm in intervals.
+/// The maximum relative difference between results from two machines. Results can differ because intervals
+/// use the platform's logarithm.
 const ROUNDING: f64 = 1e-9;
 
 impl ResultRow {
-    /// Returns the fields in which a row recomputed from the same results differs, each with both values.
+    /// Returns the fields that differ in a row recomputed from the same results, each with both values.
     pub fn differences(&self, again: &ResultRow) -> Vec<String> {
         let texts = |row: &ResultRow| {
             let track = row.track.clone().unwrap_or_default();
@@ -184,13 +183,13 @@ impl Entry {
     /// Parses an entry.
     ///
     /// # Errors
-    /// Returns an error if the bytes are not an entry that this version of arcade knows, or are not in
+    /// Returns an error if the bytes are not an entry known to this version of arcade, or are not in
     /// canonical form.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Entry, TrustError> {
         canonical(bytes, place)
     }
 
-    /// Returns the bytes of the entry.
+    /// Returns the entry's bytes.
     ///
     /// # Errors
     /// Returns an error if a number is not finite, or if the entry is larger than a log allows.
@@ -202,7 +201,7 @@ impl Entry {
         }
     }
 
-    /// Formats the entry as one line for people.
+    /// Formats the entry as one human-readable line.
     pub fn line(&self) -> String {
         match self {
             Entry::Keys { version, .. } => format!("keys         {version}"),
@@ -232,7 +231,7 @@ impl Entry {
         }
     }
 
-    /// Returns the name of the release to which the entry refers, if it refers to one.
+    /// Returns the name of the entry's release, if any.
     pub fn release(&self) -> Option<&str> {
         match self {
             Entry::Keys { .. } | Entry::Beacon { .. } => None,

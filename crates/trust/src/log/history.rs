@@ -1,5 +1,4 @@
-//! The rules that the entries of a log must obey together. For example, commitments must come before
-//! releases.
+//! The rules that a log's entries must obey together. For example, commitments must come before releases.
 
 use super::entry::{Entry, Revealed, Round};
 use crate::beacon::{Drawn, check_source};
@@ -9,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A function that computes the commitment for a revealed secret.
 pub type CommitmentOf<'a> = &'a dyn Fn(&Revealed) -> Digest;
 
-/// The facts that are established by the previous entries.
+/// The facts established by the previous entries.
 #[derive(Default)]
 struct History {
     keys: Option<(u32, Digest)>,
@@ -32,7 +31,7 @@ struct Root {
     commitment: Option<Digest>,
 }
 
-/// Returns the violations of the rules, each with the number of the violating entry and the reason.
+/// Returns the rule violations, each with the violating entry's number and the reason.
 pub fn problems(entries: &[Entry], commitment_of: CommitmentOf<'_>) -> Vec<String> {
     let mut history = History::default();
     let mut problems = Vec::new();
@@ -44,7 +43,7 @@ pub fn problems(entries: &[Entry], commitment_of: CommitmentOf<'_>) -> Vec<Strin
 }
 
 impl History {
-    /// Adds an entry to the history, and returns its faults.
+    /// Adds an entry to the history, and returns the entry's faults.
     fn take(&mut self, entry: &Entry, commitment_of: CommitmentOf<'_>) -> Vec<String> {
         match entry {
             Entry::Keys { version, digest, previous } => self.keys(*version, *digest, *previous),
@@ -202,7 +201,7 @@ impl History {
         problems
     }
 
-    /// Returns the fault of an entry that refers to a release that is not in the log.
+    /// Returns the fault in an entry that refers to a release missing from the log.
     fn known(&self, release: &str, root: &Digest) -> Option<String> {
         match self.roots.get(release) {
             Some(found) if found.root == *root => None,
@@ -233,7 +232,7 @@ impl History {
     }
 }
 
-/// Returns the releases that have a commitment but no root in the log. They were not minted yet, or were
+/// Returns the releases with a commitment but no root in the log. Such releases were not minted yet, or were
 /// dropped.
 pub fn unkept(entries: &[Entry]) -> Vec<String> {
     let is_minted =
@@ -245,7 +244,7 @@ pub fn unkept(entries: &[Entry]) -> Vec<String> {
     committed.filter(|name| !is_minted(name)).cloned().collect()
 }
 
-/// Returns `true` if the name of a release is a month, such as `2027-03`.
+/// Returns `true` if a release name is a month, such as `2027-03`.
 pub fn is_month(name: &str) -> bool {
     let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
     name.split_once('-').is_some_and(|(year, month)| {
@@ -258,8 +257,7 @@ pub fn is_month(name: &str) -> bool {
 }
 
 /// Checks that a log has reached a month, such as `2027-03`, and returns the fault otherwise. The newest
-/// month in the log reveals a copy that is no longer updated. Releases with other names contain no
-/// information about the time.
+/// month in the log reveals an outdated copy. Releases with other names contain no information about time.
 pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
     let roots = entries.iter().filter_map(|entry| match entry {
         Entry::Root { release, .. } => Some(release.as_str()).filter(|name| is_month(name)),

@@ -22,23 +22,23 @@ use disk::{Disk, Lock};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The name of the file with the newest checkpoint, in the folder of a log.
+/// The name of the file with the newest checkpoint, in the log's folder.
 pub const CHECKPOINT_FILE: &str = "checkpoint";
-/// The maximum number of entries that are read from a log.
+/// The maximum number of entries to read from a log.
 const MAX_ENTRIES: u64 = 1 << 20;
 
-/// A complete log that was read from its folder.
+/// A complete log read from its folder.
 #[derive(Clone, Debug)]
 pub struct Log {
     folder: PathBuf,
-    /// The newest checkpoint of the log.
+    /// The log's newest checkpoint.
     pub checkpoint: Checkpoint,
     entries: Vec<Vec<u8>>,
     leaves: Vec<Hash>,
 }
 
 impl Log {
-    /// Opens a log and checks only its form. Returns `None` if the folder contains no log.
+    /// Opens a log, checking only its form. Returns `None` if the folder contains no log.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read, or does not have the expected form.
@@ -78,7 +78,7 @@ impl Log {
         Ok(Some(Log { folder: folder.to_path_buf(), checkpoint, entries, leaves }))
     }
 
-    /// Returns the faults of the log itself, which concern its signature, its root and its files.
+    /// Returns the faults in the log's signature, root and files.
     pub fn faults(&self, key: &PublicKey) -> Vec<String> {
         let mut faults: Vec<String> = self.checkpoint.check(key).err().into_iter().collect();
         if tree::root(&self.leaves) != self.checkpoint.root {
@@ -100,7 +100,7 @@ impl Log {
         faults
     }
 
-    /// Returns the faults of partial tiles of earlier states, which readers of those states may still use.
+    /// Returns the faults in partial tiles from earlier states, which readers of those states may still use.
     /// Tiles larger than the checkpoint's tiles are ignored, because an interrupted append may leave such
     /// tiles.
     fn earlier_faults(&self) -> Vec<String> {
@@ -121,7 +121,7 @@ impl Log {
         faults
     }
 
-    /// Returns the fault of this log for a reader who has seen an earlier checkpoint of the log.
+    /// Returns the fault in this log, as seen by a reader with an earlier checkpoint.
     pub fn fork(&self, seen: &Checkpoint) -> Option<String> {
         let Checkpoint { origin, size, root, .. } = &self.checkpoint;
         if seen.origin != *origin {
@@ -146,11 +146,11 @@ impl Log {
         })
     }
 
-    /// Parses all entries of the log.
+    /// Parses all entries in the log.
     ///
     /// # Errors
-    /// Returns an error if this version of arcade does not know the kind of an entry, or if an entry is not
-    /// in canonical form.
+    /// Returns an error if an entry's kind is unknown to this version of arcade, or if an entry is not in
+    /// canonical form.
     pub fn entries(&self) -> Result<Vec<Entry>, TrustError> {
         self.entries
             .iter()
@@ -164,7 +164,7 @@ impl Log {
         self.entries.get(usize::try_from(number).ok()?).map(Vec::as_slice)
     }
 
-    /// Returns the proof that an entry is in the log, or `None` if there is no such entry.
+    /// Returns the proof that an entry is in the log, or `None` if the entry does not exist.
     pub fn prove(&self, number: u64) -> Option<Inclusion> {
         let hashes = tree::inclusion(&self.leaves, usize::try_from(number).ok()?)?;
         Some(Inclusion { index: number, hashes, checkpoint: self.checkpoint.clone() })
@@ -177,7 +177,7 @@ impl Log {
         Some(Consistency { old, hashes, checkpoint: self.checkpoint.clone() })
     }
 
-    /// Replaces the checkpoint with a version that has additional signatures.
+    /// Replaces the checkpoint with a version that contains additional signatures.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -190,7 +190,7 @@ impl Log {
 /// Appends entries to a log, or starts a log with the name `origin`.
 ///
 /// The new files are written first and the checkpoint last, so the log is unchanged until the checkpoint is
-/// written. `rules` returns the faults of all entries together. For logs of releases, `rules` calls
+/// written. `rules` returns the faults found in all entries together. For release logs, `rules` calls
 /// [`problems`].
 ///
 /// # Errors
@@ -259,7 +259,7 @@ pub fn append(
     Ok(log)
 }
 
-/// Locks the log against appends by other processes, until the lock is dropped.
+/// Locks the log against appends by other processes until the returned lock is dropped.
 fn lock(folder: &Path) -> Result<Lock, TrustError> {
     let path = folder.join(".lock");
     let lock = Lock::take(&path).map_err(TrustError::io("write", &path))?;

@@ -7,27 +7,27 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest as _, Sha256};
 
-/// The signature type of a bare Ed25519 signature of a note.
+/// The signature type for bare Ed25519 note signatures.
 const ED25519: u8 = 1;
-/// The signature type of a timestamped cosignature.
+/// The signature type for timestamped cosignatures.
 const COSIGNATURE: u8 = 4;
 /// The maximum size of a checkpoint, in bytes.
 pub const MAX_CHECKPOINT: u64 = 1 << 16;
 
-/// A signed statement of a log about its size and its root.
+/// A log's signed statement about its size and its root.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoint {
-    /// The name of the log.
+    /// The log's name.
     pub origin: String,
     /// The number of entries in the log.
     pub size: u64,
     /// The root of the Merkle tree over the entries.
     pub root: Hash,
-    /// The signatures, in the order in which the file lists them.
+    /// The signatures, in file order.
     signatures: Vec<Signature>,
 }
 
-/// A signature line of a signed note.
+/// A signature line in a signed note.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Signature {
     name: String,
@@ -38,7 +38,7 @@ struct Signature {
 /// Checks the name of a log or a witness, which must not contain whitespace or `+`.
 ///
 /// # Errors
-/// Returns an error that states the requirement for names.
+/// Returns an error with the requirement for names.
 pub fn check_name(name: &str) -> Result<(), TrustError> {
     let is_bad = |c: char| c.is_whitespace() || c == '+' || c.is_control();
     match name.is_empty() || name.len() > 200 || name.chars().any(is_bad) {
@@ -51,14 +51,14 @@ pub fn check_name(name: &str) -> Result<(), TrustError> {
     }
 }
 
-/// Returns the bytes with which a signature starts, which identify the signer.
+/// Returns the first bytes of a signature, which identify the signer.
 fn key_hash(name: &str, kind: u8, key: &PublicKey) -> [u8; 4] {
     let hash =
         Sha256::new().chain_update(name).chain_update([b'\n', kind]).chain_update(key.point()).finalize();
     [hash[0], hash[1], hash[2], hash[3]]
 }
 
-/// Returns the key of a log or a witness in the form that other tools accept, which is `NAME+HASH+KEY`.
+/// Returns the key of a log or a witness in the format accepted by other tools: `NAME+HASH+KEY`.
 pub fn verifier_key(name: &str, key: &PublicKey, is_witness: bool) -> String {
     let kind = if is_witness { COSIGNATURE } else { ED25519 };
     let hash: String = key_hash(name, kind, key).iter().map(|byte| format!("{byte:02x}")).collect();
@@ -66,7 +66,7 @@ pub fn verifier_key(name: &str, key: &PublicKey, is_witness: bool) -> String {
 }
 
 impl Checkpoint {
-    /// Creates a checkpoint that is signed by the log.
+    /// Creates a checkpoint signed by the log.
     pub fn sign(origin: &str, size: u64, root: Hash, secret: &SecretKey) -> Checkpoint {
         let mut checkpoint = Checkpoint { origin: origin.to_owned(), size, root, signatures: Vec::new() };
         let signature = secret.sign_bare(checkpoint.body().as_bytes());
@@ -76,7 +76,7 @@ impl Checkpoint {
         checkpoint
     }
 
-    /// Adds the signature of a witness. The signature covers a time, in seconds since 1970.
+    /// Adds a witness's signature. The signature covers a time, in seconds since 1970.
     pub fn cosign(&mut self, witness: &str, seconds: u64, secret: &SecretKey) {
         let signature = secret.sign_bare(self.cosigned(seconds).as_bytes());
         let hash = key_hash(witness, COSIGNATURE, &secret.public());
@@ -85,7 +85,7 @@ impl Checkpoint {
         self.signatures.push(Signature { name: witness.to_owned(), bytes });
     }
 
-    /// Returns the text that the log's signature covers.
+    /// Returns the text covered by the log's signature.
     fn body(&self) -> String {
         format!("{}\n{}\n{}\n", self.origin, self.size, STANDARD.encode(self.root))
     }
@@ -94,7 +94,7 @@ impl Checkpoint {
         format!("cosignature/v1\ntime {seconds}\n{}", self.body())
     }
 
-    /// Returns the content of the checkpoint's file.
+    /// Returns the content of the checkpoint file.
     pub fn to_text(&self) -> String {
         let line = |s: &Signature| format!("\u{2014} {} {}\n", s.name, STANDARD.encode(&s.bytes));
         format!("{}\n{}", self.body(), self.signatures.iter().map(line).collect::<String>())

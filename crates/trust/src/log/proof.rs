@@ -1,5 +1,5 @@
-//! Proofs about a log, stored in files. A proof shows that an entry is in the log, or that a log extends its
-//! earlier state.
+//! Log proofs, stored in files. A proof shows that an entry is in the log, or that a log extends its earlier
+//! state.
 
 use super::note::Checkpoint;
 use super::tree::{self, Hash};
@@ -8,7 +8,7 @@ use crate::key::PublicKey;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-/// The first line of an inclusion proof, which is that of C2SP `tlog-proof`.
+/// The first line of an inclusion proof, as specified in C2SP `tlog-proof`.
 const INCLUSION: &str = "c2sp.org/tlog-proof@v1";
 /// The first line of a consistency proof.
 const CONSISTENCY: &str = "infinite-arcade/log-growth@v1";
@@ -20,25 +20,25 @@ const MAX_HASHES: usize = 64;
 pub struct Inclusion {
     /// The number of the entry.
     pub index: u64,
-    /// The hashes of the proof, from the sibling of the entry upwards.
+    /// The proof's hashes, from the entry's sibling upwards.
     pub hashes: Vec<Hash>,
-    /// The checkpoint with the root to which the hashes lead.
+    /// The checkpoint with the root reached by the hashes.
     pub checkpoint: Checkpoint,
 }
 
 /// A proof that a log has grown from an earlier size without changes to earlier entries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Consistency {
-    /// The earlier size of the log.
+    /// The log's earlier size.
     pub old: u64,
-    /// The hashes that make up the proof.
+    /// The proof's hashes.
     pub hashes: Vec<Hash>,
-    /// The later checkpoint of the log.
+    /// The log's later checkpoint.
     pub checkpoint: Checkpoint,
 }
 
 impl Inclusion {
-    /// Returns the content of the proof's file.
+    /// Returns the content of the proof file.
     pub fn to_text(&self) -> String {
         write(INCLUSION, "index", self.index, &self.hashes, &self.checkpoint)
     }
@@ -68,7 +68,7 @@ impl Inclusion {
 }
 
 impl Consistency {
-    /// Returns the content of the proof's file.
+    /// Returns the content of the proof file.
     pub fn to_text(&self) -> String {
         write(CONSISTENCY, "old", self.old, &self.hashes, &self.checkpoint)
     }

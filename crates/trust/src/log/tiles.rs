@@ -1,8 +1,8 @@
-//! The files of a log in the layout of C2SP `tlog-tiles`, which any web server can serve.
+//! A log's files in the layout of C2SP `tlog-tiles`, which any web server can serve.
 //!
-//! `checkpoint` contains the newest signed state. `tile/entries/N` holds 256 entries, each preceded by its
-//! length in two bytes. `tile/L/N` holds 256 hashes of level L. The last tile of each kind may be partial, in
-//! which case `N.p/W` holds W items.
+//! `checkpoint` contains the newest signed state. `tile/entries/N` contains 256 entries, each preceded by its
+//! length in two bytes. `tile/L/N` contains 256 hashes of level L. The last tile of each kind may be partial,
+//! in which case `N.p/W` contains W items.
 
 use super::tree::{self, Hash};
 
@@ -11,16 +11,16 @@ pub const WIDTH: u64 = 256;
 /// The maximum size of an entry, in bytes.
 pub const MAX_ENTRY: usize = 65535;
 
-/// A file of a log.
+/// A log file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Tile {
-    /// The path of the file, relative to the log's folder.
+    /// The file's path, relative to the log's folder.
     pub(super) path: String,
-    /// The content of the file.
+    /// The file's content.
     pub(super) bytes: Vec<u8>,
 }
 
-/// Returns the path of a tile. `level` is `entries` or a number.
+/// Returns a tile's path. `level` is `entries` or a number.
 fn path(level: &str, number: u64, width: u64) -> String {
     let mut text = format!("{:03}", number % 1000);
     let mut rest = number / 1000;
@@ -39,12 +39,12 @@ fn widths(count: u64, first: u64) -> impl Iterator<Item = (u64, u64)> {
     (first..count.div_ceil(WIDTH)).map(move |number| (number, (count - number * WIDTH).min(WIDTH)))
 }
 
-/// Returns the paths of the entry files in a log of the given size, each with the number of its entries.
+/// Returns the paths to the entry files in a log of the given size, each with its number of entries.
 pub(super) fn entry_files(size: u64) -> Vec<(String, u64)> {
     widths(size, 0).map(|(number, width)| (path("entries", number, width), width)).collect()
 }
 
-/// Returns the files that must be written after a log has grown from `old` entries to all of `entries`.
+/// Returns the files to write after a log has grown from `old` entries to all of `entries`.
 pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile> {
     let mut files = Vec::new();
     let of = |number: u64, width: u64| (number * WIDTH) as usize..(number * WIDTH + width) as usize;
@@ -70,8 +70,8 @@ pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile>
     files
 }
 
-/// Returns the folders of all partial tiles that a log with these entries may have contained. Each folder is
-/// returned with the parts of its tile, in order.
+/// Returns the folders for all partial tiles that a log with these entries may have contained. Each folder is
+/// returned with its tile's parts, in order.
 pub(super) fn parts(entries: &[Vec<u8>], leaves: &[Hash]) -> Vec<(String, Vec<Vec<u8>>)> {
     let mut found = Vec::new();
     let mut add = |level: &str, parts: Vec<Vec<u8>>| {
@@ -120,7 +120,7 @@ mod tests {
         assert_eq!(path("1", 1000, 256), "tile/1/x001/000");
     }
 
-    /// A log that grows in steps has exactly the same files as a log that is written at once.
+    /// A log that grows in steps has exactly the same files as a log written in one step.
     #[test]
     fn growth_writes_what_is_missing() {
         let entries: Vec<Vec<u8>> = (0..600_u32).map(|n| n.to_be_bytes().to_vec()).collect();

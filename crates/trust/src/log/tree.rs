@@ -1,14 +1,14 @@
-//! The Merkle tree of a log, as specified in RFC 6962, with SHA-256.
+//! A log's Merkle tree, as specified in RFC 6962, with SHA-256.
 //!
-//! The tree of a release has the same shape, but uses BLAKE3 and has paths in its leaves. The tree of a
-//! release belongs to the crate `snapshots`. Neither crate depends on the other, so they share no code.
+//! A release's tree has the same shape, but uses BLAKE3 and includes paths in its leaves. Release trees are
+//! implemented in the crate `snapshots`. Neither crate depends on the other, so they share no code.
 
 use sha2::{Digest as _, Sha256};
 
-/// A hash of a node in the tree.
+/// The hash of a tree node.
 pub type Hash = [u8; 32];
 
-/// Returns the leaf hash of an entry.
+/// Returns an entry's leaf hash.
 pub(super) fn leaf(entry: &[u8]) -> Hash {
     Sha256::new().chain_update([0]).chain_update(entry).finalize().into()
 }
@@ -17,7 +17,7 @@ fn node(left: &Hash, right: &Hash) -> Hash {
     Sha256::new().chain_update([1]).chain_update(left).chain_update(right).finalize().into()
 }
 
-/// Computes the root of the tree from the hashes of the entries.
+/// Computes the tree's root from the entries' hashes.
 pub(super) fn root(leaves: &[Hash]) -> Hash {
     match leaves {
         [] => Sha256::digest([]).into(),
@@ -35,7 +35,7 @@ fn split(count: usize) -> usize {
 }
 
 /// Returns the proof that the entry at `index` is in the tree (RFC 6962 §2.1.1). The hashes are ordered from
-/// the sibling of the leaf upwards. Returns `None` if there is no such entry.
+/// the leaf's sibling upwards. Returns `None` if the entry does not exist.
 pub(super) fn inclusion(leaves: &[Hash], index: usize) -> Option<Vec<Hash>> {
     if index >= leaves.len() {
         return None;
@@ -174,7 +174,7 @@ mod tests {
         (269, "328d61b4784044b1d4d2daae5598d88a202ceea67599e1f7b051c7cb28f90df2"),
     ];
 
-    /// Every proof is valid only for its own claim.
+    /// Each proof is valid only for its own claim.
     #[test]
     fn proofs_hold_for_their_own_question() {
         for size in 1..=17_usize {

@@ -1,5 +1,5 @@
-//! `cargo xtask agreement` prints random inputs of the functions in `statistics`, with their results.
-//! `tools/scripts/agreement.py` compares the results with those of other libraries.
+//! `cargo xtask agreement` prints random inputs for the functions in `statistics`, with their results.
+//! `tools/scripts/agreement.py` compares the results with other libraries' results.
 
 mod scale;
 
@@ -70,7 +70,7 @@ fn share(draws: &mut Sampler) -> f64 {
     draws.unit()
 }
 
-/// Draws a number of successes and a number of trials, which is at least one.
+/// Draws a number of successes and a number of trials. There is at least one trial.
 fn counts(draws: &mut Sampler) -> (u64, u64) {
     let trials = 1 + up_to(draws, 60);
     (up_to(draws, trials), trials)

@@ -1,4 +1,4 @@
-//! Plays the actions of a trace, and compares every recorded field of every tick.
+//! Plays a trace's actions, and compares every recorded field at every tick.
 
 use super::trace::{Line, Tick, Trace};
 use engine::{Action, Chance, Game, Level, Outcome, SpriteRecord, State};
@@ -6,26 +6,26 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The maximum number of differences shown for one tick. The first of them is the first divergence.
+/// The maximum number of differences shown per tick. The first of these is the first divergence.
 const SHOWN: usize = 6;
 
 /// The first tick at which the engine and the trace differ.
 #[derive(Debug, Serialize)]
 pub(crate) struct Difference {
-    /// The number of the tick, where −1 stands for the state before the first tick.
+    /// The tick number, where −1 represents the state before the first tick.
     pub(crate) tick: i32,
     action: Option<Action>,
     /// The state of the game's random generator before the tick.
     chance_before: u64,
-    /// The first fields that differ in the tick, up to [`SHOWN`].
+    /// The first differing fields in the tick, up to [`SHOWN`].
     fields: Vec<Field>,
-    /// The number of further fields that differ.
+    /// The number of further differing fields.
     more: usize,
 }
 
 #[derive(Debug, Serialize)]
 struct Field {
-    /// The creation number and the type of the sprite, if the field belongs to a sprite.
+    /// The sprite's creation number and type, if the field belongs to a sprite.
     sprite: Option<String>,
     field: &'static str,
     expected: String,
@@ -47,7 +47,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Returns the first tick that differs, or `None` if all ticks are equal.
+/// Returns the first differing tick, or `None` if all ticks are equal.
 pub(crate) fn compare(game: &Game, level: &Level, trace: &Trace) -> Option<Difference> {
     let mut state = game.start_with(level, Chance::from_java(trace.header.seed));
     let mut expected: BTreeMap<u32, SpriteRecord> =
@@ -153,8 +153,8 @@ impl Check<'_> {
         }
     }
 
-    /// Applies the changes of a tick to the expected sprites. If the trace contradicts itself, a difference
-    /// is recorded.
+    /// Applies a tick's changes to the expected sprites. If the trace contradicts itself, a difference is
+    /// recorded.
     fn apply(&mut self, tick: &Tick, expected: &mut BTreeMap<u32, SpriteRecord>) {
         for id in &tick.line.del {
             let gone = expected.remove(id);
@@ -230,8 +230,8 @@ impl Check<'_> {
     }
 }
 
-/// Returns the bits of a value, for comparison with a trace. −0.0 and 0.0 are different values, but all NaNs
-/// are equal.
+/// Returns a value's bits, for comparison with a trace. −0.0 and 0.0 are different values, but all NaNs are
+/// equal.
 fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }

@@ -46,7 +46,7 @@ struct Report {
 #[derive(Serialize)]
 struct Episode {
     trace: String,
-    /// The reason why the episode could not be played, if it could not be played.
+    /// The reason why the episode could not be played, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -94,7 +94,7 @@ fn say(report: &Report) {
     println!("identical: {} of {} episodes", report.identical, report.episodes);
 }
 
-/// Returns all traces, sorted. Each trace is given by the name of its game and its path.
+/// Returns all traces, sorted. Each trace is given by its game's name and its path.
 fn find_traces(args: &Args) -> anyhow::Result<Vec<(String, PathBuf)>> {
     let mut names = sorted_entries(&args.traces)?;
     names.retain(|path| path.is_dir());
@@ -123,7 +123,7 @@ fn find_traces(args: &Args) -> anyhow::Result<Vec<(String, PathBuf)>> {
     Ok(traces)
 }
 
-/// Returns the entries of a folder, sorted by name.
+/// Returns a folder's entries, sorted by name.
 fn sorted_entries(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).with_context(|| format!("cannot read `{}`", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?;
@@ -131,20 +131,19 @@ fn sorted_entries(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// Reads a file of a game as text.
+/// Reads a game file as text.
 fn read(path: &Path) -> anyhow::Result<String> {
     fs::read_to_string(path).with_context(|| format!("cannot read `{}`", path.display()))
 }
 
-/// A game and its compiled rules, or the reason why the game does not compile.
+/// A game with its compiled rules, or the reason why the game does not compile.
 struct Subject {
     source: PathBuf,
     game: Result<Game, String>,
 }
 
 impl Subject {
-    /// Reads the game with the given name. The game is a folder, or a file with its levels in the same
-    /// folder.
+    /// Reads the game with the given name: a folder, or a file with its levels in the same folder.
     fn read(games: &Path, name: &str) -> anyhow::Result<Subject> {
         let places =
             [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
@@ -172,7 +171,7 @@ impl Subject {
         Ok(Subject { source, game })
     }
 
-    /// Returns the path of the file with the given level.
+    /// Returns the path of the given level's file.
     fn level(&self, number: usize) -> anyhow::Result<PathBuf> {
         let names = file_names(self.source.parent().unwrap_or(Path::new(".")))?;
         let own = self.source.file_name().and_then(|name| name.to_str()).unwrap_or_default();

@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-/// The maximum size of a line, in bytes. The longest lines in real traces have some hundred kilobytes.
+/// The maximum size of a line, in bytes. The longest lines in real traces occupy several hundred kilobytes.
 const MAX_LINE: u64 = 64 << 20;
 
 #[derive(Deserialize)]
@@ -42,7 +42,7 @@ struct Initial {
     rng: u64,
 }
 
-/// A tick in the form in which a trace records it.
+/// A tick as recorded in a trace.
 #[derive(Deserialize)]
 pub(crate) struct Line {
     pub(crate) tick: i32,
@@ -64,12 +64,12 @@ pub(crate) struct Line {
     pub(crate) del: Vec<u32>,
     #[serde(rename = "mod", default)]
     modified: Vec<Value>,
-    /// A note that is present if the reference ended the game because it had logged too many messages.
+    /// A note, present if the reference ended the game because it had logged too many messages.
     pub(crate) note: Option<String>,
     pub(crate) engine_error: Option<String>,
 }
 
-/// A tick with its action, and with the sprites that are new or have changed.
+/// A tick with its action and its new or changed sprites.
 pub(crate) struct Tick {
     pub(crate) line: Line,
     pub(crate) action: Action,
@@ -84,11 +84,11 @@ pub(crate) struct Trace {
 }
 
 impl Trace {
-    /// Reads a trace, which may be compressed with gzip or plain.
+    /// Reads a trace, either compressed with gzip or plain.
     ///
     /// # Errors
     ///
-    /// Returns a message that states the problem and its line.
+    /// Returns a message with the problem and its line.
     pub(crate) fn read(path: &Path) -> Result<Trace, String> {
         let file = File::open(path).map_err(|error| error.to_string())?;
         let packed = path.extension().is_some_and(|extension| extension == "gz");
@@ -118,7 +118,7 @@ impl Trace {
 
 type NumberedLine = Result<(usize, String), String>;
 
-/// Returns the lines of a reader with their numbers. A line longer than [`MAX_LINE`] is an error.
+/// Returns a reader's lines with their numbers. A line longer than [`MAX_LINE`] is an error.
 fn numbered(mut reader: impl BufRead) -> impl Iterator<Item = NumberedLine> {
     let mut number = 0;
     std::iter::from_fn(move || {
@@ -143,7 +143,7 @@ fn records<'a>(line: usize, values: impl Iterator<Item = &'a Value>) -> Result<V
     values.map(|value| record(value).ok_or_else(|| wrong(value))).collect()
 }
 
-/// Parses a number. Values that JSON cannot express as numbers are given as strings.
+/// Parses a number. Values that JSON numbers cannot represent are given as strings.
 fn double(value: &Value) -> Option<f64> {
     match value.as_str() {
         Some("NaN") => Some(f64::NAN),
@@ -153,8 +153,8 @@ fn double(value: &Value) -> Option<f64> {
     }
 }
 
-/// A recorded sprite in the form `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`. An object
-/// `{"res": …, "rot": …}` may follow.
+/// A sprite recorded in the form `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`. An object `{"res": …,
+/// "rot": …}` may follow.
 #[derive(Deserialize)]
 struct Record(u32, u16, i32, i32, i32, i32, Value, Value, Value, i32, u16, #[serde(default)] Extra);
 

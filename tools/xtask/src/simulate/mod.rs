@@ -71,7 +71,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns a table row for each of `cases`. The rows are computed in parallel, and each row has its own
+/// Returns one table row per case in `cases`. The rows are computed in parallel, and each row has its own
 /// random stream.
 fn rows<T: Copy + Sync>(
     args: &Args,

@@ -9,10 +9,9 @@ use statistics::scale::simulated::{
 };
 use statistics::scale::{Dimension, Spreads};
 
-/// The number of players in each case on one pair of months.
+/// The number of players per case on one pair of months.
 const PERSONS: usize = 40;
-/// The number of bootstrap replicates used to correct the bias of the spreads. `arcade study calibrate` uses
-/// 40.
+/// The number of bootstrap replicates for correcting the spreads' bias. `arcade study calibrate` uses 40.
 const REPLICATES: u64 = 4;
 
 fn plan(families: Vec<usize>, runs: u32) -> Plan {
@@ -29,7 +28,7 @@ fn plan(families: Vec<usize>, runs: u32) -> Plan {
     }
 }
 
-/// Returns the results of all trials that could be calibrated. Each trial has its own seed.
+/// Returns the results of all trials with a successful calibration. Each trial has its own seed.
 fn trials<T: Send>(args: &Args, trials: u64, case: usize, one: impl Fn(u64) -> Option<T> + Sync) -> Vec<T> {
     let seed = args.seed * 1_000_003 + case as u64 * 10_007;
     (0..trials).into_par_iter().filter_map(|trial| one(seed + trial)).collect()
@@ -81,7 +80,7 @@ pub(super) fn link(args: &Args) -> Table {
     table
 }
 
-/// Simulates the estimation of a player's ability on a linked month.
+/// Simulates estimating a player's ability on a linked month.
 pub(super) fn ability(args: &Args) -> Table {
     let count = args.trials.unwrap_or(50);
     let alone = plan(vec![1; 8], 2);
@@ -120,7 +119,7 @@ pub(super) fn ability(args: &Args) -> Table {
     table
 }
 
-/// Simulates the drift of a month for readers, estimated with anchors.
+/// Simulates a month's drift for readers, estimated with anchors.
 pub(super) fn drift(args: &Args) -> Table {
     let count = args.trials.unwrap_or(100);
     let mut cases = Vec::new();
@@ -148,7 +147,7 @@ pub(super) fn drift(args: &Args) -> Table {
     table
 }
 
-/// Returns a table with the number of episodes that an adaptive choice needs to reach the error of a design
+/// Returns a table with the number of episodes needed by an adaptive choice to reach the error of a design
 /// that spreads episodes over the games.
 pub(super) fn adaptive(args: &Args) -> Table {
     const EPISODES: usize = 200;

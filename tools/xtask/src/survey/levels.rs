@@ -1,4 +1,4 @@
-//! `cargo xtask survey` surveys the levels that the constructive generator makes for each game.
+//! `cargo xtask survey` surveys the levels that the constructive generator creates for each game.
 
 use super::folders;
 use super::missing::missing;
@@ -67,7 +67,7 @@ pub(crate) struct Args {
     png: Option<PathBuf>,
 }
 
-/// The columns of fractions, each with its section and key in the report on levels.
+/// The fraction columns, each with its section and key in the report on levels.
 const SHARES: [(&str, &str, &str); 7] = [
     ("solved", "solvability", "solved"),
     ("impossible", "solvability", "impossible"),
@@ -78,7 +78,7 @@ const SHARES: [(&str, &str, &str); 7] = [
     ("copies", "novelty", "copies"),
 ];
 
-/// The measures in which new levels should be within the range of the game's own levels.
+/// The measures for which new levels should be within the range of the game's own levels.
 const FIT: [&str; 3] = ["columns", "rows", "cover"];
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -142,7 +142,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the fraction of new levels that are within the range of the game's own levels in a measure.
+/// Returns the fraction of new levels for which a measure is within the range of the game's own levels.
 fn within(report: &LevelSetReport, measure: &str) -> Option<Share> {
     report.fits.iter().find(|fit| fit.measure == measure).map(|fit| fit.within)
 }
@@ -151,8 +151,8 @@ fn percent(share: Option<f64>) -> TableCell {
     TableCell::number(share.map(|share| 100.0 * share), 0)
 }
 
-/// Returns the generated levels of one game, and the maximum time for generating a level, in milliseconds.
-/// Uses one thread, so that the time is that of a single level.
+/// Returns the levels generated for one game, and the maximum time for generating a level, in milliseconds.
+/// Uses one thread, so that the time covers a single level.
 fn make(name: &str, analysis: &Analysis, own: &[Level], args: &Args) -> anyhow::Result<(Vec<Level>, f64)> {
     let own = if args.unlearnt { &[] } else { own };
     let examples = Examples::of(analysis.game(), own);
@@ -212,7 +212,7 @@ fn judge(
     Ok(LevelSetReport::of(&sample))
 }
 
-/// The number of levels in each row of a contact sheet.
+/// The number of levels per row on a contact sheet.
 const COLUMNS: usize = 5;
 /// The length of a level's longer side on a contact sheet, in pixels.
 const SIDE: u32 = 300;

@@ -1,5 +1,5 @@
-//! Surveys of folders of games. `survey` judges the levels that the constructive generator makes for the
-//! games, and `side-by-side` compares two groups of games.
+//! Surveys of game folders. `survey` judges the levels that the constructive generator creates for the games,
+//! and `side-by-side` compares two groups of games.
 
 pub(crate) mod levels;
 mod missing;
@@ -8,7 +8,7 @@ pub(crate) mod side_by_side;
 use anyhow::bail;
 use std::path::{Path, PathBuf};
 
-/// Returns the subfolders of a folder that contain a game, sorted by name.
+/// Returns a folder's subfolders that contain a game, sorted by name.
 fn folders(games: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let mut folders = crate::levels::folders(games, &[])?;
     folders.retain(|(_, path)| ["game.vgdl", "game.txt"].iter().any(|file| path.join(file).exists()));

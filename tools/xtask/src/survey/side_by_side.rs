@@ -134,9 +134,9 @@ fn gates(args: &Args, groups: &[(&str, Vec<PathBuf>)], seed: Seed) -> anyhow::Re
     Ok(())
 }
 
-/// Returns a level and the episode that wins it, if the folder contains one.
+/// Returns a level and its winning episode, if the folder contains one.
 fn won(folder: &Path, number: usize, game: &Game, level: Level) -> (Level, Option<Episode>) {
-    /// The fields of a witness file that are needed.
+    /// The required fields of a witness file.
     #[derive(Deserialize)]
     struct Witness {
         episode: Episode,
@@ -160,8 +160,7 @@ fn draw(folder: &Path, most: usize, seed: Seed) -> anyhow::Result<Vec<PathBuf>> 
     Ok(folders)
 }
 
-/// Returns up to `most` levels, which are the first level, the last level, and evenly spaced levels in
-/// between.
+/// Returns up to `most` levels: the first level, the last level, and evenly spaced levels in between.
 fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
     let (count, steps) = (levels.len(), most.saturating_sub(1).max(1));
     if count <= most {
@@ -174,14 +173,14 @@ fn spread(levels: Vec<Level>, most: usize) -> Vec<Level> {
 struct Judge<'a> {
     survey: GameSurvey,
     levels: usize,
-    /// The rows of games that have already been judged, by their digests.
+    /// The rows of previously judged games, by digest.
     known: BTreeMap<Digest, GameRow>,
     file: Option<&'a Path>,
 }
 
 impl Judge<'_> {
-    /// Returns the rows of a group of games. New rows are printed and written to the file as soon as they are
-    /// available.
+    /// Returns the rows for a group of games. New rows are printed and written to the file as soon as they
+    /// are available.
     fn group(&mut self, folders: &[PathBuf]) -> anyhow::Result<Vec<GameRow>> {
         let mut rows = Vec::new();
         for folder in folders {
@@ -204,7 +203,7 @@ impl Judge<'_> {
     }
 }
 
-/// Reads the rows in a file, by their digests. Returns no rows if the file does not exist.
+/// Reads a file's rows, by digest. Returns no rows if the file does not exist.
 fn read(path: &Path) -> anyhow::Result<BTreeMap<Digest, GameRow>> {
     if !path.exists() {
         return Ok(BTreeMap::new());

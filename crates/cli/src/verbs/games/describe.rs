@@ -1,4 +1,4 @@
-//! `arcade describe`: the rules of a game in plain English, its kind, and the provable properties of a level.
+//! `arcade describe`: a game's rules in plain English, its kind, and the provable properties of a level.
 
 use crate::console::Console;
 use crate::diagnostics::Named;
@@ -27,7 +27,7 @@ pub(crate) struct Args {
     as_reference: bool,
 }
 
-/// The proved properties of a level.
+/// A level's proved properties.
 #[derive(Serialize)]
 struct Prospects {
     level: String,

@@ -1,4 +1,4 @@
-//! `arcade fmt`: the canonical form of a game.
+//! `arcade fmt`: a game's canonical form.
 
 use crate::console::Console;
 use crate::diagnostics::Named;
@@ -121,7 +121,7 @@ fn convert(args: &Args, console: &Console) -> Answer {
     Ok(left.is_empty())
 }
 
-/// Returns the text of a game in a different dialect, and the levels beside it.
+/// Returns a game's text in a different dialect, with the levels beside it.
 fn dialect_source(name: &str) -> Result<(Named, Vec<String>), Failure> {
     let path = Path::new(name);
     if path.is_file() {

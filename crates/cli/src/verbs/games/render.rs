@@ -14,7 +14,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// The maximum length of a GIF's longer side in pixels, if the user specifies no scale.
+/// The maximum length in pixels of a GIF's longer side, unless the user specifies a scale.
 const GIF_SIDE: u32 = 480;
 
 /// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the extension of the file.
@@ -99,7 +99,7 @@ struct Subject<'a> {
     symbols: Symbols,
     game: &'a Game,
     level: &'a Level,
-    /// The actions of the episode up to the last tick of the image; empty without an episode.
+    /// The episode's actions up to the last tick in the image. Empty without an episode.
     actions: &'a [engine::Action],
     seed: Seed,
 }
@@ -176,7 +176,7 @@ fn played(args: &Args, spec: &PlannerSpec, game: &Game, level: &Level, seed: See
     play(game, level, &mut planner, budget, seed.child("chance", 0), limits).episode
 }
 
-/// Returns the actions up to the tick that is shown.
+/// Returns the actions up to the displayed tick.
 fn shown<'a>(
     args: &Args,
     format: Format,
@@ -245,7 +245,7 @@ impl Subject<'_> {
     }
 }
 
-/// Converts a rendering error into a malformed question. Only a bad size can cause one.
+/// Converts a rendering error into a malformed question. Only an invalid size can cause a rendering error.
 fn failed(error: RenderError) -> Failure {
     let help = "--scale sets the pixels of a cell";
     match error {

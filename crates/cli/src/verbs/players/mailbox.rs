@@ -1,4 +1,4 @@
-//! `arcade mailbox`: shows the open prompts of an evaluation, and delivers the answers that the user types.
+//! `arcade mailbox`: shows an evaluation's open prompts, and delivers the user's typed answers.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -13,11 +13,11 @@ use std::io::{BufRead, IsTerminal, Write};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// The pause between two looks into the mailbox.
+/// The pause between checks of the mailbox.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// The number of looks for the next prompt of the same episode before a different episode is shown. They take two
-/// seconds.
+/// The number of checks for the next prompt of the same episode before a different episode is shown. All
+/// checks together take two seconds.
 const PATIENCE: u32 = 20;
 
 /// Shows the prompts that wait in the mailbox of an evaluation, one at a time, and answers them with the lines that you type.
@@ -65,13 +65,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 struct Session<'a> {
     desk: Desk,
     console: &'a Console,
-    /// The only episode to answer; `None` if the user did not specify an episode.
+    /// The only episode to answer, or `None` if the user did not specify an episode.
     only: Option<String>,
     /// The episodes whose rules have been shown.
     introduced: BTreeSet<String>,
-    /// The episodes whose answers the user has postponed.
+    /// The episodes postponed by the user.
     skipped: BTreeSet<String>,
-    /// The episode that was answered last.
+    /// The most recently answered episode.
     current: Option<String>,
     /// `true` if the user has been informed that no prompt is waiting.
     is_waiting: bool,
@@ -79,7 +79,7 @@ struct Session<'a> {
 
 /// The effect of a typed line.
 enum Typed {
-    /// The prompt has an answer, or is not to be answered now.
+    /// The prompt has an answer, or will not be answered now.
     Done,
     /// The session needs a further line.
     Again,
@@ -87,7 +87,8 @@ enum Typed {
 }
 
 impl Session<'_> {
-    /// Shows prompts until the user leaves or no more prompts come. The answer is yes if the evaluation is over.
+    /// Shows prompts until the user leaves or no more prompts arrive. The answer is yes if the evaluation is
+    /// over.
     fn run(&mut self) -> Answer {
         while let Some(open) = self.next()? {
             self.is_waiting = false;
@@ -101,7 +102,7 @@ impl Session<'_> {
         Ok(view.finished.is_some())
     }
 
-    /// Waits for a prompt. Returns `None` if no more prompts will come.
+    /// Waits for a prompt. Returns `None` if no more prompts will arrive.
     fn next(&mut self) -> Result<Option<OpenPrompt>, Failure> {
         let mut looks = 0;
         loop {
@@ -206,7 +207,7 @@ impl Session<'_> {
         }
     }
 
-    /// Prints an invitation to type a line, if standard input is a terminal.
+    /// Prints a prompt for typing a line, if standard input is a terminal.
     fn invite(&self, open: &OpenPrompt) {
         if std::io::stdin().is_terminal() {
             let mut stderr = std::io::stderr();
@@ -271,7 +272,8 @@ say TEXT: answers with the text as it is
 show: shows the turn again; rules: the rules, the legend and the format
 list: shows the prompts that are waiting; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
 
-/// Returns the number of columns of the terminal; `None` if the output is not a terminal or the number is unknown.
+/// Returns the number of terminal columns, or `None` if the output is not a terminal or the number is
+/// unknown.
 fn columns() -> Option<usize> {
     #[cfg(feature = "terminal")]
     if std::io::stdout().is_terminal() {
@@ -303,7 +305,7 @@ fn wrapped(text: &str, width: usize) -> String {
         .join("\n")
 }
 
-/// Returns the action that a line specifies by its full name, by its first letters or by an arrow key.
+/// Returns the action specified by a line: by its full name, its first letters or an arrow key.
 fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
     let typed = match line {
         // The escape sequences of a terminal's arrow keys.
@@ -318,12 +320,12 @@ fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
     exact.or_else(|| found.next().filter(|_| found.next().is_none())).map(String::as_str)
 }
 
-/// Returns `true` if a line already has the format that prompts request.
+/// Returns `true` if a line already has the format requested by prompts.
 fn is_formatted(line: &str) -> bool {
     line.get(..7).is_some_and(|start| start.eq_ignore_ascii_case("action:"))
 }
 
-/// Returns an action in the format that the prompt requests.
+/// Returns an action in the format requested by the prompt.
 fn formatted(open: &OpenPrompt, action: &str) -> String {
     // Prompts in the reference composition number their actions.
     let number = open.prompt.messages.iter().flat_map(|message| message.text.lines()).find_map(|line| {
@@ -368,7 +370,7 @@ fn listed(desk: &Desk, view: &View) -> String {
     [heading].into_iter().chain(lines).chain([state]).join("\n")
 }
 
-/// Returns an outcome in words.
+/// Returns a description of an outcome.
 fn words(outcome: engine::Outcome) -> &'static str {
     match outcome {
         engine::Outcome::Won => "won",

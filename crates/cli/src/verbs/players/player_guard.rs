@@ -1,4 +1,5 @@
-//! `arcade player-guard`: supervises a player's program for `arcade evaluate`. It is not meant for people.
+//! `arcade player-guard`: supervises a player's program for `arcade evaluate`. The subcommand is not intended
+//! for direct use.
 
 use crate::console::Console;
 use crate::failure::Answer;
@@ -17,8 +18,8 @@ pub(crate) struct Args {
     command: Vec<OsString>,
 }
 
-/// Returns the command line of a guard, which runs this very program, even if the program's file has been replaced in
-/// the meantime. The command line is empty if there is no such program.
+/// Returns a guard's command line, which runs the current program even if its file has been replaced in the
+/// meantime. The command line is empty on non-Unix systems, and if the program cannot be found.
 pub(crate) fn command() -> Vec<OsString> {
     let own = PathBuf::from("/proc/self/exe");
     let program = if own.exists() { Some(own) } else { std::env::current_exe().ok() };

@@ -1,4 +1,4 @@
-//! `arcade run`: measures win rates of planners.
+//! `arcade run`: measures planners' win rates.
 
 use crate::console::{Console, Stopwatch};
 use crate::failure::{Answer, Failure};
@@ -61,7 +61,7 @@ pub(crate) struct Args {
 struct Subject {
     title: String,
     game: Game,
-    /// The levels with their numbers.
+    /// The levels, with their numbers.
     levels: Vec<(usize, Level)>,
 }
 
@@ -72,7 +72,7 @@ struct Entry<'a> {
     run: u64,
 }
 
-/// A played episode, which is a line of `--csv`.
+/// A played episode, written as one line of `--csv`.
 #[derive(Serialize)]
 struct Line<'a> {
     #[serde(skip)]
@@ -84,7 +84,7 @@ struct Line<'a> {
     level: usize,
     run: u64,
     outcome: &'static str,
-    /// The limit that stopped the episode; `None` if the engine did not stop it.
+    /// The limit that stopped the episode, or `None` if the engine did not stop it.
     #[serde(skip)]
     stop: Option<Limit>,
     score: f64,
@@ -94,7 +94,7 @@ struct Line<'a> {
     seconds: f64,
 }
 
-/// The `--json` answer, whose schema is in `docs/reference/run.md`.
+/// The `--json` answer. The schema is in `docs/reference/run.md`.
 #[derive(Serialize)]
 struct Report<'a> {
     semantics: u32,
@@ -102,12 +102,12 @@ struct Report<'a> {
     runs: u64,
     max_ticks: u64,
     as_reference: bool,
-    /// The episodes that the engine stopped.
+    /// The episodes stopped by the engine.
     stopped: Vec<Stopped<'a>>,
     rows: Vec<Row<'a>>,
 }
 
-/// The episodes of one game that the engine stopped for one reason.
+/// One game's episodes that the engine stopped for the same reason.
 #[derive(Serialize)]
 struct Stopped<'a> {
     game: &'a str,
@@ -115,19 +115,19 @@ struct Stopped<'a> {
     plays: u64,
 }
 
-/// The results of some episodes of one planner.
+/// One planner's results on some episodes.
 #[derive(Serialize)]
 struct Row<'a> {
-    /// The game; `None` for all games together.
+    /// The game, or `None` for all games together.
     game: Option<&'a str>,
-    /// The level; `None` for all levels together.
+    /// The level, or `None` for all levels together.
     level: Option<usize>,
     planner: &'a str,
     budget: u64,
     plays: u64,
     wins: u64,
     losses: u64,
-    /// The number of episodes that the engine stopped.
+    /// The number of episodes stopped by the engine.
     stopped: u64,
     interval: [f64; 2],
     mean_score: f64,
@@ -200,7 +200,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(report.stopped.is_empty())
 }
 
-/// Returns the episodes that the engine stopped, by game and reason.
+/// Returns the episodes stopped by the engine, by game and reason.
 fn stopped<'a>(lines: &[Line<'a>]) -> Vec<Stopped<'a>> {
     let mut stops: Vec<Stopped<'a>> = Vec::new();
     for line in lines {
@@ -213,7 +213,7 @@ fn stopped<'a>(lines: &[Line<'a>]) -> Vec<Stopped<'a>> {
     stops
 }
 
-/// Rejects a planner that is specified twice with the same budget, because its episodes would be counted twice.
+/// Rejects a planner specified twice with the same budget, because its episodes would be counted twice.
 fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failure> {
     let mut seen = BTreeMap::new();
     for planner in planners {
@@ -287,7 +287,7 @@ fn budget(args: &Args, planner: &PlannerSpec) -> u64 {
     planner.budget().map_or(args.budget, |Budget(calls)| calls)
 }
 
-/// Reports the speed of each planner, in calls per second of one thread.
+/// Reports each planner's speed, in calls per second on one thread.
 fn speeds(console: &Console, planners: &[PlannerSpec], lines: &[Line<'_>], seconds: f64) {
     let calls: u64 = lines.iter().map(|line| line.calls).sum();
     let rate = calls as f64 / seconds;
@@ -382,7 +382,7 @@ fn table(rows: &[Row<'_>]) -> String {
     text
 }
 
-/// Writes a text so that spreadsheets do not interpret it as a formula.
+/// Serialises a text in a form that spreadsheets do not interpret as a formula.
 fn field<S: Serializer>(text: &str, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&report::in_csv(text))
 }

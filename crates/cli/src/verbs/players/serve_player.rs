@@ -1,4 +1,5 @@
-//! `arcade serve-player`: serves a player of known strength through a chat completions API, for this machine only.
+//! `arcade serve-player`: serves a player of known strength through a chat completions API, only on this
+//! machine.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};

@@ -1,4 +1,4 @@
-//! `arcade completions`: scripts that let a shell complete arcade's commands.
+//! `arcade completions`: shell completion scripts for arcade's commands.
 
 use crate::console::Console;
 use crate::failure::Answer;

@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     found(&pages, &wanted, about_verb, console)
 }
 
-/// The pages that describe a subcommand that has no page with its own name, most relevant first.
+/// The pages about subcommands without a page of their own name, most relevant first.
 const VERBS: [(&str, &[&str]); 23] = [
     ("calibrate", &["calibrate", "scale"]),
     ("clean", &["command-line"]),
@@ -78,10 +78,10 @@ const VERBS: [(&str, &[&str]); 23] = [
     ("help", &["command-line"]),
 ];
 
-/// The maximum number of pages that a search lists.
+/// The maximum number of pages listed by a search.
 const SHOWN: usize = 8;
 
-/// Lists the pages about a word that is not itself a page.
+/// Lists the pages about a word other than a page name.
 fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -> Answer {
     let of_verb = about_verb.iter().filter_map(|name| pages.iter().find(|page| page.name == *name));
     let of_verb = of_verb.map(|page| (page, page.title().to_owned()));
@@ -105,10 +105,10 @@ fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -
     Ok(true)
 }
 
-/// The width of the lists of names.
+/// The width of name lists, in columns.
 const COLUMNS: usize = 100;
 
-/// Returns the contents, which are the pages of each section with their titles, and the nested pages by name.
+/// Returns the table of contents: the pages of each section with their titles, and nested pages by name.
 fn list(pages: &[Page]) -> String {
     let is_titled = |page: &Page| page.depth == 0;
     let width = pages.iter().filter(|page| is_titled(page)).map(|page| page.name.len()).max().unwrap_or(0);
@@ -129,7 +129,7 @@ fn list(pages: &[Page]) -> String {
     text
 }
 
-/// Lists the nested pages of a folder by name, in lines of [`COLUMNS`] characters.
+/// Lists a folder's nested pages by name, in lines of [`COLUMNS`] characters.
 fn names(folder: &str, pages: &[&Page], text: &mut String) {
     let _ = write!(text, "\n{}:", folder.rsplit('/').next().unwrap_or(folder));
     let mut column = COLUMNS;

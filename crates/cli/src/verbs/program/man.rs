@@ -37,7 +37,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the manual pages with their file names, starting with the page of arcade itself.
+/// Returns the manual pages with their file names, starting with the page for `arcade` itself.
 fn pages() -> Result<Vec<(String, String)>, Failure> {
     let mut command = usage::command().disable_help_subcommand(true);
     command.build();

@@ -1,4 +1,4 @@
-//! `arcade diff`: a comparison of two snapshots.
+//! `arcade diff`: compares two snapshots.
 
 use crate::console::Console;
 use crate::failure::Answer;
@@ -43,7 +43,7 @@ pub(crate) struct Args {
     trust: TrustArgs,
 }
 
-/// The maximum number of values of a distribution to list, most frequent first.
+/// The maximum number of a distribution's values to list, most frequent first.
 const MAX_LISTED: usize = 12;
 /// The maximum number of kept and changed items to list.
 const MAX_RETURNED: usize = 20;
@@ -128,7 +128,8 @@ fn counts(changes: &Changes) -> String {
     format!("{new} new, {kept} kept, {changed} kept with a different theme, {gone} removed")
 }
 
-/// Describes a distance and whether it may be due to chance. If a side has no values, there is no distance to describe.
+/// Describes a distance, and whether it may be due to chance. If a side has no values, there is no distance
+/// to describe.
 fn verdict(distance: Option<f64>, p: Option<f64>, unmeasured: Unmeasured) -> String {
     let partly = match unmeasured {
         Unmeasured { before: 0, after: 0 } => String::new(),
@@ -181,8 +182,8 @@ fn number(shift: &NumberShift, console: &Console) {
     ));
 }
 
-/// Rounds a figure to three significant digits, but keeps all digits before the decimal point. Trailing zeros are
-/// omitted.
+/// Rounds a figure to three significant digits, but keeps all digits before the decimal point. Omits trailing
+/// zeros.
 fn rounded(figure: f64) -> String {
     let decimals = match figure.abs() {
         size if size >= 100.0 => 1,
@@ -216,7 +217,7 @@ fn ladder(rungs: &[RungDifference], console: &Console) {
     }
 }
 
-/// Lists the differences in marks by tier, with the differences over all levels last.
+/// Lists the differences in marks by tier, with the overall differences last.
 fn marked(marks: &[MarkDifference], console: &Console) {
     if marks.is_empty() {
         return;

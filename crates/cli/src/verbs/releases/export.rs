@@ -62,7 +62,7 @@ enum FormatName {
 }
 
 impl FormatName {
-    /// Returns the dataset format; `None` for an archive.
+    /// Returns the dataset format, or `None` for an archive.
     fn of_export(self) -> Option<Format> {
         match self {
             FormatName::Jsonl => Some(Format::JsonLines),
@@ -170,7 +170,8 @@ fn archive(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Reports a snapshot that does not verify. The report is an answer with all problems, not a failure.
+/// Reports a snapshot that fails verification. The report is an answer that lists all problems, not a
+/// failure.
 pub(crate) fn unsound(error: ReleasedError, console: &Console) -> Answer {
     match error {
         ReleasedError::Unsound(verification) => {

@@ -1,4 +1,4 @@
-//! `arcade gallery`: writes a release as a page of static files.
+//! `arcade gallery`: writes a release as a static web page.
 
 use super::export::unsound;
 use crate::console::Console;

@@ -1,4 +1,4 @@
-//! `arcade merge`: joins the shards of a release.
+//! `arcade merge`: merges a release's shards.
 
 use crate::console::Console;
 use crate::failure::Answer;

@@ -17,7 +17,7 @@ use snapshots::{Compared, Draft, Manifest, Regenerated, Regeneration};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// The default maximum number of forward-model calls for one level.
+/// The default maximum number of forward-model calls per level.
 const MAX_WORK: u64 = 1 << 28;
 
 /// Mints a snapshot again from the recipe in its manifest and compares every byte.
@@ -122,7 +122,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     answer(args, &Answered { manifest: &minted.manifest, compared: &compared, minted: true }, console)
 }
 
-/// A regenerated release, and its comparison with the original.
+/// A regenerated release, with its comparison to the original.
 struct Answered<'a> {
     manifest: &'a Manifest,
     compared: &'a Compared,

@@ -5,14 +5,14 @@ use crate::client::chat::{ChatMessage, ChatReply, ChatRequest, Finish, Role, Usa
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The version of the API, which is sent in a header of every request.
+/// The API version, sent in a header with every request.
 pub(super) const VERSION: &str = "2023-06-01";
 
-/// The token limit for an answer if the user sets no limit. The API requires a value.
+/// The default token limit for an answer. The API requires a limit.
 pub(super) const MAX_TOKENS: u32 = 8192;
 
-/// Returns the body of a request. The system message is constant throughout an episode, so its end is marked
-/// as the end of the prefix that the provider should cache.
+/// Returns a request's body. The system message is constant throughout an episode, so its end is marked as
+/// the end of the prefix to cache.
 pub(super) fn body(model: &str, request: &ChatRequest) -> Value {
     let decoding = &request.decoding;
     let of_system = |message: &&ChatMessage| message.role == Role::System;

@@ -5,7 +5,7 @@ use crate::client::chat::{ChatMessage, ChatReply, ChatRequest, Decoding, Finish,
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// Returns the body of a request. The body omits the model, which is part of the URL.
+/// Returns a request's body. The body omits the model, which is part of the URL.
 pub(super) fn body(request: &ChatRequest) -> Value {
     let of_system = |message: &&ChatMessage| message.role == Role::System;
     let system: Vec<Value> = request.messages.iter().filter(of_system).map(|m| text(&m.text)).collect();
@@ -84,7 +84,7 @@ struct Feedback {
     block_reason: Option<String>,
 }
 
-/// The token counts in a reply. The count for the answer excludes thoughts.
+/// The token counts in a reply. The answer's count excludes thoughts.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Counts {

@@ -1,4 +1,4 @@
-//! The APIs of model servers. Each API has a module that builds request bodies and parses reply bodies.
+//! Model server APIs. Each API has a module that builds request bodies and parses reply bodies.
 
 mod anthropic;
 mod gemini;
@@ -16,11 +16,12 @@ use serde_json::Value;
 use ureq::http::HeaderValue;
 
 base::named_enum! {
-    /// The API of a server.
+    /// A server's API.
     pub enum Provider {
-        /// OpenAI's chat-completions API, in the dialect of its own servers.
+        /// OpenAI's chat-completions API, in the dialect of OpenAI's own servers.
         OpenAi = "openai",
-        /// The chat-completions API of other servers, such as vLLM, llama.cpp, Ollama and gateways.
+        /// The chat-completions API as implemented by other servers, such as vLLM, llama.cpp, Ollama and
+        /// gateways.
         Compatible = "compatible",
         /// Anthropic's messages API.
         Anthropic = "anthropic",
@@ -46,7 +47,7 @@ impl Provider {
         }
     }
 
-    /// Returns the name of the environment variable that holds the key.
+    /// Returns the name of the environment variable that contains the key.
     pub fn key_variable(self) -> &'static str {
         match self {
             Provider::OpenAi | Provider::Compatible => "OPENAI_API_KEY",
@@ -55,11 +56,11 @@ impl Provider {
         }
     }
 
-    /// Returns the decoding to send: the requested settings plus the settings that this provider requires.
+    /// Returns the decoding to send: the requested settings plus the provider's required settings.
     ///
     /// # Errors
-    /// Returns an error if the request uses a setting that the provider does not have, or a number outside
-    /// its range.
+    /// Returns an error if the request uses a setting that the provider does not support, or an out-of-range
+    /// number.
     pub(super) fn decoding(self, requested: &Decoding) -> Result<Decoding, EvaluationError> {
         let mut decoding = requested.clone();
         check_ranges(requested).map_err(EvaluationError::Malformed)?;
@@ -105,7 +106,7 @@ impl Provider {
         }
     }
 
-    /// Parses the body of a reply.
+    /// Parses a reply body.
     ///
     /// # Errors
     /// Returns the reason why the body is not a reply.
@@ -119,7 +120,7 @@ impl Provider {
     }
 }
 
-/// Rejects numbers that no sampler can use.
+/// Rejects numbers that samplers do not accept.
 fn check_ranges(decoding: &Decoding) -> Result<(), String> {
     let in_range = |flag: &str, value: Option<f64>, most: f64| match value {
         Some(value) if !(0.0..=most).contains(&value) => {
@@ -135,11 +136,11 @@ fn check_ranges(decoding: &Decoding) -> Result<(), String> {
     }
 }
 
-/// The text sent instead of an empty message, for APIs that reject empty messages. The text shows a model
-/// that its answer was empty.
+/// The text sent in place of an empty message, for APIs that reject empty messages. The placeholder shows a
+/// model that its answer was empty.
 const PLACEHOLDER: &str = "(no words)";
 
-/// Returns the text, or [`PLACEHOLDER`] if it is empty.
+/// Returns the text, or [`PLACEHOLDER`] if the text is empty.
 fn text_or_placeholder(text: &str) -> &str {
     if text.trim().is_empty() { PLACEHOLDER } else { text }
 }
@@ -148,7 +149,7 @@ fn base64(picture: &[u8]) -> String {
     STANDARD.encode(picture)
 }
 
-/// Returns a JSON object that contains the fields whose values are set.
+/// Returns a JSON object with the fields whose values are set.
 fn object(fields: Vec<(&str, Option<Value>)>) -> Value {
     fields.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
@@ -157,7 +158,7 @@ fn parse<'a, T: Deserialize<'a>>(body: &'a str) -> Result<T, String> {
     serde_json::from_str(body).map_err(|error| format!("a body that is not a reply: {error}"))
 }
 
-/// Joins texts with line breaks. Returns `None` if there are no texts.
+/// Joins texts with line breaks. Returns `None` if the list is empty.
 fn joined(texts: Vec<String>) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("\n"))
 }

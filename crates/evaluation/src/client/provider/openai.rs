@@ -6,13 +6,12 @@ use itertools::Itertools;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The dialects of chat completions.
+/// The dialects of the chat-completions API.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
-    /// The dialect of OpenAI's own servers, whose reasoning models accept only the newer name of the token
-    /// limit.
+    /// The dialect of OpenAI's own servers, whose reasoning models accept only the token limit's newer name.
     Own,
-    /// The dialect of other servers, some of which accept only the older name of the token limit.
+    /// The dialect of other servers, some of which accept only the token limit's older name.
     Compatible,
 }
 
@@ -63,9 +62,9 @@ struct Choice {
 struct Message {
     content: Option<Content>,
     refusal: Option<String>,
-    /// The reasoning, in the field that DeepSeek, vLLM and llama.cpp use.
+    /// The reasoning, in the field used by DeepSeek, vLLM and llama.cpp.
     reasoning_content: Option<String>,
-    /// The reasoning, in the field that Ollama, OpenRouter and later versions of vLLM use.
+    /// The reasoning, in the field used by Ollama, OpenRouter and later versions of vLLM.
     reasoning: Option<String>,
 }
 
@@ -83,7 +82,7 @@ pub(crate) struct Part {
 }
 
 impl Content {
-    /// Returns the texts of the content, joined with line breaks.
+    /// Returns the content's texts, joined with line breaks.
     pub(crate) fn text(self) -> String {
         match self {
             Content::Text(text) => text,
@@ -99,8 +98,8 @@ struct Counts {
     total_tokens: Option<u64>,
     prompt_tokens_details: Option<InputDetails>,
     completion_tokens_details: Option<OutputDetails>,
-    /// The number of cached prompt tokens, in the field that DeepSeek uses. Other servers report the number
-    /// among the details.
+    /// The number of cached prompt tokens, in the field used by DeepSeek. Other servers report this number in
+    /// the details.
     prompt_cache_hit_tokens: Option<u64>,
 }
 

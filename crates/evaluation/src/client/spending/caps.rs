@@ -1,4 +1,4 @@
-//! Caps on the spending of an evaluation, shared by all its threads.
+//! Spending caps for an evaluation, shared by all its threads.
 
 use super::estimate::Estimate;
 use super::prices::{Price, Usd};
@@ -7,7 +7,7 @@ use crate::log::Event;
 use crate::tokens;
 use std::sync::{Mutex, MutexGuard};
 
-/// The limits on spending. `None` means that there is no limit.
+/// The spending limits. `None` means no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
     /// The maximum cost, computed from the price table.
@@ -18,23 +18,23 @@ pub struct Limits {
     pub requests: Option<u64>,
 }
 
-/// The amounts that an evaluation has spent.
+/// The amounts spent by an evaluation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spent {
     /// The number of answered requests.
     pub requests: u64,
     /// The number of tokens in prompts and answers.
     pub tokens: u64,
-    /// The total cost of the requests whose prices are known.
+    /// The total cost of all requests with known prices.
     pub cost: Usd,
 }
 
-/// Enforces the limits of an evaluation.
+/// Enforces an evaluation's limits.
 ///
-/// A request is allowed if its prompt, the prompts in flight and the amounts spent add up to no more than the
-/// limits. The request is charged once, by the usage in its reply, or by a local count of its text if the
-/// reply reports no usage. The cost of an answer is not known in advance, so the answers in flight when a
-/// limit is reached can exceed it. Failed tries are not charged, because their cost is not reported.
+/// A request is allowed if its prompt, the prompts in flight and the amounts spent do not exceed the limits
+/// in total. The request is charged once, by the usage in its reply, or by a local count of its text if the
+/// reply reports no usage. An answer's cost is not known in advance, so the answers in flight can exceed a
+/// limit after it is reached. Failed tries are not charged, because their cost is not reported.
 #[derive(Debug)]
 pub struct Caps {
     limits: Limits,
@@ -45,12 +45,12 @@ pub struct Caps {
 #[derive(Debug, Default)]
 struct Ledger {
     spent: Spent,
-    /// The amounts reserved for the prompts of the requests in flight.
+    /// The amounts reserved for prompts in flight.
     reserved: Spent,
 }
 
 impl Caps {
-    /// Creates caps with the given limits. `price` is the model's price, if it is known.
+    /// Creates caps with the given limits. `price` is the model's price, if known.
     pub fn new(limits: Limits, price: Option<Price>) -> Caps {
         Caps { limits, price, ledger: Mutex::default() }
     }
@@ -60,8 +60,7 @@ impl Caps {
         self.ledger().spent
     }
 
-    /// Charges the amounts that an episode's log records from earlier runs of the program. Cached answers
-    /// cost nothing.
+    /// Charges the amounts that an episode's log records from earlier program runs. Cached answers are free.
     pub fn charge_logged(&self, events: &[Event]) {
         let mut prompt = 0;
         for event in events {
@@ -77,7 +76,7 @@ impl Caps {
         }
     }
 
-    /// Admits a request with a prompt of about `prompt` tokens.
+    /// Admits a request whose prompt has about `prompt` tokens.
     ///
     /// # Errors
     /// Returns a message with the limit that forbids the request.
@@ -118,7 +117,7 @@ impl Caps {
 }
 
 impl Limits {
-    /// Returns the limit that the given amounts would exceed, in the form of its command-line option.
+    /// Returns the limit that the given amounts would exceed, formatted as its command-line option.
     fn exceeded(&self, spent: &Spent) -> Option<String> {
         if let Some(limit) = self.cost.filter(|limit| spent.cost > *limit) {
             return Some(format!("--max-cost {limit}"));
@@ -130,8 +129,8 @@ impl Limits {
         Some(format!("--max-requests {limit}"))
     }
 
-    /// Returns the limit that a whole evaluation would exceed according to its estimate, in the form of its
-    /// command-line option. Dry runs report this limit.
+    /// Returns the limit that an evaluation is estimated to exceed in total, formatted as its command-line
+    /// option. Dry runs report this limit.
     pub fn exceeded_by_estimate(&self, estimate: &Estimate) -> Option<String> {
         let tokens = estimate.input_tokens.saturating_add(estimate.output_tokens);
         self.exceeded(&Spent { requests: estimate.requests, tokens, cost: estimate.cost.unwrap_or_default() })
@@ -156,8 +155,7 @@ impl Spent {
     }
 }
 
-/// A reservation for a request in flight. Nothing is charged if the reservation is dropped before it is
-/// settled.
+/// A reservation for a request in flight. Dropping a reservation before it is settled charges nothing.
 #[derive(Debug)]
 #[must_use]
 pub(in crate::client) struct Reservation<'a> {

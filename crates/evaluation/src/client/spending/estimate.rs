@@ -1,14 +1,14 @@
-//! Estimates of the tokens and costs of requests before they are sent.
+//! Estimates requests' tokens and costs before they are sent.
 
 use super::prices::{Price, Usd};
 use crate::client::chat::{ChatMessage, ChatRequest, Usage};
 use crate::tokens;
 
-/// The number of tokens counted for an image whose size cannot be read.
+/// The token count assumed for an image of unreadable size.
 const PICTURE: u64 = 1000;
 
-/// Estimates the number of tokens in a request's prompt with a local count, because the vocabularies of models
-/// differ.
+/// Estimates the number of tokens in a request's prompt. The local count is only an estimate, because model
+/// vocabularies differ.
 pub(in crate::client) fn prompt_tokens(request: &ChatRequest) -> u64 {
     let picture =
         |png: &Vec<u8>| size(png).map_or(PICTURE, |(width, height)| tokens::of_picture(width, height));
@@ -18,18 +18,18 @@ pub(in crate::client) fn prompt_tokens(request: &ChatRequest) -> u64 {
     request.messages.iter().map(message).sum()
 }
 
-/// Returns the width and height of a PNG image, read from its first chunk.
+/// Returns the width and height of a PNG image, read from the image's first chunk.
 fn size(png: &[u8]) -> Option<(u32, u32)> {
     let word = |at: usize| Some(u32::from_be_bytes(png.get(at..at + 4)?.try_into().ok()?));
     Some((word(16)?, word(20)?))
 }
 
-/// A group of expected requests whose prompts share a prefix, such as the requests of an episode.
+/// A group of expected requests whose prompts share a prefix, such as all requests in an episode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch {
     /// The number of requests.
     pub requests: u64,
-    /// The number of tokens in the common prefix of all prompts.
+    /// The number of tokens in the prefix shared by all prompts.
     pub stable_tokens: u64,
     /// The average number of tokens per prompt after the common prefix.
     pub changing_tokens: u64,
@@ -37,14 +37,14 @@ pub struct Batch {
     pub output_tokens: u64,
 }
 
-/// The estimate for a whole evaluation.
+/// The estimate for an entire evaluation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Estimate {
-    /// The number of requests, assuming that no request is repeated.
+    /// The number of requests, assuming no repeats.
     pub requests: u64,
     /// The number of tokens in all prompts.
     pub input_tokens: u64,
-    /// The number of prompt tokens that the provider may have in its cache. They are the prefixes of all
+    /// The maximum number of prompt tokens served from the provider's cache. They are the prefixes of all
     /// requests in a batch except the first.
     pub cacheable_tokens: u64,
     /// The number of tokens in all answers.

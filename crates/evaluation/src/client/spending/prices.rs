@@ -1,4 +1,4 @@
-//! The prices of tokens. If a model's price is unknown, its cost is unknown too, rather than zero.
+//! Token prices. If a model's price is unknown, its cost is unknown too, rather than zero.
 
 use crate::client::chat::Usage;
 use crate::client::provider::Provider;
@@ -9,22 +9,22 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// An amount of money, stored as an integer number of 10⁻¹² US dollars, so that a sum does not depend on the order of
-/// the replies.
+/// An amount of money in US dollars, stored as a multiple of 10⁻¹² dollars. Integers make sums independent of
+/// the order in which replies arrive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Usd(u64);
 
 /// The maximum size of a price table, in bytes.
 const MAX_PRICES: usize = 1 << 20;
 
-/// The number of units of [`Usd`] per dollar.
+/// The number of [`Usd`] units per dollar.
 const UNITS_PER_DOLLAR: f64 = 1e12;
 
-/// The maximum accepted amount, in dollars. A greater amount is assumed to be a typing error.
+/// The maximum accepted amount, in dollars. Greater amounts are assumed to be typing errors.
 const MAX_DOLLARS: f64 = 1e6;
 
 impl Usd {
-    /// Converts an amount in dollars. Returns `None` if the amount is not between 0 and a million.
+    /// Converts an amount from dollars. Returns `None` unless the amount is between 0 and a million.
     pub fn from_dollars(dollars: f64) -> Option<Usd> {
         (0.0..=MAX_DOLLARS).contains(&dollars).then(|| Usd((dollars * UNITS_PER_DOLLAR).round() as u64))
     }
@@ -65,19 +65,19 @@ impl FromStr for Usd {
     }
 }
 
-/// The prices of a model's tokens, in US dollars per million.
+/// A model's token prices, in US dollars per million tokens.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Price {
-    /// The price of input tokens.
+    /// The price for input tokens.
     pub input: f64,
-    /// The price of input tokens read from the provider's cache.
+    /// The price for input tokens read from the provider's cache.
     pub cached_input: f64,
-    /// The price of input tokens written to the provider's cache.
+    /// The price for input tokens written to the provider's cache.
     pub cache_write: f64,
-    /// The price of output tokens, including reasoning.
+    /// The price for output tokens, including reasoning.
     pub output: f64,
-    /// The date of the price, as stated in the table.
+    /// The date of the price, as given in the table.
     pub as_of: String,
 }
 
@@ -97,7 +97,7 @@ impl Price {
     }
 }
 
-/// Returns the cost of a number of tokens at a price per million.
+/// Returns the cost of `tokens` tokens at a price per million.
 fn of(tokens: u64, price: f64) -> Usd {
     Usd(tokens.saturating_mul((price * (UNITS_PER_DOLLAR / 1e6)).round() as u64))
 }
@@ -133,7 +133,7 @@ impl Prices {
         Prices { tables: vec![table] }
     }
 
-    /// Returns the price table in a file, followed by the embedded table.
+    /// Returns the price table from a file, followed by the embedded table.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read, or is not a price table.
@@ -146,7 +146,7 @@ impl Prices {
         Ok(prices)
     }
 
-    /// Returns the price of a model, if it is known.
+    /// Returns a model's price, if known.
     pub fn find(&self, provider: Provider, model: &str) -> Option<Price> {
         self.tables.iter().find_map(|table| {
             let fitting = table.model.iter().filter(|row| row.provider == provider && fits(&row.name, model));

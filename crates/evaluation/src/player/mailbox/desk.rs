@@ -1,4 +1,4 @@
-//! The player's side of a mailbox, on which people and programs answer prompts.
+//! The player's side of a mailbox, where people and programs answer prompts.
 
 use super::files::{
     FINISHED_FILE, FINISHED_TEXT, MAX_ANSWER, PROBLEM_FILE, PromptFile, is_absent, names, read_data,
@@ -19,22 +19,22 @@ pub struct Desk {
     player: String,
 }
 
-/// A snapshot of the content of a mailbox.
+/// A snapshot of a mailbox's content.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct View {
-    /// The prompts that are waiting for an answer, sorted by episode.
+    /// The open prompts, sorted by episode.
     pub waiting: Vec<OpenPrompt>,
-    /// The number of answered prompts whose answers the evaluation has not read yet.
+    /// The number of answers that the evaluation has not read yet.
     pub answered: usize,
-    /// The episodes that have ended, with their results.
+    /// The ended episodes, with their results.
     pub ended: Vec<(String, EpisodeResult)>,
-    /// The result of the whole evaluation, once all episodes have ended.
+    /// The result of the entire evaluation, once all episodes have ended.
     pub finished: Option<Finished>,
     /// `true` if an evaluation is currently using the mailbox.
     pub is_running: bool,
 }
 
-/// A prompt that is waiting for an answer.
+/// An unanswered prompt.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OpenPrompt {
     /// The prompt to answer.
@@ -46,7 +46,7 @@ pub struct OpenPrompt {
 /// The result of delivering an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Delivery {
-    /// The answer was written to its file.
+    /// The answer was written to the answer file.
     Delivered,
     /// The prompt was already answered, or is no longer open.
     TooLate,
@@ -74,17 +74,17 @@ impl Desk {
         }
     }
 
-    /// Returns the name of the player in results.
+    /// Returns the player's name in results.
     pub fn player(&self) -> &str {
         &self.player
     }
 
-    /// Returns the folder of an episode.
+    /// Returns an episode's folder.
     pub fn episode(&self, episode: &str) -> PathBuf {
         self.folder.join(episode)
     }
 
-    /// Returns the current content of the mailbox.
+    /// Returns the mailbox's current content.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read or is damaged.
@@ -121,7 +121,7 @@ impl Desk {
         Ok(view)
     }
 
-    /// Returns the last message of an episode, or `None` if the episode has not ended.
+    /// Returns an episode's last message, or `None` if the episode has not ended.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
@@ -129,7 +129,7 @@ impl Desk {
         read_text(&self.episode(episode).join(FINISHED_TEXT))
     }
 
-    /// Delivers the answer to a prompt, unless the prompt already has an answer.
+    /// Delivers a prompt's answer, unless the prompt already has an answer.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.

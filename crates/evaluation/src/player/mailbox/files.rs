@@ -1,4 +1,4 @@
-//! The names and contents of the files in a mailbox, with functions that read and write them.
+//! The names and contents of mailbox files, with functions that read and write them.
 
 use crate::client::ChatMessage;
 use crate::error::EvaluationError;
@@ -13,13 +13,13 @@ use std::str::FromStr;
 
 /// The name of the file that marks a folder as a mailbox.
 pub(super) const MARKER_FILE: &str = "mailbox.json";
-/// The name of the lock file, which is locked by the evaluation that writes to the mailbox.
+/// The name of the lock file, locked by the evaluation that writes to the mailbox.
 pub(super) const LOCK_FILE: &str = ".lock";
-/// The name of the file with the result of an episode or of the whole evaluation.
+/// The name of the file with an episode's result, or with the result of the entire evaluation.
 pub(super) const FINISHED_FILE: &str = "finished.json";
-/// The name of the file with the last message of an episode.
+/// The name of the file with an episode's last message.
 pub(super) const FINISHED_TEXT: &str = "finished.txt";
-/// The name of the file with the problem of the last answer that was set aside.
+/// The name of the file that describes the problem with the last answer that was set aside.
 pub(super) const PROBLEM_FILE: &str = "problem.txt";
 
 /// The maximum size of an answer, in bytes (256 KiB).
@@ -27,8 +27,8 @@ pub const MAX_ANSWER: usize = 1 << 18;
 /// The maximum size of any other file in a mailbox, in bytes.
 pub(super) const MAX_FILE: u64 = 1 << 26;
 
-/// The address of a prompt within its episode, such as `0007-0`. The names of the prompt's files are derived
-/// from its address.
+/// A prompt's address within its episode, such as `0007-0`. The names of the prompt's files are derived from
+/// the address.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Address {
     /// The number of actions played before the decision.
@@ -38,22 +38,22 @@ pub struct Address {
 }
 
 impl Address {
-    /// Returns the name of the file with the prompt as text.
+    /// Returns the name of the file that contains the prompt as text.
     pub fn prompt_text(self) -> String {
         format!("{self}.prompt.txt")
     }
 
-    /// Returns the name of the file with the prompt as data in the form of a [`PromptFile`].
+    /// Returns the name of the file that contains the prompt as data ([`PromptFile`]).
     pub fn prompt_data(self) -> String {
         format!("{self}.prompt.json")
     }
 
-    /// Returns the name of the file with the image that accompanies the prompt.
+    /// Returns the name of the prompt's image file.
     pub fn picture(self) -> String {
         format!("{self}.png")
     }
 
-    /// Returns the name of the file for the answer to the prompt.
+    /// Returns the name of the prompt's answer file.
     pub fn answer(self) -> String {
         format!("{self}.answer.txt")
     }
@@ -81,23 +81,23 @@ impl FromStr for Address {
     }
 }
 
-/// A prompt in the form of data.
+/// A prompt as data.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PromptFile {
     /// The version of the file format.
     pub format: u32,
     /// The name of the episode's folder.
     pub episode: String,
-    /// The address of the prompt.
+    /// The prompt's address.
     #[serde(flatten)]
     pub address: Address,
     /// The available actions.
     pub actions: Vec<String>,
-    /// The name of the file for the answer, in the folder of the prompt.
+    /// The name of the answer file, in the prompt's folder.
     pub answer: String,
     /// The conversation without images, oldest message first.
     pub messages: Vec<ChatMessage>,
-    /// The name of the PNG file with the image of the newest message.
+    /// The name of the PNG file with the newest message's image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,
 }
@@ -117,7 +117,7 @@ pub(super) fn write_data(folder: &Path, name: &str, data: &impl Serialize) -> Re
 /// Reads data from a JSON file. Returns `None` if the file does not exist.
 ///
 /// # Errors
-/// Returns an error if the path is not a plain file with data of this type, or cannot be read.
+/// Returns an error if the path is not a plain file with data of this type, or if the file cannot be read.
 pub(super) fn read_data<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, EvaluationError> {
     let Some(text) = read_text(path)? else { return Ok(None) };
     let wrong = |error: serde_json::Error| {
@@ -149,7 +149,7 @@ pub(super) fn is_absent(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::NotFound
 }
 
-/// Returns the sorted names in a folder, except for hidden names and names that are not Unicode.
+/// Returns the sorted names in a folder, except for hidden names and non-Unicode names.
 pub(super) fn names(folder: &Path) -> Result<Vec<String>, EvaluationError> {
     let list = || -> io::Result<Vec<String>> {
         let mut names = Vec::new();

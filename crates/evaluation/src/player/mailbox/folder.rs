@@ -1,4 +1,4 @@
-//! Creates, locks and finishes the folder of a mailbox, on the evaluation's side.
+//! Creates, locks and finishes a mailbox folder, on the evaluation's side.
 
 use super::MAILBOX_FORMAT;
 use super::files::{FINISHED_FILE, LOCK_FILE, MARKER_FILE, names, read_data, write_data};
@@ -14,16 +14,16 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-/// The number of tries to lock a mailbox. A [`Desk`](super::Desk) holds the lock briefly while it tests
-/// whether an evaluation holds it.
+/// The number of tries to lock a mailbox. A [`Desk`](super::Desk) acquires the lock briefly to test whether
+/// an evaluation has locked the mailbox.
 const TRIES: u32 = 20;
-/// The pause between two tries to lock a mailbox.
+/// The pause between tries to lock a mailbox.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// A function that shows notices to the user who started the evaluation.
 pub type Notices = Arc<dyn Fn(&str) + Send + Sync>;
 
-/// A mailbox, on the evaluation's side.
+/// A mailbox, from the evaluation's side.
 pub struct Mailbox {
     pub(super) folder: PathBuf,
     pub(super) player: String,
@@ -36,13 +36,13 @@ pub struct Mailbox {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Marker {
     pub(super) format: u32,
-    /// The name of the player in results.
+    /// The player's name in results.
     pub(super) player: String,
-    /// The digest of the settings of the evaluation that uses the mailbox.
+    /// The settings digest of the evaluation that uses the mailbox.
     pub(super) evaluation: Digest,
 }
 
-/// The result of a whole evaluation.
+/// The result of an entire evaluation.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Finished {
     /// The number of episodes.
@@ -52,8 +52,8 @@ pub struct Finished {
 }
 
 impl Mailbox {
-    /// Opens the mailbox of an evaluation. The folder must be absent or empty. With `resume`, it may also be
-    /// the mailbox of the same evaluation. A mailbox without any episode can be used by every evaluation.
+    /// Opens an evaluation's mailbox. The folder must be absent or empty. With `resume`, the folder may also
+    /// contain the same evaluation's mailbox. A mailbox without any episode can be used by every evaluation.
     ///
     /// # Errors
     /// Returns an error if the folder is unsuitable, cannot be written, or is used by a different evaluation.
@@ -103,17 +103,17 @@ impl Mailbox {
         Ok(Mailbox { folder: folder.to_owned(), player, notices, stopped: Mutex::default(), _lock: lock })
     }
 
-    /// Returns the path of the mailbox folder.
+    /// Returns the path to the mailbox folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Makes all episodes stop waiting for answers. Their prompts stay open for a resumed evaluation.
+    /// Stops all episodes from waiting for answers. Their prompts stay open for a resumed evaluation.
     pub fn stop(&self, halt: &Halt) {
         self.stopped.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
     }
 
-    /// Returns the reason why the episodes must stop waiting, if there is one.
+    /// Returns the reason why episodes must stop waiting, if any.
     pub(super) fn stopped(&self) -> Option<Halt> {
         self.stopped.lock().expect("no holder panics").clone()
     }
@@ -137,7 +137,7 @@ impl std::fmt::Debug for Mailbox {
     }
 }
 
-/// Reads the marker of a mailbox. Returns `None` if the folder has no marker.
+/// Reads a mailbox's marker. Returns `None` if the folder has no marker.
 pub(super) fn marker(folder: &Path) -> Result<Option<Marker>, EvaluationError> {
     let path = folder.join(MARKER_FILE);
     let Some(data) = read_data::<serde_json::Value>(&path)? else { return Ok(None) };
@@ -173,7 +173,7 @@ fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     Err(EvaluationError::malformed(folder, what))
 }
 
-/// Returns a digest of the settings. Different evaluations have different digests.
+/// Returns a digest of an evaluation's settings. Different evaluations have different digests.
 fn digest(settings: &Settings) -> Digest {
     Digest::of(&serde_json::to_vec(settings).expect("settings are plain data"))
 }

@@ -1,10 +1,9 @@
-//! Players that answer through files, such as people, chat windows and arbitrary programs
-//! (`docs/how-to/mailbox.md`).
+//! Players that answer through files: people, chat windows and arbitrary programs (`docs/how-to/mailbox.md`).
 //!
 //! [`Mailbox`] is the evaluation's side of the folder, and [`MailboxPlayer`] plays an episode through it.
-//! [`Desk`] is the player's side, which lists open prompts and delivers answers. Every file is complete when
-//! it appears, because it is written under a different name and then renamed. A resumed evaluation depends
-//! only on the log of the episode.
+//! [`Desk`] is the player's side, which lists open prompts and delivers answers. Files are written under a
+//! temporary name and then renamed, so every file is complete when it appears. A resumed evaluation depends
+//! only on the episodes' logs.
 
 mod desk;
 mod files;
@@ -16,6 +15,6 @@ pub use files::{Address, MAX_ANSWER, PromptFile};
 pub use folder::{Finished, Mailbox, Notices};
 pub use player::{EpisodeResult, MailboxPlayer};
 
-/// The version of the files in a mailbox. It is raised whenever a reader of older files could misread newer
-/// files.
+/// The version of the mailbox file format. The version is incremented whenever readers of older files might
+/// misread newer files.
 pub const MAILBOX_FORMAT: u32 = 1;

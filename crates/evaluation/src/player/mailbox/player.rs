@@ -1,4 +1,4 @@
-//! An agent that plays an episode through the files of a mailbox.
+//! An agent that plays an episode through mailbox files.
 
 use super::MAILBOX_FORMAT;
 use super::files::{
@@ -26,29 +26,29 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-/// The pause between two checks for an answer file.
+/// The pause between checks for an answer file.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// An agent whose prompts and answers are files in its episode's folder. Its prompts, its feedback on invalid
-/// answers and its parser are those of a language model.
+/// An agent whose prompts and answers are files in its episode's folder. The prompts, the feedback on invalid
+/// answers and the parser are the same as for a language model.
 pub struct MailboxPlayer {
     player: ModelPlayer,
     prompter: Arc<Prompter>,
     folder: Arc<EpisodeFolder>,
 }
 
-/// The result of an episode, as recorded in its folder.
+/// An episode's result, as recorded in its folder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EpisodeResult {
-    /// The outcome of the game, which is `ongoing` if the step limit was reached.
+    /// The game's outcome, or `ongoing` if the step limit was reached.
     pub outcome: Outcome,
-    /// The final score of the episode.
+    /// The episode's final score.
     pub score: f64,
     /// The number of actions played.
     pub steps: u64,
 }
 
-/// The folder of an episode, as a model. It answers a request once somebody has written the answer file.
+/// An episode's folder, as a model. The model answers a request once the answer file has been written.
 #[derive(Debug)]
 struct EpisodeFolder {
     mailbox: Arc<Mailbox>,
@@ -57,7 +57,7 @@ struct EpisodeFolder {
     open: Mutex<Open>,
 }
 
-/// The prompt that is open or is opened next.
+/// The current prompt, or the prompt to be opened next.
 #[derive(Debug, Default)]
 struct Open {
     address: Address,
@@ -65,8 +65,8 @@ struct Open {
 }
 
 impl MailboxPlayer {
-    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of times that
-    /// the question is repeated after an answer without an available action.
+    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of repeated
+    /// questions after answers without an available action.
     pub fn new(
         mailbox: Arc<Mailbox>,
         task: &Task<'_>,
@@ -81,7 +81,7 @@ impl MailboxPlayer {
 }
 
 impl MailboxPlayer {
-    /// Opens the next prompt, which asks about the given turn.
+    /// Opens the next prompt, for the given turn.
     fn open(&self, turn: &Turn<'_>, journal: &Journal) {
         let answered = journal.pending().iter().filter(|event| matches!(event, Event::Reply(_))).count();
         let address = Address { step: turn.number, attempt: answered as u32 };
@@ -89,7 +89,7 @@ impl MailboxPlayer {
         *self.folder.open.lock().expect("no holder panics") = Open { address, actions };
     }
 
-    /// Removes the files of a prompt whose answer is recorded in the log.
+    /// Removes the files of a prompt whose answer has been logged.
     fn close<T>(&self, answered: Result<T, Halt>) -> Result<T, Halt> {
         let answered = answered.map_err(|halt| self.folder.mailbox.stopped().unwrap_or(halt))?;
         self.folder.clear(None).map_err(|error| Halt::Infrastructure(told(&error)))?;
@@ -153,7 +153,7 @@ impl EpisodeFolder {
         EpisodeFolder { mailbox, episode, path, open: Mutex::default() }
     }
 
-    /// Creates the episode's folder, which may already exist.
+    /// Creates the episode's folder unless it already exists.
     fn create(&self) -> Result<(), EvaluationError> {
         match fs::create_dir(&self.path) {
             Ok(()) => Ok(()),
@@ -162,7 +162,7 @@ impl EpisodeFolder {
         }
     }
 
-    /// Removes the files of all prompts except for the prompt at `kept` and its answer.
+    /// Removes all prompt files except those at address `kept`, and all earlier answers.
     fn clear(&self, kept: Option<Address>) -> Result<(), EvaluationError> {
         let names = names(&self.path)?;
         let is_removed = |name: &&String| match split(name) {
@@ -176,7 +176,7 @@ impl EpisodeFolder {
         removed.into_iter().try_for_each(|name| remove(&self.path.join(name)))
     }
 
-    /// Writes the files of a prompt. The text file is written last.
+    /// Writes a prompt's files. The text file is written last.
     fn show(&self, open: &Open, messages: &[ChatMessage]) -> Result<(), EvaluationError> {
         let address = open.address;
         let picture = messages.last().and_then(|message| message.image.as_deref());
@@ -197,8 +197,8 @@ impl EpisodeFolder {
         write(&self.path, &address.prompt_text(), conversation(messages).as_bytes())
     }
 
-    /// Waits for the answer to the open prompt, or until the evaluation stops. Files that cannot be the
-    /// answer are set aside with a notice.
+    /// Waits for the answer to the open prompt, or until the evaluation stops. Unsuitable files are set aside
+    /// with a notice.
     fn wait(&self, address: Address) -> Result<String, EvaluationError> {
         let (mut last, mut is_told) = (None, false);
         loop {
@@ -250,7 +250,7 @@ impl EpisodeFolder {
         }
     }
 
-    /// Renames a file that cannot be the answer, and writes the reason to a file in the same folder.
+    /// Renames an unsuitable answer file, and writes the reason to a file in the same folder.
     fn set_aside(&self, name: &str, why: &str) -> Result<(), EvaluationError> {
         let to = |number: u32| name.replace(".answer.txt", &format!(".refused-{number}.txt"));
         let free = |name: &String| fs::symlink_metadata(self.path.join(name)).is_err();
@@ -335,13 +335,13 @@ fn look(path: &Path) -> Result<Look, EvaluationError> {
     }
 }
 
-/// Splits the name of a prompt's file into its address and its kind, such as `prompt.txt` or `answer.txt`.
+/// Splits a prompt file's name into its address and its kind, such as `prompt.txt` or `answer.txt`.
 fn split(name: &str) -> Option<(Address, &str)> {
     let (address, kind) = name.split_once('.')?;
     Some((address.parse().ok()?, kind))
 }
 
-/// Removes a file that may be absent.
+/// Removes a file if it exists.
 fn remove(path: &Path) -> Result<(), EvaluationError> {
     match fs::remove_file(path) {
         Err(error) if !is_absent(&error) => Err(EvaluationError::io("remove", path)(error)),
@@ -349,7 +349,7 @@ fn remove(path: &Path) -> Result<(), EvaluationError> {
     }
 }
 
-/// Returns a conversation as one text. Roles are shown only if the conversation contains an answer.
+/// Returns a conversation as a single text. Roles are shown only if the conversation contains an answer.
 fn conversation(messages: &[ChatMessage]) -> String {
     let has_answers = messages.iter().any(|message| message.role == Role::Assistant);
     let part = |message: &ChatMessage| match (has_answers, message.role) {
@@ -360,7 +360,7 @@ fn conversation(messages: &[ChatMessage]) -> String {
     messages.iter().map(part).join("\n\n") + "\n"
 }
 
-/// Formats an error and its cause on one line.
+/// Formats an error with its cause on one line.
 fn told(error: &EvaluationError) -> String {
     match error {
         EvaluationError::Io { source, .. } => format!("{error}: {source}"),

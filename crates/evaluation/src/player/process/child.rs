@@ -1,4 +1,4 @@
-//! A child process that communicates in lines of text.
+//! A child process that communicates through lines of text.
 
 #[cfg(unix)]
 use super::running::running;
@@ -13,29 +13,29 @@ use std::thread;
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// The maximum size of a line from a process, in bytes (1 MiB).
+/// The maximum length of a line from a process, in bytes (1 MiB).
 pub(super) const MAX_LINE: usize = 1 << 20;
 
-/// The number of trailing bytes kept from standard error.
+/// The number of trailing bytes retained from standard error.
 const STDERR_TAIL: usize = 2000;
 
-/// The number of unread lines from a process after which its writes block.
+/// The number of unread lines after which a process's writes block.
 const MAX_QUEUED_LINES: usize = 16;
 
-/// The time that a process has to exit after it was informed of the end.
+/// The time allowed for a process to exit after being notified of the end.
 pub(super) const EXIT_TIME: Duration = Duration::from_secs(2);
 
-/// The time that the reading threads have to deliver the remaining output of a dead process.
+/// The time allowed for the reader threads to deliver a dead process's remaining output.
 const DRAIN_TIME: Duration = Duration::from_millis(500);
 
-/// The number of polls in which a guard must kill its program and exit. With the pauses between polls, the
-/// time adds up to at most ten seconds.
+/// The number of polls within which a guard must kill its program and exit. With the pauses between polls,
+/// the total time is at most ten seconds.
 const POLLS: u32 = 2000;
-/// The pause between two polls for a guard.
+/// The pause between polls for a guard.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// The environment variables that every process inherits if they are set. They contain the locations of
-/// programs, libraries and caches, and the language. None of these variables holds an API key.
+/// The environment variables that every process inherits if they are set. The variables contain the locations
+/// of programs, libraries and caches, and the language. None of the variables contain an API key.
 const ENVIRONMENT: &[&str] = &[
     "PATH",
     "HOME",
@@ -54,14 +54,14 @@ const ENVIRONMENT: &[&str] = &[
 /// and removes the folder.
 #[derive(Debug)]
 pub(super) struct LineProcess {
-    /// The process, or the guard if the process has one.
+    /// The process, or its guard, if any.
     child: Child,
     is_guarded: bool,
-    /// The channel for sending lines, or `None` once nothing more will be sent.
+    /// The channel for sending lines, or `None` once the input is closed.
     input: Option<Sender<Vec<u8>>>,
     output: Receiver<Output>,
     stderr_tail: Receiver<String>,
-    /// The folder of the process, which is removed on drop.
+    /// The process's folder, removed on drop.
     _folder: TempDir,
     ended: bool,
 }
@@ -86,12 +86,12 @@ pub(super) enum NoLine {
 }
 
 impl LineProcess {
-    /// Starts a program. If a guard command is given, the program runs behind a guard. Words of the command
-    /// that are names of files are made absolute, because the process runs in a different folder.
+    /// Starts a program. If a guard command is given, the program runs behind a guard. File names in the
+    /// command are made absolute, because the process runs in a different folder.
     ///
     /// # Errors
     /// Returns an error if the process cannot be started. The error kind `Interrupted` means that this
-    /// program is about to end.
+    /// program is about to exit.
     pub(super) fn start(
         words: &[String],
         inherited: &[String],
@@ -147,7 +147,7 @@ impl LineProcess {
         })
     }
 
-    /// Sends a line without waiting until the process reads it.
+    /// Sends a line without waiting for the process to read it.
     pub(super) fn send_line(&self, mut line: Vec<u8>) {
         line.push(b'\n');
         if let Some(input) = &self.input {
@@ -166,8 +166,7 @@ impl LineProcess {
         }
     }
 
-    /// Closes the input of the process, and gives the process a moment to exit by itself. Its output is
-    /// ignored.
+    /// Closes the process's input, and gives the process a moment to exit by itself. Ignores its output.
     pub(super) fn close(mut self) {
         self.input = None;
         let closed = Stopwatch::start();
@@ -178,8 +177,8 @@ impl LineProcess {
         }
     }
 
-    /// Kills the process and all its descendants. Returns the exit status, if the process had already exited,
-    /// and the end of its standard error.
+    /// Kills the process and all its descendants. Returns the exit status, if the process has already exited,
+    /// and the last part of its standard error.
     pub(super) fn kill(mut self) -> (Option<ExitStatus>, String) {
         if matches!(self.receive(Duration::ZERO), Err(NoLine::Closed)) {
             // The process is already exiting, and will have its own exit status after a moment.
@@ -189,7 +188,7 @@ impl LineProcess {
         (status, self.stderr_tail.recv_timeout(DRAIN_TIME).unwrap_or_default())
     }
 
-    /// Kills the remaining processes and reaps the child.
+    /// Kills the remaining processes, and reaps the child.
     fn end(&mut self) -> Option<ExitStatus> {
         if std::mem::replace(&mut self.ended, true) {
             return None;
@@ -200,8 +199,8 @@ impl LineProcess {
         self.child.wait().ok()
     }
 
-    /// Makes the guard end its program, and kills the remaining process group. The process ID cannot be
-    /// reused before the process is reaped. `end_all` waits for the returned lock until then.
+    /// Makes the guard terminate its program, and kills the remaining process group. The process ID cannot be
+    /// reused until the process is reaped. Until then, `end_all` waits for the returned lock.
     #[cfg(unix)]
     fn end_group(&self) -> Option<std::sync::MutexGuard<'static, super::running::Running>> {
         use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
@@ -222,7 +221,7 @@ impl LineProcess {
         Some(running)
     }
 
-    /// Returns the folder in which the process runs.
+    /// Returns the process's working directory.
     #[cfg(test)]
     pub(super) fn folder(&self) -> &Path {
         self._folder.path()
@@ -259,8 +258,8 @@ fn spawn(command: &mut Command, is_guarded: bool) -> std::io::Result<Child> {
     }
 }
 
-/// Resolves a word so that it has the same meaning in any folder. If the word is the name of an existing
-/// file, returns the file's absolute path.
+/// Resolves a word so that it has the same meaning in any folder. If the word names an existing file, returns
+/// the file's absolute path.
 fn resolved(word: &str, may_be_file: bool) -> OsString {
     let path = Path::new(word);
     let absolute = || std::path::absolute(path).ok();

@@ -1,16 +1,16 @@
-//! The guard of an external player. A guard is a process between `arcade` and the player's program, which
-//! ends the program when `arcade` is gone.
+//! The guard of an external player. A guard is a process between `arcade` and the player's program. The guard
+//! terminates the program when `arcade` has exited.
 //!
-//! `arcade` can be killed without a chance to handle the signal, and a program can start processes that leave
-//! its process group (`setsid`). The guard relays the messages of `arcade` to the program. The stream of
-//! messages closes when the episode is over or `arcade` no longer exists. The guard then kills the program
-//! and all its descendants, and removes the folder in which the program ran. Standard output and standard
-//! error of the program go directly to `arcade`.
+//! `arcade` can be killed by a signal that it cannot handle, and a program can start processes that leave its
+//! process group (`setsid`). The guard relays the messages of `arcade` to the program. The message stream
+//! closes when the episode is over or `arcade` no longer exists. The guard then kills the program and all its
+//! descendants, and removes the folder in which the program ran. The program's standard output and standard
+//! error go directly to `arcade`.
 //!
 //! On Linux, the guard is the reaper of its descendants (`PR_SET_CHILD_SUBREAPER`). A process that outlives
 //! its parent stays a descendant of the guard, in any group or session, and can be found. On other systems,
-//! processes that have left the program's group escape. A control group would not find more processes,
-//! because a process started through an external service (`systemd-run`, `docker`) escapes both.
+//! processes that have left the program's group escape. A control group would not catch more processes:
+//! processes started through an external service (`systemd-run`, `docker`) escape both mechanisms.
 
 use super::child::EXIT_TIME;
 use rustix::io::Errno;
@@ -25,33 +25,33 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// The exit status of a guard whose program could not be started.
+/// The guard's exit status if its program could not be started.
 pub(super) const NOT_STARTED: i32 = 126;
 
-/// The beginning of the last message of a guard whose program could not be started. The reason follows.
+/// The beginning of the guard's last message if its program could not be started. The reason follows.
 pub(super) const NOT_STARTED_BECAUSE: &str = "arcade player-guard: not started: ";
 
-/// The maximum number of rounds in which all remaining descendants are killed.
+/// The maximum number of rounds for killing all remaining descendants.
 const ROUNDS: u32 = 1000;
 
 /// The pause after each round of killing descendants.
 const PAUSE: Duration = Duration::from_millis(5);
 
 enum Event {
-    /// A signal, which is `SIGCHLD` or a request to end.
+    /// A signal: `SIGCHLD`, or a request to exit.
     Signal(i32),
     InputEnded,
     /// The time for the program to exit voluntarily is over.
     TimeUp,
 }
 
-/// Runs a program until it has ended with all its descendants, or until it must end. The program must end two
-/// seconds after standard input has closed, or at once on `SIGTERM`, `SIGINT`, `SIGHUP` or `SIGQUIT`. Removes
-/// `folder` at the end.
+/// Runs a program until the program and all its descendants have exited, or until they must be killed. The
+/// program must exit within two seconds after standard input closes, or immediately on `SIGTERM`, `SIGINT`,
+/// `SIGHUP` or `SIGQUIT`. Removes `folder` at the end.
 ///
-/// Returns the exit status of the program, 128 plus the number of the signal that ended it, or 126 if it
-/// could not be started. A guard that has to kill its program also ends itself by `SIGKILL`, together with
-/// its process group. The guard should be the leader of that group.
+/// Returns the program's exit status, 128 plus the number of the signal that killed the program, or 126 if
+/// the program could not be started. A guard that has to kill its program also kills itself with `SIGKILL`,
+/// together with its process group. The guard should be the group's leader.
 pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
     let (sender, events) = channel();
     let started = Signals::new([SIGCHLD, SIGTERM, SIGINT, SIGHUP, SIGQUIT]).and_then(|signals| {
@@ -86,7 +86,7 @@ pub fn guard(folder: &Path, program: &OsString, arguments: &[OsString]) -> i32 {
     }
 }
 
-/// The guarded program and, once it has ended, its exit status.
+/// The guarded program, with its exit status once it has exited.
 struct Program {
     child: Child,
     status: Option<i32>,
@@ -97,8 +97,8 @@ impl Program {
         Pid::from_child(&self.child)
     }
 
-    /// Waits until all processes have ended or must end. Returns `true` if the caller may need the exit
-    /// status.
+    /// Waits until all processes have exited or must be killed. Returns `true` if the caller may need the
+    /// exit status.
     fn wait_for_end(&mut self, events: &Receiver<Event>, sender: &Sender<Event>) -> bool {
         loop {
             match events.recv().expect("this thread holds a sender") {
@@ -142,7 +142,7 @@ impl Program {
         self.status = had_left;
     }
 
-    /// Reaps all ended processes. Returns `true` if any process is still running.
+    /// Reaps all exited processes. Returns `true` if any process is still running.
     fn reap(&mut self) -> bool {
         loop {
             match wait(WaitOptions::NOHANG) {
@@ -158,8 +158,8 @@ impl Program {
     }
 }
 
-/// Closes the guard's standard output and standard error, so that `arcade` sees the end of output when the
-/// program closes them.
+/// Closes the guard's standard output and standard error, so that `arcade` sees the end of the output when
+/// the program closes its own.
 fn release_output() {
     if let Ok(nowhere) = std::fs::File::options().write(true).open("/dev/null") {
         let _ = rustix::stdio::dup2_stdout(&nowhere);
@@ -168,7 +168,7 @@ fn release_output() {
 }
 
 /// Relays standard input to the program. Reading never waits for writing, so the guard notices the end of
-/// input even while the program reads nothing. The buffer holds only messages that `arcade` sent without
+/// input even if the program never reads. The buffer contains only messages that `arcade` sent without
 /// waiting for an answer.
 fn relay(mut to: ChildStdin, sender: Sender<Event>) {
     let (pass, passed) = channel::<Vec<u8>>();
@@ -185,7 +185,7 @@ fn relay(mut to: ChildStdin, sender: Sender<Event>) {
     thread::spawn(move || passed.iter().try_for_each(|bytes| to.write_all(&bytes)));
 }
 
-/// Returns all descendants of this process, from the process table. Cost: O(processes).
+/// Returns all descendants of the current process, from the process table. Cost: O(processes).
 #[cfg(target_os = "linux")]
 fn descendants() -> Vec<Pid> {
     let mut children: std::collections::BTreeMap<i32, Vec<i32>> = std::collections::BTreeMap::new();

@@ -1,4 +1,4 @@
-//! The messages to an external program, with one line of JSON per message (`docs/how-to/agents.md`).
+//! The messages to an external program, each encoded as one line of JSON (`docs/how-to/agents.md`).
 
 use crate::commitment::Commitment;
 use crate::direction::direction_name;
@@ -8,67 +8,68 @@ use engine::{Action, MoverView, Observation, Outcome};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The version of the protocol. It is raised whenever an agent for an older version could misread a message.
+/// The protocol version. The version is incremented whenever agents for an older version might misread a
+/// message.
 pub const PROTOCOL: u32 = 1;
 
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(super) enum Message<'a> {
-    /// The first message, with the facts that apply to the whole episode. No answer is expected.
+    /// The first message, with the facts about the entire episode. No answer is expected.
     Hello {
-        /// The version of the protocol: [`PROTOCOL`].
+        /// The protocol version: [`PROTOCOL`].
         protocol: u32,
         rules: &'a str,
-        /// The meanings of the grid's symbols.
+        /// The meanings of the grid symbols.
         legend: BTreeMap<char, Vec<&'a str>>,
         actions: &'a [Action],
         columns: usize,
         rows: usize,
         /// The maximum number of actions in the episode.
         step_limit: u64,
-        /// The number of actions in an answer, or `all`. If the field is missing, an answer has one action.
+        /// The number of actions per answer, or `all`. If the field is missing, each answer has one action.
         #[serde(skip_serializing_if = "Commitment::is_one")]
         commit: Commitment,
         /// The level's position in a series, if the process plays a series.
         #[serde(skip_serializing_if = "Option::is_none")]
         series: Option<SeriesPlace>,
     },
-    /// The last question of a series. The answer lists the sprite types for which each fact is predicted, as
+    /// The last question in a series. The answer lists the sprite types for which each fact is predicted, as
     /// in `{"kills": […], "stops": […], "goes": […], "scores": […]}`.
     Predict {
         /// The number of actions played in the last level.
         turn: u64,
         kinds: Vec<&'a str>,
     },
-    /// The current observation. Unless the turn is past, an answer is expected: `{"action": …}`, or
-    /// `{"actions": […]}` if the player commits to several actions.
+    /// The current observation. Unless the turn was played before an interruption, an answer is expected:
+    /// `{"action": …}`, or `{"actions": […]}` if the player commits to several actions.
     Turn {
         /// The number of actions played before this decision.
         turn: u64,
         #[serde(flatten)]
         seen: Seen<'a>,
         actions: &'a [Action],
-        /// The actions since the last decision and their results, if the player commits to several actions.
+        /// The actions since the last decision, with their results, if the player commits to several actions.
         #[serde(skip_serializing_if = "Option::is_none")]
         played: Option<Vec<Tick>>,
         #[serde(flatten, skip_serializing_if = "Option::is_none")]
         past: Option<Past>,
     },
-    /// A message about an unusable answer. A new answer is expected.
+    /// A complaint about an unusable answer. A new answer is expected.
     Invalid { turn: u64, message: String },
-    /// The last message, with the result of the episode. No answer is expected.
+    /// The last message, with the episode's result. No answer is expected.
     End {
         /// The number of actions played.
         turn: u64,
         #[serde(flatten)]
         seen: Seen<'a>,
-        /// The outcome: `won`, `lost`, `ended`, the reason for a stop, or `ongoing` if the step limit was
-        /// reached.
+        /// The outcome: `won`, `lost`, `ended`, the reason why the engine stopped the episode, or `ongoing`
+        /// if the step limit was reached.
         outcome: Outcome,
     },
 }
 
-/// The marker of a turn that was played before an interruption.
+/// The marker for a turn played before an interruption.
 #[derive(Debug, Serialize)]
 pub(super) struct Past {
     /// Always `true`. A past turn expects no answer.
@@ -98,17 +99,17 @@ impl Tick {
 
 #[derive(Debug, Serialize)]
 pub(super) struct Seen<'a> {
-    /// The rows of the board from top to bottom, each as a string of symbols.
+    /// The board's rows from top to bottom, each as a string of symbols.
     grid: Vec<String>,
     /// All visible sprites on the board, by name.
     sprites: Vec<Sprites<'a>>,
     avatar: Option<Avatar<'a>>,
-    /// The sprites that move in a direction of their own.
+    /// The sprites that move in their own direction.
     movers: Vec<Mover<'a>>,
     resources: BTreeMap<&'a str, i32>,
     /// The current score, or `None` if the score is shown only at the end.
     score: Option<f64>,
-    /// The change of the score since the last decision.
+    /// The change in score since the last decision.
     reward: Option<f64>,
     tick: u32,
 }
@@ -116,7 +117,7 @@ pub(super) struct Seen<'a> {
 #[derive(Debug, Serialize)]
 struct Sprites<'a> {
     name: &'a str,
-    /// The column and row of each cell that the sprites touch, row by row. A cell is listed once for each
+    /// The column and row of each cell overlapped by the sprites, row by row. A cell is listed once per
     /// sprite.
     cells: Vec<(usize, usize)>,
 }
@@ -124,10 +125,10 @@ struct Sprites<'a> {
 #[derive(Debug, Serialize)]
 struct Avatar<'a> {
     name: &'a str,
-    /// The avatar's health points, which are 0 in games without health points.
+    /// The avatar's health points, or 0 in games without health points.
     health: i32,
     cell: (i32, i32),
-    /// The direction: `up`, `left`, `down` or `right`, or `None` for any other direction.
+    /// The direction: `up`, `left`, `down` or `right`, or `None` for other directions.
     facing: Option<&'static str>,
 }
 
@@ -135,13 +136,13 @@ struct Avatar<'a> {
 struct Mover<'a> {
     name: &'a str,
     cell: (i32, i32),
-    /// The direction: `up`, `left`, `down` or `right`, or `None` for any other direction.
+    /// The direction: `up`, `left`, `down` or `right`, or `None` for other directions.
     facing: Option<&'static str>,
 }
 
 impl<'a> Seen<'a> {
-    /// Combines an observation with its grid and the change of the score since the last decision. A `reward`
-    /// of `None` hides the score.
+    /// Combines an observation with its grid and the change in score since the last decision. If `reward` is
+    /// `None`, the score is hidden.
     pub(super) fn of(observation: &'a Observation, grid: Vec<String>, reward: Option<f64>) -> Seen<'a> {
         let mut cells: BTreeMap<&str, Vec<(usize, usize)>> = BTreeMap::new();
         for (at, names) in observation.cells.iter().enumerate() {

@@ -1,6 +1,6 @@
-//! External agents, each of which is a process that communicates in lines of JSON (`docs/how-to/agents.md`).
+//! External agents: processes that communicate through lines of JSON (`docs/how-to/agents.md`).
 //!
-//! The process receives only facts that a player may know. It does not receive the source of the level, the
+//! An agent's process receives only facts that a player may know. It does not receive the level source, the
 //! forward model, the seed, or the path to a witness. The process runs in its own empty folder, with a
 //! reduced environment.
 
@@ -50,23 +50,23 @@ const MAX_RECORDED: usize = 500;
 /// The maximum number of times that a question is repeated after an invalid answer.
 const MAX_REASKS: u32 = 1;
 
-/// The time without an answer to an `invalid` message after which a notice is shown.
+/// The time after an unanswered `invalid` message at which a notice is shown.
 const NOTICE_AFTER: Duration = Duration::from_secs(10);
 
-/// The maximum total size of answers to earlier turns that are skipped while waiting for an answer, in bytes
+/// The maximum total size of stale answers (to earlier turns) skipped while waiting for an answer, in bytes
 /// (1 MiB).
 const MAX_STALE: usize = 1 << 20;
 
-/// The configuration of an external process.
+/// The configuration for an external process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProcessConfig {
-    /// The time limit for an answer. The first answer's limit includes the start of the process.
+    /// The time limit for an answer. For the first answer, the limit includes the start of the process.
     pub timeout: Duration,
     /// The names of environment variables that the process inherits in addition to the default variables.
     pub inherited: Vec<String>,
-    /// The command of a guard, which is a program that calls [`guard`](guard()) with its remaining arguments.
-    /// These arguments are the folder, `--`, and the words of the command. If the guard command is empty, the
-    /// process is started directly, and survives if this program is killed.
+    /// The command for a guard: a program that calls [`guard`](guard()) with its remaining arguments. The
+    /// arguments are the folder, `--`, and the words of the player's command. If the guard command is empty,
+    /// the process is started directly, and survives if this program is killed.
     pub guard: Vec<OsString>,
 }
 
@@ -76,7 +76,7 @@ impl Default for ProcessConfig {
     }
 }
 
-/// A player that is an external program. The program is started at the first turn of an episode, and killed
+/// A player implemented as an external program. The program is started at an episode's first turn, and killed
 /// at the end of the episode.
 #[derive(Debug)]
 pub struct Process {
@@ -85,7 +85,7 @@ pub struct Process {
     config: ProcessConfig,
     running: Option<Running>,
     notices: Notices,
-    /// The track, which determines the information that the process receives.
+    /// The track, which determines the information sent to the process.
     track: Track,
     /// `true` if the process has received the `hello` message for this level.
     is_greeted: bool,
@@ -107,8 +107,8 @@ struct Running {
 }
 
 impl Process {
-    /// Creates a player from a command line. The command line is split into words by the rules of a shell,
-    /// but no shell is run.
+    /// Creates a player from a command line. The command line is split into words by shell rules, but no
+    /// shell is run.
     ///
     /// # Errors
     /// Returns an error if the command line is empty, or if its quotes do not match.
@@ -122,15 +122,15 @@ impl Process {
         Ok(Process { command: command.to_owned(), words, config, running: None, notices, track, is_greeted })
     }
 
-    /// Sets the function that shows notices to the user. For example, a notice reports that the process is
-    /// silent after its answer was rejected.
+    /// Sets the function that shows notices to the user. For example, a notice reports that the process has
+    /// been silent since its answer was rejected.
     #[must_use]
     pub fn with_notices(mut self, notices: Arc<dyn Fn(&str) + Send + Sync>) -> Process {
         self.notices = Notices(notices);
         self
     }
 
-    /// Sets the track. On [`Track::Discover`], the process plays all levels of a series, and must make
+    /// Sets the track. On [`Track::Discover`], the process plays all levels in a series, and must make
     /// predictions at the end.
     #[must_use]
     pub fn on_track(mut self, track: Track) -> Process {
@@ -138,12 +138,12 @@ impl Process {
         self
     }
 
-    /// Checks that the program of the command line exists, and the script if the program is an interpreter.
-    /// The check runs before anything depends on the program.
+    /// Checks that the command line's program exists, and the script if the program is an interpreter. The
+    /// check runs before any other work depends on the program.
     ///
     /// # Errors
     /// Returns an error if the check shows that the program cannot be started. The message suggests the name
-    /// that was probably intended.
+    /// that the user probably intended.
     #[cfg(unix)]
     pub fn find(&self) -> Result<(), String> {
         program::find(&self.words).map_err(|problem| format!("`cmd:{}`: {problem}", self.command))
@@ -154,7 +154,7 @@ impl Process {
         &self.command
     }
 
-    /// Returns the process. If necessary, the process is started and the `hello` message is sent.
+    /// Returns the process. If necessary, starts the process and sends the `hello` message.
     fn running(&mut self, turn: &Turn<'_>) -> Result<&mut Running, Halt> {
         let running = match self.running.take() {
             Some(running) => running,
@@ -174,7 +174,7 @@ impl Process {
         Ok(self.running.insert(running))
     }
 
-    /// Returns the notice about a process that does not answer `invalid` messages.
+    /// Returns the notice about a process that does not respond to `invalid` messages.
     fn silence(&self, turn: &Turn<'_>) -> String {
         let (command, number, seconds) = (&self.command, turn.number, self.config.timeout.as_secs_f64());
         format!(
@@ -187,7 +187,7 @@ impl Process {
         Halt::Rejected(format!("`{}` cannot be started: {why}", self.command))
     }
 
-    /// Handles a failure of the player by killing the process and reporting its last output.
+    /// Handles a player failure by killing the process and reporting its last output.
     fn failed(&mut self, no_line: NoLine, turn: &Turn<'_>, attempt: u32) -> Halt {
         let number = turn.number;
         let what = match no_line {
@@ -329,19 +329,18 @@ impl Agent for Process {
     }
 }
 
-/// Returns the available actions that can have an effect in the game. The prompts of models list the same
-/// actions.
+/// Returns the available actions that can have an effect in the game. Model prompts list the same actions.
 fn of_use(turn: &Turn<'_>) -> Vec<Action> {
     let analysis = &turn.subject.analysis;
     turn.actions.iter().copied().filter(|&action| is_of_use(analysis, action)).collect()
 }
 
-/// The facts about a game that apply to the whole episode.
+/// The facts about a game that apply to the entire episode.
 #[derive(Debug)]
 struct Shown {
     rules: String,
     legend: Legend,
-    /// The mask with the names that the process receives, or `None` if it receives the game's own names.
+    /// The mask with the names sent to the process, or `None` if the game's own names are sent.
     mask: Option<Mask>,
     /// `true` if the score is shown only at the end.
     hides_score: bool,
@@ -363,12 +362,12 @@ impl Shown {
         Shown { rules, legend, mask, hides_score }
     }
 
-    /// Returns the name that the process receives for one of the game's own names.
+    /// Returns the name sent to the process for one of the game's own names.
     fn name<'a>(&'a self, own: &'a str) -> &'a str {
         self.mask.as_ref().map_or(own, |mask| mask.name(own))
     }
 
-    /// Returns the observation with the names that the process receives.
+    /// Returns the observation with the names sent to the process.
     fn masked<'a>(&self, seen: &'a Observation) -> Cow<'a, Observation> {
         self.mask.as_ref().map_or(Cow::Borrowed(seen), |mask| Cow::Owned(mask.observation(seen)))
     }
@@ -406,7 +405,7 @@ impl Shown {
     }
 }
 
-/// An answer that contains an action, or the actions of a plan.
+/// An answer with an action, or with a plan's actions.
 #[derive(Deserialize)]
 struct Answer {
     action: Option<String>,
@@ -421,8 +420,8 @@ struct Addressed {
 
 /// Returns the next answer to the given turn.
 ///
-/// Answers to an earlier turn are skipped, so that an agent that states turns cannot get out of step. The
-/// timeout includes the skipped answers. After `notice_after`, `notice` is called once.
+/// Answers to an earlier turn are skipped, so that an agent that states its turns cannot get out of sync. The
+/// timeout includes the skipped answers. Calls `notice` once, after `notice_after`.
 fn receive(
     process: &LineProcess,
     timeout: Duration,
@@ -452,7 +451,7 @@ fn receive(
     }
 }
 
-/// Returns the actions in an answer, up to the number due, or a message about the problem with the answer.
+/// Returns an answer's actions, up to the number due, or a message about the problem with the answer.
 fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     if let Ok(Addressed { turn: addressed }) = serde_json::from_slice(answer)
         && addressed > turn.number
@@ -489,8 +488,8 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     }
 }
 
-/// Returns the predictions in an answer, or a message about the problem with the answer. `names` maps the
-/// names that the process received to the game's own names.
+/// Returns an answer's predictions, or a message about the problem with the answer. `names` maps the names
+/// sent to the process to the game's own names.
 fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<Predicted, String> {
     const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with \
                             kinds from the question";

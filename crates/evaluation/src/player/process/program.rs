@@ -1,5 +1,5 @@
-//! Checks a command's program before the program is started, so that a misspelt name is reported before a
-//! results folder is created.
+//! Checks a command's program before starting it, so that a misspelt name is reported before a results folder
+//! is created.
 
 use base::MessagePath;
 use itertools::Itertools;
@@ -7,7 +7,7 @@ use std::ffi::OsStr;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-/// The file extensions of scripts that are run as the first argument of an interpreter.
+/// The file extensions of scripts that an interpreter runs as its first argument.
 const SCRIPTS: [&str; 9] = ["py", "sh", "js", "mjs", "ts", "rb", "pl", "lua", "jl"];
 
 /// Checks that the program in the first word exists. If the second word looks like a script, checks that the
@@ -17,7 +17,7 @@ pub(super) fn find(words: &[String]) -> Result<(), String> {
     find_in(words, path.as_deref(), Path::new(""))
 }
 
-/// Checks the program and the script. Relative folders of `path` are resolved against `here`.
+/// Checks the program and the script. Relative folders in `path` are resolved against `here`.
 fn find_in(words: &[String], path: Option<&OsStr>, here: &Path) -> Result<(), String> {
     let program = words.first().expect("a command has a first word");
     match program.contains(std::path::is_separator) {
@@ -31,7 +31,7 @@ fn find_in(words: &[String], path: Option<&OsStr>, here: &Path) -> Result<(), St
     }
 }
 
-/// Returns `true` if a word looks like a script, such as `agent.py`, and is neither a flag nor an assignment.
+/// Returns `true` if a word looks like a script, such as `agent.py`, rather than a flag or an assignment.
 fn is_script(word: &str) -> bool {
     let ending = Path::new(word).extension().and_then(OsStr::to_str);
     ending.is_some_and(|ending| SCRIPTS.contains(&ending)) && !word.starts_with('-') && !word.contains('=')

@@ -1,4 +1,4 @@
-//! A registry of the running processes of all players, so that a program that must exit can end them first.
+//! A registry of all players' running processes, so that an exiting program can kill them first.
 
 use rustix::process::{Pid, Signal, kill_process, kill_process_group};
 use std::collections::BTreeMap;
@@ -8,31 +8,31 @@ use std::time::Duration;
 
 static RUNNING: Mutex<Running> = Mutex::new(Running { is_over: false, players: BTreeMap::new() });
 
-/// The maximum number of polls until all players are gone. With the pauses between polls, the time adds up to
-/// at most three seconds.
+/// The maximum number of polls until all players have exited. With the pauses between polls, the total time
+/// is at most three seconds.
 const POLLS: u32 = 600;
-/// The pause between two polls for running players.
+/// The pause between polls for running players.
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The registry of running players.
 pub(super) struct Running {
-    /// `true` if no further player may start.
+    /// `true` once no more players may start.
     pub(super) is_over: bool,
     /// The running players by process ID, with `true` for players that have a guard. A player is inserted
-    /// while it is started, and removed before it is reaped, because its ID may belong to a different process
-    /// afterwards.
+    /// while it starts, and removed before it is reaped, because its ID may then be reused by a different
+    /// process.
     pub(super) players: BTreeMap<u32, bool>,
 }
 
-/// Locks the running players. The lock is held while a player is started or reaped.
+/// Locks the registry of running players. The lock is held while a player is started or reaped.
 pub(super) fn running() -> MutexGuard<'static, Running> {
     RUNNING.lock().expect("nothing panics while it holds this lock")
 }
 
-/// Ends all players of this program and prevents new players from starting, so that the program can exit.
+/// Kills all of this program's players and prevents new players from starting, so that the program can exit.
 ///
-/// Episodes in progress are left in the same state as after an interruption. The function returns when the
-/// players are gone, or after at most three seconds.
+/// Episodes in progress are left in the same state as after an interruption. The function returns when all
+/// players have exited, or after at most three seconds.
 pub fn end_all() {
     let mut all = running();
     all.is_over = true;

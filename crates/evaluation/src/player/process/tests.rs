@@ -81,14 +81,14 @@ impl Board {
         self.number += 1;
     }
 
-    /// Asks for one decision and plays it.
+    /// Requests one decision and plays it.
     fn decide(&mut self) -> Result<Choice, Halt> {
         let choice = self.turn(|agent, journal, turn| agent.act(turn, journal))?;
         self.play(choice.action(0));
         Ok(choice)
     }
 
-    /// Recalls a decision that was played before.
+    /// Recalls a previously played decision.
     fn recall(&mut self, action: Action) {
         let choice = Choice::of(action);
         self.turn(|agent, journal, turn| agent.recall(turn, journal, &choice)).unwrap();
@@ -156,8 +156,7 @@ fn an_episode_is_played_in_lines() {
     }
 }
 
-/// As in the prompts of models, the use key is omitted for an avatar that could shoot but has nothing to
-/// shoot.
+/// As in model prompts, the use key is omitted for an avatar that could shoot but has nothing to shoot.
 #[test]
 fn the_use_key_is_offered_where_it_does_something() {
     let folder = tempfile::tempdir().unwrap();
@@ -253,7 +252,7 @@ fn late_answers_are_skipped() {
     assert_eq!(board.decide().map(|choice| choice.action(0)), Ok(Action::Right));
 }
 
-/// An answer to a later turn is invalid. Otherwise, all further answers would be out of step.
+/// An answer to a later turn is invalid. Otherwise, all further answers would be out of sync.
 #[test]
 fn answers_to_future_turns_are_invalid() {
     let mut board = Board::of(
@@ -285,7 +284,7 @@ fn late_answers_do_not_extend_the_timeout() {
     assert!(message.contains("more than 1024 KiB of answers to earlier steps at step 1"), "{message}");
 }
 
-/// Before the timeout, the user is informed that the agent ignores `invalid` messages.
+/// Before the timeout, the user is notified that the agent ignores `invalid` messages.
 #[test]
 fn silence_after_an_invalid_answer_is_reported() {
     let script = "read hello; read turn; echo '{\"action\":\"fly\"}'; exec sleep 600";

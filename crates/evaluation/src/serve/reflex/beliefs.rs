@@ -1,5 +1,5 @@
-//! Interprets the sentences of the rules for the choice of a target. Only sentences written by
-//! `engine::describe` are understood.
+//! Interprets the rules' sentences in order to choose a target. Only sentences written by `engine::describe`
+//! are understood.
 
 use engine::EffectFamily;
 use engine::analysis::{EffectSummary, Precondition, Side};
@@ -10,32 +10,32 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-/// A player's beliefs about the sprites on the board, by name. Sentences that the player does not understand
-/// are ignored.
+/// A player's beliefs about the sprites on the board, by name. Unknown sentences are ignored.
 #[derive(Debug, Default)]
 pub(super) struct Beliefs<'a> {
-    /// The current type of the player.
+    /// The player's current type.
     me: &'a str,
     groups: BTreeMap<&'a str, Vec<&'a str>>,
     /// The sprites that the player cannot enter.
     pub(super) blocks: BTreeSet<&'a str>,
     /// The sprites that the player can push.
     pub(super) pushed: BTreeSet<&'a str>,
-    /// The sprites that kill when they are touched, if the condition on a resource holds.
+    /// The sprites that kill the player when touched, if the condition on a resource is satisfied.
     kills: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
-    /// The sprites that are removed when they are touched, if the condition on a resource holds.
+    /// The sprites removed when touched, if the condition on a resource is satisfied.
     taken: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
-    /// The sprites whose touch has some other effect, on the player's type, on its resources, or elsewhere.
+    /// The sprites with any other effect when touched, whether on the player's type, on its resources, or
+    /// elsewhere.
     pub(super) changes: BTreeSet<&'a str>,
-    /// The sprites whose removal wins the game. A name may be in the singular or the plural, because the
-    /// rules contain phrases such as `no lamp` and `at most 2 lamps`.
+    /// The sprites whose removal wins the game. Names may be in the singular or the plural, because the rules
+    /// contain phrases such as `no lamp` and `at most 2 lamps`.
     wins: BTreeSet<&'a str>,
     /// The sprites whose removal loses the game.
     pub(super) must_keep: BTreeSet<&'a str>,
     pub(super) moves: BTreeSet<&'a str>,
-    /// Pairs of sprites, the first of which is removed when it touches the second.
+    /// Pairs of sprites. The first sprite of a pair is removed when it touches the second.
     removals: Vec<(&'a str, &'a str)>,
-    /// The sprite that the use key creates.
+    /// The sprite created by the use key.
     pub(super) shot: Option<Shot<'a>>,
 }
 
@@ -43,19 +43,18 @@ pub(super) struct Beliefs<'a> {
 struct ResourceCondition<'a> {
     resource: &'a str,
     least: i32,
-    /// `true` if the condition is that the resource is not held.
+    /// `true` if the condition requires that the resource is not held.
     not: bool,
 }
 
-/// A sprite that the use key creates.
+/// A sprite created by the use key.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Shot<'a> {
     pub(super) name: &'a str,
     /// `true` if the sprite appears at the player's position rather than ahead of it.
     pub(super) at_player: bool,
     pub(super) ammo: Vec<&'a str>,
-    /// `Some` if the sprite moves by itself. The inner value is the direction, if the direction is always the
-    /// same.
+    /// `Some` if the sprite moves by itself. The inner value is the direction, if it is always the same.
     pub(super) flight: Option<Option<&'a str>>,
 }
 
@@ -74,20 +73,19 @@ enum Subject {
     Block,
     /// The first party is removed when it touches the second party.
     End,
-    /// The first party is removed when it touches the second party, if the two move in a certain way.
+    /// The first party is removed when it touches the second party, depending on their movement.
     MayEnd,
     EndBoth,
     /// The second party pushes the first party.
     Push,
-    /// A touch between the two parties has some other effect.
+    /// A touch between the two parties has an effect other than blocking, removing or pushing.
     Change,
     /// The first party moves by itself.
     Motion,
 }
 
-/// The patterns of the sentences. The first matching pattern counts. The patterns of meetings come from the
-/// templates of `engine::describe`. Templates with more fixed text come first, because they are more
-/// specific.
+/// The sentence patterns, of which the first match counts. The patterns for touches come from the templates
+/// in `engine::describe`. Templates with more fixed text come first, because they are more specific.
 static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
     use Subject::{Block, Group, Lose, Motion, Win};
     let others = [
@@ -114,7 +112,7 @@ static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
     others.into_iter().chain(meetings).map(compile).collect()
 });
 
-/// Returns the pattern of a template. The groups `one` and `two` match the two sprites. The groups `holds`,
+/// Returns a template's pattern. The groups `one` and `two` match the two sprites. The groups `holds`,
 /// `least` and `resource` match the condition on a resource.
 fn pattern(template: &Template) -> String {
     let mut named = BTreeSet::new();
@@ -137,8 +135,8 @@ fn pattern(template: &Template) -> String {
     format!("^{}$", template.parts.iter().map(part).collect::<String>())
 }
 
-/// Returns the subject of a template, derived from its effects. Returns `None` if the template is irrelevant
-/// to the choice of a target.
+/// Returns a template's subject, derived from its effects. Returns `None` if the template is irrelevant to
+/// the choice of a target.
 fn subject(template: &Template) -> Option<Subject> {
     use EffectSummary as Does;
     let does = |wanted: fn(&Does) -> bool| template.effects.iter().any(wanted);
@@ -184,15 +182,14 @@ fn subject(template: &Template) -> Option<Subject> {
 /// The words that refer to the player's resources in conditions.
 const YOU_HOLD: &str = "you hold";
 
-/// The effect of the use key in the description of the keys.
+/// The use key's effect in the description of the keys.
 static USE_KEY: LazyLock<Regex> = LazyLock::new(|| {
     let pattern = r"the use key puts (?:a|an) (?P<shot>\S+?)(?: or .*?)? (?P<place>where you are|into the cell ahead of you, empty or not)(?:, which costs (?P<ammo>[^;.]+?)(?:, if you hold more than [^;.]+)?)?[;.]";
     Regex::new(pattern).expect("a pattern of ours")
 });
 
 impl<'a> Beliefs<'a> {
-    /// Derives the beliefs of a player of type `me` from the sentences of the rules. Cost: O(sentences ×
-    /// bytes).
+    /// Derives the beliefs of a player with type `me` from the rules' sentences. Cost: O(sentences × bytes).
     pub(super) fn of(sentences: &[&'a str], me: &'a str) -> Beliefs<'a> {
         let mut beliefs = Beliefs { me, ..Beliefs::default() };
         let fits = |sentence: &&'a str| {

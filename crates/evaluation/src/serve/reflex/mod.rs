@@ -1,9 +1,9 @@
-//! A player that reads the board and the rules from the prompt, and takes the shortest way to a good target.
+//! A player that reads the board and the rules from the prompt, and takes the shortest path to a good target.
 //!
 //! The player does not look ahead. A plan leads from one target to the next, as if nothing else moved, and
-//! avoids deadly sprites. The best targets are sprites whose removal wins. Sprites that can be collected or
-//! change something come next, followed by sprites with no known harm. The player shoots at sprites that its
-//! shots remove.
+//! avoids deadly sprites. The best targets are sprites whose removal wins the game. Next come sprites that
+//! can be collected or change something, followed by sprites with no known harm. The player shoots at sprites
+//! that its shots remove.
 
 mod beliefs;
 
@@ -22,8 +22,8 @@ const DANGER_COST: u32 = 8;
 /// The cost of pushing a sprite, in steps.
 const PUSH_COST: u32 = 20;
 
-/// The reciprocal of the fraction of decisions in which the player takes a random step. Because the player
-/// has no memory, it could otherwise follow a useless way forever.
+/// The reciprocal of the probability of a random step. Because the player has no memory, it could otherwise
+/// repeat a useless path forever.
 const RANDOM_STEP_ODDS: usize = 16;
 
 /// Chooses the next steps, up to the number of actions due.
@@ -65,7 +65,7 @@ pub(super) fn choose(mut shown: Shown<'_>, seed: Seed) -> Result<Vec<Action>, Un
     Ok(actions)
 }
 
-/// Collects all sentences of a guide about the rules.
+/// Collects all of a guide's sentences about the rules.
 fn sentences(guide: Guide) -> Vec<String> {
     let Guide { controls, winning, losing, sprites, groups, timed_effects, meetings, .. } = guide;
     [controls, winning, losing, sprites, groups, timed_effects, meetings].into_iter().flatten().collect()
@@ -80,8 +80,8 @@ struct Reflex<'a> {
 }
 
 impl Reflex<'_> {
-    /// Returns the cell that a step would enter. For each sprite in the cell, the list states whether it
-    /// would be taken. Other moves and pushes are ignored.
+    /// Returns the cell that a step would enter. For each sprite in the cell, the list states whether the
+    /// sprite would be taken. Other moves and pushes are ignored.
     fn imagine(&self, action: Action) -> Option<(usize, Vec<bool>)> {
         let (_, way) = DIRECTIONS.into_iter().find(|(known, _)| *known == action)?;
         let cell = self.board.beside(self.you.cell, way).filter(|&cell| !self.is_blocked(cell))?;
@@ -107,13 +107,13 @@ impl Reflex<'_> {
         self.beliefs.is_taken(name, self.held) && !self.beliefs.must_keep.contains(name)
     }
 
-    /// Returns `true` if a cell contains something that blocks the way and is not removed by touching it.
+    /// Returns `true` if a cell contains an obstacle that cannot be removed by touching it.
     fn is_blocked(&self, cell: usize) -> bool {
         self.others(cell)
             .any(|name| self.beliefs.blocks.contains(name) && !self.beliefs.is_taken(name, self.held))
     }
 
-    /// Returns the rank of a cell as a target, where 0 is best. Returns `None` if the cell is not a target.
+    /// Returns a cell's rank as a target, where 0 is best. Returns `None` if the cell is not a target.
     fn rank(&self, cell: usize) -> Option<u32> {
         let rank = |name: &str| {
             let (beliefs, taken) = (self.beliefs, self.is_taken(name));
@@ -131,8 +131,8 @@ impl Reflex<'_> {
         self.others(cell).filter_map(rank).min()
     }
 
-    /// Returns the cost of entering a cell in a direction. Returns `None` if the cell kills or cannot be
-    /// entered.
+    /// Returns the cost of entering a cell in a given direction. Returns `None` if the cell kills or cannot
+    /// be entered.
     fn entry_cost(&self, cell: usize, way: (isize, isize)) -> Option<u32> {
         if self.is_deadly(cell) || (self.is_blocked(cell) && self.rank(cell).is_none_or(|rank| rank > 1)) {
             return None;
@@ -146,7 +146,7 @@ impl Reflex<'_> {
     }
 
     /// Returns the use key if a target is in the line of fire. Otherwise, returns a turn towards a target in
-    /// a different line, if there is one.
+    /// a different line, if any.
     fn fire(&self) -> Option<Action> {
         let shot = self.beliefs.shot.as_ref()?;
         let has_ammo = |ammo: &&str| {
@@ -177,7 +177,7 @@ impl Reflex<'_> {
         seen.find(|(distance, _)| *distance > 1).map(|(_, action)| action)
     }
 
-    /// Returns the distance to the nearest target in a direction.
+    /// Returns the distance to the nearest target in a given direction.
     fn target(&self, way: (isize, isize), reach: usize) -> Option<usize> {
         let mut cell = self.you.cell;
         for distance in 1..=reach {
@@ -196,7 +196,7 @@ impl Reflex<'_> {
         None
     }
 
-    /// Returns the first step to the best reachable target. Among equally good targets, the nearest one is
+    /// Returns the first step to the best reachable target. The nearest of several equally good targets is
     /// chosen.
     fn go(&self, choices: &mut Sampler) -> Option<Action> {
         let enter = |cell: usize, way| self.entry_cost(cell, way);
@@ -210,7 +210,7 @@ impl Reflex<'_> {
         (cost == 1 || choices.below(RANDOM_STEP_ODDS) != 0).then_some(first)
     }
 
-    /// Returns a random step that is not known to be bad.
+    /// Returns a random step without a known disadvantage.
     fn random_step(&self, choices: &mut Sampler) -> Action {
         let safe = |(action, way): (Action, (isize, isize))| {
             let next = self.board.beside(self.you.cell, way)?;

@@ -1,5 +1,5 @@
-//! Compares pairs of players. A pair may consist of different models, of one model in both modes, or of one
-//! model with and without an aid.
+//! Compares pairs of players: different models, one model in both modes, or one model with and without an
+//! aid.
 
 use crate::study::episodes::scores::{Estimate, StudyEpisode, observations};
 use crate::study::players::player::{CONTEXTUAL, ZERO_SHOT};
@@ -14,35 +14,35 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The comparisons of pairs of players. Each of the three lists is a separate family for the
 /// Benjamini–Hochberg correction. A family includes every pair with episodes on both sides, even if the
-/// results are equal, so that the family does not depend on the results.
+/// results are equal, so that it does not depend on the results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Contrasts {
-    /// The comparisons of each pair on each level.
+    /// Each pair's comparison on each level.
     pub by_level: Vec<Comparison>,
-    /// The comparisons of each pair on each game, over all levels of the game.
+    /// Each pair's comparison on each game, over all of its levels.
     pub by_game: Vec<Comparison>,
-    /// The comparisons of each pair over all games that both players played.
+    /// Each pair's comparison over all games that both players played.
     pub overall: Vec<OverallComparison>,
 }
 
 /// A comparison of two players on a level or a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// The indices of the two players in the study.
+    /// The two players' indices in the study.
     pub players: [usize; 2],
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
-    /// The number of the level, or `None` for all levels of the game.
+    /// The level number, or `None` for all levels of the game.
     pub level: Option<usize>,
-    /// The number of wins of each player. Identical episodes count once.
+    /// Each player's number of wins. Identical episodes count once.
     pub wins: [u64; 2],
-    /// The number of episodes of each player. Identical episodes count once.
+    /// Each player's number of episodes. Identical episodes count once.
     pub episodes: [u64; 2],
     /// The two-sided p-value of Fisher's exact test.
     pub p: f64,
     /// The p-value corrected for all comparisons in the list (Benjamini–Hochberg).
     pub q: f64,
-    /// Cohen's h, which compares the first player's win rate with the second player's.
+    /// Cohen's h for the first player's win rate compared with the second player's.
     pub h: f64,
     /// The first player's win rate minus the second player's, with Newcombe's interval.
     pub difference: Estimate,
@@ -51,32 +51,32 @@ pub struct Comparison {
 /// A comparison of two players on all levels that both played.
 ///
 /// The difference, its interval, h, p and q are computed from the same two rates. Each rate is a mean over
-/// games of means over the levels of a game. The results apply to similar games.
+/// games, and each game's value is a mean over its levels. The results apply to similar games.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverallComparison {
-    /// The indices of the two players in the study.
+    /// The two players' indices in the study.
     pub players: [usize; 2],
-    /// The number of wins of each player on the common levels.
+    /// Each player's number of wins on the common levels.
     pub wins: [u64; 2],
-    /// The number of episodes of each player on the common levels.
+    /// Each player's number of episodes on the common levels.
     pub episodes: [u64; 2],
     /// The number of levels that both players played.
     pub levels: u64,
     /// The number of games that both players played.
     pub games: u64,
-    /// The win rate of each player.
+    /// Each player's win rate.
     pub rates: [f64; 2],
     /// The first player's rate minus the second player's.
     pub difference: f64,
-    /// The difference of the rates with the interval of the paired t test over games. `None` with fewer than
-    /// two games.
+    /// The difference between the rates, with the interval from the paired t test over games. `None` with
+    /// fewer than two games.
     pub over_games: Option<Estimate>,
-    /// The bounds of the difference. They are computed as if all aborted episodes of one player had been lost
-    /// and all aborted episodes of the other player had been won. `None` if no episode was aborted.
+    /// The bounds of the difference, computed as if one player had lost all its aborted episodes and the
+    /// other player had won all of its own. `None` if no episode was aborted.
     pub bounds: Option<[f64; 2]>,
     /// The two-sided p-value of the paired t test over games. `None` with fewer than two games.
     pub p: Option<f64>,
-    /// The p-value corrected for all pairs in the list that have a p-value (Benjamini–Hochberg).
+    /// The p-value corrected for all pairs in the list with a p-value (Benjamini–Hochberg).
     pub q: Option<f64>,
     /// Cohen's h, computed from the two players' rates.
     pub h: f64,
@@ -93,7 +93,7 @@ pub struct WithinLevels {
     pub odds_ratio: Option<f64>,
 }
 
-/// The results of a player on a level.
+/// A player's results on a level.
 #[derive(Clone, Copy, Default)]
 struct Counts {
     /// The numbers of wins and of ended episodes.
@@ -104,7 +104,7 @@ struct Counts {
     aborted: u64,
 }
 
-/// The results of a player, by the indices of game and level.
+/// A player's results, by game index and level index.
 type Results = BTreeMap<(usize, usize), Counts>;
 
 impl Contrasts {
@@ -145,7 +145,7 @@ impl Contrasts {
     }
 
     /// Compares models in the same mode with each other, and with players that are not models. A model is
-    /// also compared with itself under different conditions. Its modes and aids are compared in
+    /// also compared with itself under different conditions. A model's modes and aids are compared by
     /// [`Contrasts::modes`] and [`Contrasts::aids`].
     pub(crate) fn pairs(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
@@ -160,7 +160,7 @@ impl Contrasts {
         Contrasts::of(study, &pairs.map(|((a, _), (b, _))| [a, b]).collect_vec())
     }
 
-    /// Compares the two modes of each model, with zero-shot mode first.
+    /// Compares each model's two modes, zero-shot mode first.
     pub(crate) fn modes(study: &Study) -> Contrasts {
         let partner = |(a, ours): (usize, &crate::study::Player)| {
             let is_partner = |theirs: &crate::study::Player| {
@@ -174,8 +174,8 @@ impl Contrasts {
         Contrasts::of(study, &pairs)
     }
 
-    /// Compares each model without an aid and with an aid in the same mode. The variant without the aid comes
-    /// first.
+    /// Compares each model without an aid and with the aid, in the same mode. The variant without the aid
+    /// comes first.
     pub(crate) fn aids(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.clone().cartesian_product(players).filter(|((_, without), (_, with))| {
@@ -195,7 +195,7 @@ impl Contrasts {
         self.overall.is_empty()
     }
 
-    /// Returns the three lists as tables, sorted by increasing p-value. Longer lists are shortened to `most`
+    /// Returns the three lists as tables, sorted by increasing p-value. Longer lists are truncated to `most`
     /// rows.
     pub(crate) fn tables(&self, study: &Study, id: &str, title: &str, most: usize) -> Vec<Table> {
         if self.is_empty() {
@@ -329,7 +329,7 @@ impl OverallComparison {
     }
 }
 
-/// Returns the rates of both players on each game. Each rate is a mean over the levels of the game.
+/// Returns both players' rates on each game. Each rate is a mean over the game's levels.
 fn by_game(
     levels: &[(usize, usize)],
     results: [&Results; 2],
@@ -369,7 +369,7 @@ fn bounds(results: [&Results; 2]) -> Option<[f64; 2]> {
     })
 }
 
-/// Counts the results of each player on each level.
+/// Counts each player's results on each level.
 fn counts(study: &Study) -> Vec<Results> {
     let mut counts = vec![Results::new(); study.players.len()];
     let key = |episode: &&StudyEpisode| (episode.player, episode.game, episode.metrics.level);

@@ -1,5 +1,5 @@
-//! The correlations between winning and other variables, as in the correlation matrix of the paper (`spec/06`
-//! §3 and §5.5).
+//! The correlations between winning and other variables, as in the paper's correlation matrix (`spec/06` §3
+//! and §5.5).
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
@@ -7,31 +7,31 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{bonferroni, correlation_p, pearson, spearman};
 
-/// The variables whose correlations are computed.
+/// The variables to correlate.
 pub const CORRELATED: [&str; 4] = ["win", "meaningful", "steps", "distance"];
 
 /// The correlations between four variables over the episodes of models, or of all players if there is no
 /// model. The variables are winning (0 or 1), the meaningful step ratio, the number of steps, and the
-/// distance walked in cells.
+/// distance travelled in cells.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Correlations {
-    /// The number of episodes in which all four values are known.
+    /// The number of episodes with known values for all four variables.
     pub episodes: u64,
-    /// The number of episodes that were excluded because a value is missing. An episode without steps or
-    /// without an avatar lacks a value.
+    /// The number of episodes excluded because of a missing value. An episode without steps or without an
+    /// avatar lacks a value.
     pub excluded: u64,
-    /// The correlations of all six pairs of variables.
+    /// The correlations for all six pairs of variables.
     pub pairs: Vec<Correlation>,
 }
 
-/// The correlation between two of the variables in [`CORRELATED`].
+/// The correlation between two variables in [`CORRELATED`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Correlation {
     /// The indices of the two variables in [`CORRELATED`].
     pub pair: [usize; 2],
-    /// Pearson's coefficient and its test, or `None` if a variable is constant.
+    /// Pearson's coefficient with its test, or `None` if a variable is constant.
     pub pearson: Option<Test>,
-    /// Spearman's coefficient and its test by the t approximation, or `None` if a variable is constant.
+    /// Spearman's coefficient with its test by the t approximation, or `None` if a variable is constant.
     pub spearman: Option<Test>,
 }
 

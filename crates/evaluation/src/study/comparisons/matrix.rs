@@ -1,4 +1,4 @@
-//! The data of heat maps, with one value for each player on each game or level.
+//! Heat map data, with one value per player and game or level.
 
 use crate::study::Study;
 use crate::study::episodes::scores::{Estimate, Scores, StudyEpisode};
@@ -12,7 +12,7 @@ base::named_enum! {
     pub enum Measure {
         /// The number of wins divided by the number of episodes.
         WinRate = "win_rate",
-        /// The overall score of the paper.
+        /// The paper's overall score.
         Overall = "overall",
         /// The mean normalised reward.
         NormalisedReward = "normalised_reward",
@@ -26,7 +26,7 @@ base::named_enum! {
 }
 
 impl Measure {
-    /// Returns the name of the measure for use in headings.
+    /// Returns the measure's name for use in headings.
     pub fn title(self) -> &'static str {
         match self {
             Measure::WinRate => "Win rate",
@@ -48,12 +48,12 @@ impl Measure {
         }
     }
 
-    /// Returns `true` if the value of the measure is always between 0 and 1.
+    /// Returns `true` if the measure is always between 0 and 1.
     pub fn is_fraction(self) -> bool {
         self != Measure::Steps
     }
 
-    /// Returns the value of the measure for a set of episodes with the given scores.
+    /// Returns the measure's value for a set of episodes with the given scores.
     pub fn of(self, scores: &Scores) -> Option<f64> {
         match self {
             Measure::WinRate => scores.win_rate.map(|rate| rate.value),
@@ -67,19 +67,20 @@ impl Measure {
 }
 
 base::named_enum! {
-    /// The modes whose models a heat map shows. Players that are not models are shown in all heat maps.
+    /// The modes whose models are shown in a heat map. Players that are not models are shown in all heat
+    /// maps.
     pub enum Scope {
-        /// Only models in zero-shot mode.
+        /// Models in zero-shot mode only.
         ZeroShot = "zero-shot",
-        /// Only models in contextual mode.
+        /// Models in contextual mode only.
         Contextual = "contextual",
-        /// All models. The episodes of both modes are pooled.
+        /// All models, with the episodes of both modes pooled.
         Both = "both",
     }
 }
 
 impl Scope {
-    /// Returns the label of the player's row, or `None` if the player is not shown.
+    /// Returns the label for the player's row, or `None` if the player is not shown.
     fn row(self, player: &Player) -> Option<String> {
         match (self, player.mode.as_deref()) {
             (_, None) | (Scope::Both, _) => Some(player.short_label()),
@@ -91,21 +92,21 @@ impl Scope {
 /// The scores of all players on all games or levels. Every heat map is drawn from these scores.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Matrix {
-    /// The scope, which determines the players included.
+    /// The scope, which determines the included players.
     pub scope: Scope,
-    /// The rows of the matrix.
+    /// The matrix rows.
     pub rows: Vec<MatrixRow>,
-    /// The columns of the matrix.
+    /// The matrix columns.
     pub columns: Vec<MatrixColumn>,
     /// The scores of each row's players on each column's levels, in row-major order. `None` if no episode was
     /// played.
     pub cells: Vec<Vec<Option<Scores>>>,
 }
 
-/// A row of a [`Matrix`].
+/// A [`Matrix`] row.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MatrixRow {
-    /// The label of the row.
+    /// The row label.
     pub label: String,
     /// `true` if the row shows a baseline rather than a model.
     pub reference: bool,
@@ -113,21 +114,21 @@ pub struct MatrixRow {
     pub players: Vec<usize>,
 }
 
-/// A column of a [`Matrix`], which is a level or a game with all its levels.
+/// A [`Matrix`] column: a level, or a game with all its levels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MatrixColumn {
-    /// The label of the column.
+    /// The column label.
     pub label: String,
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
-    /// The number of the level, or `None` for all levels of the game.
+    /// The level number, or `None` for all levels of the game.
     pub level: Option<usize>,
-    /// The number of ticks in the shortest win, if the win is proved to be optimal.
+    /// The length of the shortest win in ticks, if proved optimal.
     pub optimal_ticks: Option<usize>,
 }
 
 impl Matrix {
-    /// Builds the matrix of a scope, by level or by game.
+    /// Builds the matrix for a scope, by level or by game.
     pub(crate) fn of(study: &Study, scope: Scope, by_level: bool) -> Matrix {
         let rows = rows(study, scope);
         let mut columns = Vec::new();
@@ -153,14 +154,14 @@ impl Matrix {
         Matrix { scope, rows, columns, cells }
     }
 
-    /// Returns the values of a measure, in row-major order.
+    /// Returns a measure's values, in row-major order.
     pub fn values(&self, measure: Measure) -> Vec<Vec<Option<f64>>> {
         let value = |scores: &Option<Scores>| scores.as_ref().and_then(|scores| measure.of(scores));
         self.cells.iter().map(|row| row.iter().map(value).collect()).collect()
     }
 
-    /// Returns the values of a measure as a table, with games or levels as rows and players as columns.
-    /// `grain` is part of the table's file name.
+    /// Returns a measure's values as a table, with games or levels as rows and players as columns. `grain`
+    /// becomes part of the table's file name.
     pub(crate) fn table(&self, measure: Measure, grain: &str) -> Table {
         let digits = if measure.is_fraction() { 2 } else { 1 };
         let scope = self.scope.name();
@@ -190,7 +191,7 @@ impl Matrix {
     }
 }
 
-/// Returns the rows of a scope in the order of the study. Models come before reference players.
+/// Returns a scope's rows in the order of the study. Models come before reference players.
 fn rows(study: &Study, scope: Scope) -> Vec<MatrixRow> {
     let mut rows: Vec<MatrixRow> = Vec::new();
     let mut places: BTreeMap<(bool, String), usize> = BTreeMap::new();

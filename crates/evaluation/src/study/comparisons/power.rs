@@ -1,4 +1,4 @@
-//! The statistical power of a plan with a number of games, levels and runs. The plan may be a future
+//! The statistical power of a plan with given numbers of games, levels and runs. The plan may be a future
 //! evaluation, or the episodes already played.
 
 use crate::study::Study;
@@ -7,8 +7,8 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{Design, Spread};
 
-/// The power of a plan, computed for the test over games at the 5% level ([`statistics::paired_over_games`])
-/// and the standard deviations of [`Spread::default`].
+/// A plan's power, computed for the test over games at the 5% level ([`statistics::paired_over_games`]) and
+/// the standard deviations in [`Spread::default`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PowerRow {
     /// A phrase that describes the plan.
@@ -21,13 +21,13 @@ pub struct PowerRow {
     pub runs: u64,
     /// The number of episodes per player.
     pub episodes: u64,
-    /// The smallest win rate that can be distinguished from 0.1 with 80% power.
+    /// The smallest win rate distinguishable from 0.1 with 80% power.
     pub from_tenth: Option<f64>,
-    /// The smallest win rate that can be distinguished from 0.5 with 80% power.
+    /// The smallest win rate distinguishable from 0.5 with 80% power.
     pub from_half: Option<f64>,
 }
 
-/// Returns the power of a plan, and for comparison the power of plans with no more episodes.
+/// Returns a plan's power and, for comparison, the power of plans with no more episodes.
 ///
 /// ```
 /// use infinite_arcade_evaluation::study::power;
@@ -72,7 +72,7 @@ fn row(plan: &str, design: Design) -> PowerRow {
     }
 }
 
-/// Returns the power of a study's episodes. The design is that of the player with the fewest games.
+/// Returns the power of a study's episodes, using the design of the player with the fewest games.
 pub(crate) fn of_study(study: &Study) -> Vec<PowerRow> {
     let played = |player: usize| {
         let ended = || study.on(player, None, None).iter().filter(|episode| episode.metrics.counts());

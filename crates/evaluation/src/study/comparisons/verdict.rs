@@ -1,5 +1,5 @@
-//! Summarises a study in plain words: which player is best, how certain the result is, which kinds of game
-//! were won, and how each player fails.
+//! Summarises a study in plain words: the best player, the certainty of the result, the kinds of game won,
+//! and each player's failures.
 
 use crate::metrics::{EndingKind, GoalDistance};
 use crate::study::episodes::endings::nearest;
@@ -8,17 +8,17 @@ use crate::study::{OverallComparison, Study, TaxonomyRow};
 use itertools::Itertools;
 use std::cmp::Reverse;
 
-/// The maximum number of players whose failures are described.
+/// The maximum number of players with described failures.
 const TOLD: usize = 6;
-/// The number of kinds of game listed as won most, and the number listed as won least.
+/// The number of kinds of game listed as won most often, and the number listed as won least often.
 const KINDS: usize = 3;
 
 impl Study {
-    /// Summarises the results in plain words. Returns no paragraphs if no episode has ended.
+    /// Summarises the results in plain words. Returns an empty list if no episode has ended.
     ///
     /// The first paragraph is about the best model, or the best player if there is no model. It states the
-    /// win rate, compares the player with the next player, and lists the kinds of game that it wins. Each of
-    /// the other paragraphs describes how one player failed.
+    /// player's win rate, compares the player with the next player, and lists the kinds of game that the
+    /// player wins. Each further paragraph describes how one player failed.
     pub fn verdict(&self) -> Vec<String> {
         let tested = |row: &&LeaderRow| !self.players[row.player].is_reference();
         let played = || self.leaderboard.iter().filter(|row| row.scores.episodes > 0);
@@ -70,8 +70,8 @@ impl Study {
         format!("{label} {won}: {value}% ({wins} of {episodes} episodes); {about}, {low} to {high}%.")
     }
 
-    /// Returns the comparison of two players, with a sign. Multiplied by the sign, the differences are those
-    /// of the first player relative to the second.
+    /// Returns the comparison of two players, with a sign. Multiplied by the sign, the differences are the
+    /// first player's values minus the second player's.
     fn comparison(&self, one: &LeaderRow, other: &LeaderRow) -> Option<(f64, &OverallComparison)> {
         let all = [&self.pairs, &self.modes, &self.aids].into_iter().flat_map(|contrasts| &contrasts.overall);
         all.filter_map(|found| match found.players {
@@ -145,7 +145,7 @@ impl Study {
         Some(format!("By kind of game, the player won most in {most} and least in {least}."))
     }
 
-    /// Describes the endings of the episodes that a player did not win.
+    /// Describes how a player's episodes without a win ended.
     fn failures_of(&self, row: &LeaderRow) -> Option<String> {
         let summary = self.ending_summaries.iter().find(|summary| summary.player == row.player)?;
         let causes = || summary.causes.iter().map(|&at| &self.endings[at]);

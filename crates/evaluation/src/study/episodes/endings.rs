@@ -1,5 +1,5 @@
-//! Groups the episodes that were not won by their cause, which is the sprite and the rule that ended them,
-//! and computes the distance from a win.
+//! Groups the episodes without a win by cause: the sprite and the rule that ended them. Also computes the
+//! distance from a win.
 
 use crate::metrics::{EndingKind, GoalDistance};
 use crate::study::{Study, StudyEpisode};
@@ -9,49 +9,49 @@ use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The episodes of a player on a game that ended with the same cause.
+/// A player's episodes on a game that ended with the same cause.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EndingRow {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
     /// The kind of ending.
     pub kind: EndingKind,
     /// The cause as a phrase, such as `died of touching dragonfly`.
     pub cause: String,
-    /// The sprites of the cause as a phrase, such as `of touching dragonfly`, if there are any.
+    /// The causing sprites as a phrase, such as `of touching dragonfly`, if any.
     pub particulars: Option<String>,
-    /// The line of the game description that caused the ending, as written.
+    /// The line in the game description that caused the ending, as written.
     pub rule: Option<String>,
     /// The number of episodes with this cause.
     pub episodes: u64,
-    /// The numbers of the levels on which these episodes were played.
+    /// The numbers of the levels with these episodes.
     pub levels: BTreeSet<usize>,
     /// The smallest distance from a win among the episodes with this cause.
     pub nearest: Option<GoalDistance>,
 }
 
-/// A summary of the episodes that a player did not win.
+/// A summary of a player's episodes without a win.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EndingSummary {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The number of episodes that were not won.
+    /// The number of episodes without a win.
     pub episodes: u64,
-    /// The number of episodes by kind of ending. Kinds that did not occur are omitted.
+    /// The number of episodes for each kind of ending. Kinds that did not occur are omitted.
     pub kinds: BTreeMap<EndingKind, u64>,
     /// The indices of the player's rows in the study, most frequent cause first.
     pub causes: Vec<usize>,
 }
 
-/// Returns one row for each player, game and cause. Models come before reference players, each group in the
-/// order of the leaderboard. For each player, the most frequent causes come first.
+/// Returns one row per player, game and cause. Models come before reference players, each group in
+/// leaderboard order. Each player's most frequent causes come first.
 pub(crate) fn endings(study: &Study) -> Vec<EndingRow> {
     players(study).flat_map(|player| of_player(study, player)).collect()
 }
 
-/// Returns the players in the order in which tables list them.
+/// Returns the players in table order.
 fn players(study: &Study) -> impl Iterator<Item = usize> + '_ {
     let players = study.leaderboard.iter().map(|row| row.player);
     players.sorted_by_key(|&player| study.players[player].is_reference())
@@ -80,7 +80,7 @@ fn of_player(study: &Study, player: usize) -> Vec<EndingRow> {
     rows.into_values().sorted_by_key(|row| Reverse(row.episodes)).collect()
 }
 
-/// Returns the smallest of the distances. If several distances are equal, the first one is returned.
+/// Returns the smallest distance. Returns the first one if several are equal.
 pub(crate) fn nearest<'a>(distances: impl Iterator<Item = &'a GoalDistance>) -> Option<&'a GoalDistance> {
     distances.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
 }
@@ -100,8 +100,8 @@ pub(crate) fn summaries(study: &Study) -> Vec<EndingSummary> {
 
 impl Study {
     /// Returns up to `count` of a player's most informative episodes. Losses come before wins. Each cause is
-    /// represented once before any cause is repeated, starting with the episode nearest to a win. The most frequent
-    /// cause of each kind comes before other causes of that kind. Aborted episodes come last.
+    /// represented once, by its episode nearest to a win, before any cause is repeated. The most frequent
+    /// cause of each kind comes before the kind's other causes. Aborted episodes come last.
     pub fn telling(&self, player: usize, count: usize) -> Vec<&StudyEpisode> {
         let causes: Vec<&EndingRow> = self.endings.iter().filter(|row| row.player == player).collect();
         // `numbers` holds the index of each cause among the causes of its kind, and `seen` the number of its

@@ -1,4 +1,4 @@
-//! Compares the movement in won episodes with the movement in other episodes (`spec/06` §2.7 and §5.4).
+//! Compares the movement in won episodes with the movement in all other episodes (`spec/06` §2.7 and §5.4).
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::Study;
@@ -10,7 +10,7 @@ use statistics::{bonferroni, quantile, welch};
 use std::collections::BTreeMap;
 
 base::named_enum! {
-    /// A failure-mode metric, computed for each episode.
+    /// A failure-mode metric, computed per episode.
     pub enum FailureMeasure {
         /// The fraction of steps that were not meaningful.
         BumpRate = "bump_rate",
@@ -18,17 +18,17 @@ base::named_enum! {
         MaxBumps = "max_bumps",
         /// The bump rate in the last quarter of the steps.
         LateBumpRate = "late_bump_rate",
-        /// The fraction of steps that returned to the cell of two steps before.
+        /// The fraction of steps that returned to the avatar's cell from two steps before.
         OscillationRate = "oscillation_rate",
         /// The number of distinct cells visited by the avatar.
         UniqueCells = "unique_cells",
-        /// The number of distinct cells visited divided by the area of their bounding rectangle.
+        /// The number of distinct cells visited divided by the area of the cells' bounding rectangle.
         Coverage = "coverage",
     }
 }
 
 impl FailureMeasure {
-    /// Returns the name of the metric for use in headings.
+    /// Returns the metric's name for use in headings.
     pub fn title(self) -> &'static str {
         match self {
             FailureMeasure::BumpRate => "bump rate",
@@ -54,8 +54,8 @@ impl FailureMeasure {
     }
 }
 
-/// The values of a metric in won episodes and in other episodes of models. If there is no model, all players
-/// are included.
+/// A metric's values in won episodes and in other episodes of models. If there are no models, all players are
+/// included.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailureMode {
     /// The failure-mode metric.
@@ -64,7 +64,7 @@ pub struct FailureMode {
     pub won: Vec<f64>,
     /// The values in all other episodes.
     pub lost: Vec<f64>,
-    /// The number of episodes that were excluded because the metric has no value.
+    /// The number of episodes excluded because the metric has no value.
     pub excluded: u64,
     /// Welch's test of the difference between the means, won minus other episodes. `None` if either side has
     /// fewer than two values, or if there is no variance.
@@ -74,13 +74,13 @@ pub struct FailureMode {
 /// The result of Welch's t test.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WelchTest {
-    /// The t statistic, which is the difference between the means in standard errors.
+    /// The t statistic: the difference between the means, in standard errors.
     pub t: f64,
     /// The degrees of freedom.
     pub df: f64,
     /// The two-sided p-value. Episodes are treated as independent.
     pub p: f64,
-    /// The p-value corrected for the six metrics (Bonferroni). The paper does not apply this correction.
+    /// The p-value corrected for the six metrics (Bonferroni). The paper omits the correction.
     pub adjusted: f64,
 }
 
@@ -105,24 +105,24 @@ pub(crate) fn failures(study: &Study) -> Vec<FailureMode> {
     modes
 }
 
-/// The oscillation rate of a player on a level.
+/// A player's oscillation rate on a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OscillationRow {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
-    /// The number of the level.
+    /// The level number.
     pub level: usize,
-    /// The mean oscillation rate of the episodes.
+    /// The mean oscillation rate over the episodes.
     pub rate: f64,
     /// The number of episodes.
     pub episodes: u64,
-    /// The number of wins among the episodes.
+    /// The number of won episodes.
     pub wins: u64,
 }
 
-/// Returns the levels on which models oscillate, highest rate first. If there is no model, all players are
+/// Returns the levels on which models oscillate, highest rate first. If there are no models, all players are
 /// included. Levels without oscillation are omitted.
 pub(crate) fn oscillations(study: &Study) -> Vec<OscillationRow> {
     let mut groups: BTreeMap<(usize, usize, usize), Vec<&StudyEpisode>> = BTreeMap::new();

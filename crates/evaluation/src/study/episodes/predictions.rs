@@ -1,28 +1,27 @@
-//! The predictions of players about the rules after the last level of a series.
+//! Players' predictions about the rules after the last level in a series.
 
 use crate::study::episodes::scores::mean;
 use crate::study::{Player, Study};
 use report::{Table, TableCell};
 use serde::Serialize;
 
-/// The results of a player's predictions.
+/// A player's prediction results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PredictionRow {
-    /// The player that made the predictions.
+    /// The player who made the predictions.
     pub player: Player,
     /// The number of answers, including unusable answers.
     pub answers: u64,
     /// The number of correct predictions.
     pub right: u64,
-    /// The number of predictions that could be correct, which are the pairs of sprite types and facts that
-    /// the rules determine.
+    /// The number of gradable predictions: the pairs of sprite types and facts that the rules determine.
     pub of: u64,
     /// The mean insight of the answers ([`Grade::insight`](crate::predictions::Grade::insight)). Answers
     /// without an insight are excluded.
     pub insight: Option<f64>,
 }
 
-/// Returns one row for each player that has made predictions, highest insight first.
+/// Returns one row per player with predictions, highest insight first.
 pub(in crate::study) fn rows(study: &Study) -> Vec<PredictionRow> {
     let row = |(number, player): (usize, &Player)| {
         let ended = study.on(number, None, None).iter().filter(|episode| episode.metrics.counts());
@@ -41,7 +40,7 @@ pub(in crate::study) fn rows(study: &Study) -> Vec<PredictionRow> {
     rows
 }
 
-/// Returns the table of predictions; `None` without any.
+/// Returns the predictions table, or `None` if there are no predictions.
 pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     (!study.predictions.is_empty()).then(|| {
         Table::of(

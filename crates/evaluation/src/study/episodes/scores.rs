@@ -1,4 +1,4 @@
-//! The scores of a set of episodes, such as the episodes of a player on a level, on a game, or on all games.
+//! The scores of a set of episodes, such as a player's episodes on a level, on a game, or on all games.
 
 use crate::metrics::EpisodeMetrics;
 use crate::study::LEVEL;
@@ -13,9 +13,9 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Estimate {
     /// The estimated number.
     pub value: f64,
-    /// The lower bound of the interval.
+    /// The interval's lower bound.
     pub low: f64,
-    /// The upper bound of the interval.
+    /// The interval's upper bound.
     pub high: f64,
 }
 
@@ -29,8 +29,8 @@ impl Estimate {
     /// interval applies to similar games ([`rate_over_games`]). For one game, the interval is Wilson's and
     /// applies to exactly its levels.
     ///
-    /// Identical episodes of a player on a level are one observation: the rate counts all of them, but the interval
-    /// does not.
+    /// A player's identical episodes on a level are one observation: the rate counts all of them, but the
+    /// interval counts them once.
     pub(in crate::study) fn rate(ended: &[&StudyEpisode]) -> Option<Estimate> {
         let mut games: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
         for episode in ended {
@@ -59,12 +59,12 @@ impl Estimate {
 /// An episode of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudyEpisode {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
-    /// The score relative to the range of all players' scores on this level,
-    /// `(r − min) / (max − min + 1e-8)`. `None` if the range is empty or the episode was aborted.
+    /// The score relative to the range of all players' scores on this level, `(r − min) / (max − min +
+    /// 1e-8)`. `None` if the range is empty, or if the episode was aborted.
     pub normalised_reward: Option<f64>,
     /// The maximum number of steps in any player's episode on this level.
     pub most_steps: u64,
@@ -73,8 +73,8 @@ pub struct StudyEpisode {
     pub metrics: EpisodeMetrics,
 }
 
-/// The scores of a set of episodes. Each mean is over the episodes whose value is known. Aborted episodes
-/// count only in `excluded`.
+/// The scores of a set of episodes. Each mean covers the episodes with a known value. Aborted episodes count
+/// only in `excluded`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Scores {
     /// The number of ended episodes.
@@ -85,14 +85,14 @@ pub struct Scores {
     pub wins: u64,
     /// The number of episodes that reached the step limit.
     pub timeouts: u64,
-    /// The number of observations. Identical episodes of a player on a level are one observation.
+    /// The number of observations. A player's identical episodes on a level are one observation.
     pub observations: u64,
     /// The number of wins divided by the number of episodes. The interval applies to similar games, or to
     /// exactly the played levels if they belong to one game.
     pub win_rate: Option<Estimate>,
     /// The mean meaningful step ratio.
     pub meaningful: Option<f64>,
-    /// The mean meaningful step ratio according to the reference's code.
+    /// The mean meaningful step ratio according to the reference code.
     pub meaningful_as_code: Option<f64>,
     /// The mean number of steps.
     pub steps: Option<f64>,
@@ -100,17 +100,16 @@ pub struct Scores {
     pub score: Option<f64>,
     /// The mean normalised reward.
     pub normalised_reward: Option<f64>,
-    /// The mean of the fraction of unused steps, `1 − steps / limit`.
+    /// The mean fraction of unused steps, `1 − steps / limit`.
     #[serde(rename = "spared")]
     pub unused_steps: Option<f64>,
-    /// The overall score of the paper, which is the mean of the meaningful step ratio, the fraction of unused
-    /// steps, the normalised reward and the win rate. `None` if one of the four values is missing.
+    /// The paper's overall score: the mean of the meaningful step ratio, the fraction of unused steps, the
+    /// normalised reward and the win rate. `None` if one of the four values is missing.
     pub overall: Option<f64>,
-    /// The step efficiency, which is averaged over the levels with wins. On a level, it is
-    /// `1 − mean steps of wins / most steps of any episode`.
+    /// The step efficiency, averaged over the levels with wins. A level's value is `1 − mean steps of wins /
+    /// most steps of any episode`.
     pub efficiency: Option<f64>,
-    /// The mean of `optimal ticks / steps` over the wins on levels whose shortest win is proved to be
-    /// optimal.
+    /// The mean of `optimal ticks / steps` over the wins on levels whose shortest win is proved optimal.
     pub optimality: Option<f64>,
     /// The mean bump rate.
     pub bump_rate: Option<f64>,
@@ -155,8 +154,8 @@ impl Scores {
     }
 }
 
-/// Returns the number of wins and the number of episodes, without duplicates. Episodes of a player on a level
-/// are identical if they have the same actions and boards.
+/// Returns the number of wins and the number of episodes, without duplicates. A player's episodes on a level
+/// are identical if their actions and boards are the same.
 pub(crate) fn observations<'a>(ended: impl Iterator<Item = &'a StudyEpisode>) -> (u64, u64) {
     let mut seen: BTreeSet<(usize, usize, usize, Digest)> = BTreeSet::new();
     let new = ended.filter(|episode| {
@@ -166,7 +165,7 @@ pub(crate) fn observations<'a>(ended: impl Iterator<Item = &'a StudyEpisode>) ->
     new.fold((0, 0), |(wins, all), episode| (wins + u64::from(episode.metrics.won()), all + 1))
 }
 
-/// Returns the mean of the step efficiencies over all levels with wins.
+/// Returns the mean step efficiency over all levels with wins.
 fn efficiency(ended: &[&StudyEpisode]) -> Option<f64> {
     let mut levels: BTreeMap<(usize, usize), (Vec<f64>, u64)> = BTreeMap::new();
     for episode in ended.iter().filter(|episode| episode.metrics.won()) {
@@ -183,14 +182,14 @@ pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     statistics::Summary::of(&values.into_iter().collect::<Vec<f64>>()).map(|summary| summary.mean)
 }
 
-/// Returns the levels of the given episodes, as pairs of game index and level number.
+/// Returns the episodes' levels, as pairs of game index and level number.
 pub(crate) fn levels_of<'a>(
     episodes: impl IntoIterator<Item = &'a StudyEpisode>,
 ) -> BTreeSet<(usize, usize)> {
     episodes.into_iter().map(|episode| (episode.game, episode.metrics.level)).collect()
 }
 
-/// Sets the normalised rewards and the maximum numbers of steps of all episodes.
+/// Sets all episodes' normalised rewards and maximum numbers of steps.
 pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
     let place = |episode: &StudyEpisode| (episode.metrics.track.clone(), episode.game, episode.metrics.level);
     let mut ranges: BTreeMap<_, (f64, f64, u64)> = BTreeMap::new();

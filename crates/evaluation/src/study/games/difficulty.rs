@@ -1,4 +1,4 @@
-//! The difficulty of games and levels for the players of a study (`spec/06` §2.6).
+//! The difficulty of games and levels for a study's players (`spec/06` §2.6).
 
 use crate::study::Study;
 use crate::study::episodes::scores::{Scores, mean};
@@ -6,7 +6,7 @@ use report::{Table, TableCell};
 use serde::Serialize;
 
 base::named_enum! {
-    /// A difficulty class of a level or a game, based on its score.
+    /// A difficulty class for a level or a game, based on its score.
     pub enum DifficultyLabel {
         /// The score is at least 0.8.
         VeryEasy = "very_easy",
@@ -39,20 +39,20 @@ impl DifficultyLabel {
 /// The difficulty of a level, or of a game over all its levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DifficultyRow {
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
-    /// The number of the level, or `None` for the whole game.
+    /// The level number, or `None` for the entire game.
     pub level: Option<usize>,
-    /// The mean win rate of the players.
+    /// The players' mean win rate.
     pub win_rate: Option<f64>,
-    /// The mean normalised reward of the players.
+    /// The players' mean normalised reward.
     pub normalised_reward: Option<f64>,
-    /// The mean step efficiency of the players that have won.
+    /// The mean step efficiency of the players with wins.
     pub efficiency: Option<f64>,
     /// The score `0.6 win rate + 0.2 normalised reward + 0.2 efficiency`. A higher score means an easier
     /// level. `None` if a component is missing.
     pub ease: Option<f64>,
-    /// The class of the score. `None` if there is a win but the score is missing.
+    /// The score's class. `None` if there is a win but no score.
     pub label: Option<DifficultyLabel>,
 }
 
@@ -76,7 +76,7 @@ impl DifficultyRow {
     }
 }
 
-/// Returns the rows of all games. Each game is followed by its levels.
+/// Returns all games' rows. Each game is followed by its levels.
 pub(crate) fn difficulties(study: &Study) -> Vec<DifficultyRow> {
     let of_game = |(game, facts): (usize, &crate::study::StudyGame)| {
         let levels = facts.levels.iter().map(|level| Some(level.number));

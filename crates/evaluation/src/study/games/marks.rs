@@ -1,4 +1,4 @@
-//! Compares the players of a study with the reference results of a release, on the same levels.
+//! Compares a study's players with a release's reference results on the same levels.
 
 use crate::commitment::Commitment;
 use crate::study::episodes::scores::Estimate;
@@ -8,19 +8,19 @@ use serde::Serialize;
 use statistics::{Z95, rate_over_games, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The results of one player with one commitment on the levels of a tier that have reference results. The
-/// player is a reference player or a player of the study.
+/// One player's results with one commitment, on a tier's levels with reference results. The player is a
+/// reference player or a player in the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MarkRow {
     /// The tier of the levels.
     pub tier: u8,
     /// The number of actions that the player commits to at each decision, or `all`.
     pub commit: String,
-    /// The name of a reference player, or the label of a player of the study without its commitment.
+    /// A reference player's name, or the label of a player in the study without its commitment.
     pub player: String,
     /// `true` for a reference player, whose results come from the release.
     pub is_mark: bool,
-    /// The number of levels in the tier.
+    /// The tier's number of levels.
     pub levels: u64,
     /// The number of episodes.
     pub episodes: u64,
@@ -31,7 +31,7 @@ pub struct MarkRow {
     pub rate: Option<Estimate>,
 }
 
-/// The numbers of wins and episodes, by the indices of game and level.
+/// The number of wins and the number of episodes, by game index and level index.
 type Counts = BTreeMap<(usize, usize), (u64, u64)>;
 
 /// Returns the rows, sorted by tier, commitment and win rate.
@@ -95,7 +95,7 @@ fn row(tier: u8, commit: Commitment, player: String, is_mark: bool, counts: &Cou
     }
 }
 
-/// Returns the table of reference results; `None` without any.
+/// Returns the table of reference results, or `None` if there are no reference results.
 pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     if study.marks.is_empty() {
         return None;

@@ -1,10 +1,10 @@
-//! Recognises the left-right mirror image of a game (`docs/how-to/twins.md`).
+//! Recognises a game's left-right mirror image (`docs/how-to/twins.md`).
 
 use crate::mask;
 use engine::syntax::SpriteLine;
 use engine::{Description, Direction, Game};
 
-/// Returns `true` if the rules of one game are those of the other with left and right exchanged, under any names.
+/// Returns `true` if one game's rules are the other's with left and right exchanged, under any names.
 pub(in crate::study) fn is_image(one: &Game, other: &Game) -> bool {
     let facing = |game: &Game| -> Vec<Direction> {
         let concrete = game.sprite_types().filter(|&stype| game.class(stype).is_some());
@@ -15,7 +15,7 @@ pub(in crate::study) fn is_image(one: &Game, other: &Game) -> bool {
     image == facing(other) && rules(one, true) == rules(other, false)
 }
 
-/// Returns the canonical text of a level with left and right exchanged.
+/// Returns a level's canonical text with left and right exchanged.
 pub(in crate::study) fn level(text: &str) -> String {
     text.lines().map(|row| row.chars().rev().chain(['\n']).collect::<String>()).collect()
 }
@@ -28,8 +28,8 @@ fn direction(direction: Direction) -> Direction {
     }
 }
 
-/// Returns rules without the orientations of sprite types, which the compiled games contain. If `swap` is
-/// `true`, left and right are exchanged in the remaining rules.
+/// Returns rules without the sprite types' orientations, which the compiled games contain. If `swap` is
+/// `true`, exchanges left and right in the remaining rules.
 fn undirected(rules: &Description, swap: bool) -> Description {
     let mut rules = rules.clone();
     sprites(&mut rules.sprites, swap);
@@ -53,7 +53,7 @@ fn sprites(lines: &mut [SpriteLine], swap: bool) {
     }
 }
 
-/// Replaces each of two words by the other word.
+/// Replaces each of two words with the other.
 fn exchange(text: &mut String, [one, other]: [&str; 2]) {
     if text == one {
         other.clone_into(text);

@@ -1,4 +1,4 @@
-//! The games and levels of a study.
+//! A study's games and levels.
 
 pub(super) mod difficulty;
 pub(super) mod marks;

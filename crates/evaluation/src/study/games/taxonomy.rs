@@ -1,4 +1,4 @@
-//! The results of players by kind of game. The kind is stated by the release, or derived from the rules by a
+//! Players' results by kind of game. The kind is stated by the release, or derived from the rules by a
 //! taxonomy.
 
 use crate::study::episodes::scores::{Estimate, Scores};
@@ -7,30 +7,30 @@ use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;
 
-/// The results of a player on all games of one kind.
+/// A player's results on all games of one kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TaxonomyRow {
-    /// The kind, which is a word from the release or a sentence of the taxonomy.
+    /// The kind: a word from the release or a sentence from the taxonomy.
     pub kind: String,
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The number of games of the kind that the player played.
+    /// The number of the kind's games that the player played.
     pub games: u64,
-    /// The scores on the games of the kind.
+    /// The scores on games of the kind.
     pub scores: Scores,
 }
 
-/// The name shown for the kind of a game whose kind is not recorded.
+/// The text shown in place of an unrecorded kind of game.
 const NOT_RECORDED: &str = "not recorded";
 
-/// Returns one row for each kind of the taxonomy and each player. The kinds are in the order of their first
-/// game. A game has several kinds.
+/// Returns one row for each taxonomy kind and player. Kinds are ordered by their first game. A game can have
+/// several kinds.
 pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
     rows(study, |game| game.taxonomy.clone())
 }
 
-/// Returns one row for each kind that the release states and each player, with the kinds in alphabetical
-/// order. The list is empty if no game has a recorded kind.
+/// Returns one row for each kind stated by the release and each player, with the kinds in alphabetical order.
+/// The list is empty if no game has a recorded kind.
 pub(crate) fn kinds(study: &Study) -> Vec<TaxonomyRow> {
     if study.games.iter().all(|game| game.kind.is_empty()) {
         return Vec::new();
@@ -78,8 +78,8 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     vec![by_kind(study), taxonomy]
 }
 
-/// Returns a table of the kinds that the release states, with one column of win rates per player. The players
-/// are in the order of the leaderboard.
+/// Returns a table of the kinds stated by the release, with one column of win rates per player, in
+/// leaderboard order.
 fn by_kind(study: &Study) -> Table {
     let players: Vec<usize> = study.leaderboard.iter().map(|row| row.player).collect();
     let labels: Vec<String> = players.iter().map(|&player| study.players[player].label()).collect();

@@ -1,4 +1,5 @@
-//! The horizons of players. A player's horizon is the commitment at which it still wins half of its episodes.
+//! Players' horizons. A player's horizon is the commitment at which the player still wins half of its
+//! episodes.
 
 use crate::study::episodes::scores::Estimate;
 use crate::study::{Player, Study, StudyEpisode};
@@ -12,7 +13,7 @@ use std::collections::BTreeMap;
 const RESAMPLES: usize = 1000;
 
 base::named_enum! {
-    /// The kind of games on which a horizon is measured, by what a player must foresee.
+    /// The kind of games on which a horizon is measured, according to what a player must foresee.
     pub enum Foresight {
         /// Deterministic games, in which the future follows from the rules.
         Exact = "deterministic",
@@ -23,7 +24,7 @@ base::named_enum! {
     }
 }
 
-/// A player's horizon, which is the commitment at which the player still wins half of its episodes.
+/// A player's horizon: the commitment at which the player still wins half of its episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HorizonRow {
     /// The player, without its commitment.
@@ -40,13 +41,13 @@ pub struct HorizonRow {
     pub range: [f64; 2],
 }
 
-/// The win rate of a player with one commitment.
+/// A player's win rate with one commitment.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CommitmentRate {
-    /// The commitment in the notation of results: a number, or `all`.
+    /// The commitment as written in results: a number, or `all`.
     pub commit: String,
-    /// The mean of the effective commitments, in ticks. An effective commitment is at most the length of the
-    /// level's shortest known win.
+    /// The mean effective commitment, in ticks. An effective commitment is at most the length of the level's
+    /// shortest known win.
     pub ticks: f64,
     /// The win rate with its interval.
     pub rate: Option<Estimate>,
@@ -55,7 +56,7 @@ pub struct CommitmentRate {
 }
 
 impl HorizonRow {
-    /// Formats the horizon, such as `12`, or `≥ 80` if only a bound is known. An unknown horizon is formatted
+    /// Formats the horizon, as in `12`, or `≥ 80` if only a bound is known. An unknown horizon is formatted
     /// as `–`.
     pub fn told_value(&self) -> String {
         self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
@@ -69,7 +70,7 @@ impl HorizonRow {
         })
     }
 
-    /// Returns the label of the player and the kind of games. The kind is omitted for [`Foresight::All`].
+    /// Returns the player's label and the kind of games. The kind is omitted for [`Foresight::All`].
     pub fn title(&self) -> String {
         match self.games {
             Foresight::All => self.player.label(),
@@ -92,7 +93,7 @@ impl HorizonRow {
     }
 }
 
-/// Returns one row for each player with several commitments and each kind of game that it played, furthest horizon
+/// Returns one row for each player with several commitments and each kind of game played, furthest horizon
 /// first.
 pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
     let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
@@ -127,8 +128,8 @@ pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
     rows
 }
 
-/// Returns the length of the shortest known win in ticks, by game and level. The shortest known win is a proved
-/// one, or else the shortest win of any player in the study.
+/// Returns the length of the shortest known win in ticks, by game and level. If no shortest win is proved,
+/// the shortest win of any player in the study is used.
 fn shortest_wins(study: &Study) -> BTreeMap<(usize, usize), u64> {
     let mut shortest = BTreeMap::new();
     let wins = study.episodes.iter().filter(|episode| episode.metrics.won());
@@ -187,7 +188,7 @@ fn row(
     HorizonRow { player, games, rates: rates.collect(), horizon, range }
 }
 
-/// Returns the table of horizons; `None` without commitments.
+/// Returns the horizons table, or `None` if there are no commitments.
 pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     if study.horizons.is_empty() {
         return None;

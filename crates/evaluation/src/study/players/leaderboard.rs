@@ -1,4 +1,4 @@
-//! The leaderboard of a study, with the win rates of the players and their costs.
+//! A study's leaderboard, with the players' win rates and costs.
 
 use crate::metrics::{Choices, Spending};
 use crate::study::Study;
@@ -7,29 +7,29 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The results of a player on all levels that it played.
+/// A player's results on all its levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LeaderRow {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The scores over all of the player's episodes.
+    /// The scores over all the player's episodes.
     pub scores: Scores,
-    /// The bounds of the win rate, computed as if all aborted episodes had been lost, or all had been won.
-    /// `None` if no episode was aborted.
+    /// The bounds of the win rate, computed as if all aborted episodes had been lost or won. `None` if no
+    /// episode was aborted.
     pub bounds: Option<[f64; 2]>,
     /// The origins of the player's choices.
     pub choices: Choices,
     /// The cost of the player's choices.
     pub spending: Spending,
-    /// The mean number of input and output tokens per step.
+    /// The mean number of tokens per step, counting input and output.
     pub tokens_per_step: Option<f64>,
-    /// The number of aborted episodes, by the reason for the abort.
+    /// The number of aborted episodes, by reason.
     #[serde(rename = "broken_off")]
     pub aborted: BTreeMap<String, u64>,
 }
 
-/// Returns one row per player, sorted by win rate. Players with equal win rates are sorted by overall score,
-/// and then in the order of the study.
+/// Returns one row per player, sorted by win rate. Ties are broken by overall score, and then by the order of
+/// the study.
 pub(crate) fn leaderboard(study: &Study) -> Vec<LeaderRow> {
     let mut rows: Vec<LeaderRow> = (0..study.players.len()).map(|player| row(study, player)).collect();
     rows.sort_by(|a, b| {

@@ -1,4 +1,4 @@
-//! The players of a study, and their results.
+//! A study's players and their results.
 
 pub(super) mod horizon;
 pub(super) mod leaderboard;

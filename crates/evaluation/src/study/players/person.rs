@@ -1,5 +1,5 @@
 //! Distinguishes players with the same name. A person is a model with its prompts, its decoding settings and
-//! its served version. Results that differ in any of these settings are separate rows of a report.
+//! its served version. Results that differ in any of these settings are separate rows in a report.
 
 use crate::metrics::EpisodeMetrics;
 use crate::run::Entrant;
@@ -8,23 +8,24 @@ use itertools::Itertools;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The episodes of one person in a results folder.
+/// One person's episodes in a results folder.
 pub(crate) struct PersonResults {
     player: Player,
-    /// All settings that determine requests and answers, by path, such as `model.decoding.temperature`.
+    /// All settings that determine requests and answers, by their JSON path, such as
+    /// `model.decoding.temperature`.
     facts: BTreeMap<String, String>,
     episodes: Vec<EpisodeMetrics>,
 }
 
-/// The path of the model's served version among the facts.
+/// The path to the model's served version in the facts.
 const SERVED: &str = "served by";
-/// The path of the games' surface among the facts. The surface states how the games differ from their twins
-/// in an earlier folder.
+/// The path to the games' surface in the facts. The surface states how the games differ from their twins in
+/// an earlier folder.
 const TWIN: &str = "games";
 
 impl PersonResults {
-    /// Splits the episodes of a results folder by the versions of the model that answered. If the games are
-    /// twins of games in an earlier folder, `surface` describes the difference.
+    /// Splits the episodes in a results folder by the model versions that answered. If the games are twins of
+    /// games in an earlier folder, `surface` describes the difference.
     pub(crate) fn of(
         entrant: &Entrant,
         surface: Option<&str>,
@@ -63,8 +64,7 @@ impl PersonResults {
     }
 }
 
-/// Assigns distinct players to results with different facts. The conditions of each player state the
-/// differences.
+/// Assigns distinct players to results with different facts. Each player's conditions state the differences.
 pub(crate) fn told_apart(results: Vec<PersonResults>) -> Vec<(Player, Vec<EpisodeMetrics>)> {
     let mut differing: BTreeMap<Player, BTreeMap<String, BTreeSet<Option<String>>>> = BTreeMap::new();
     let unserved = |person: &PersonResults| person.episodes.is_empty() && !person.facts.contains_key(SERVED);

@@ -1,21 +1,21 @@
-//! The players of a study.
+//! A study's players.
 
 use crate::run::Entrant;
 use crate::track;
 use serde::Serialize;
 
-/// A player of a study. If equal players occur in several results folders, they are the same player.
+/// A player in a study. Equal players in different results folders are the same player.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Player {
-    /// The name of the player in tables.
+    /// The player's name in tables.
     pub name: String,
     /// The mode, `zero-shot` or `contextual`, or `None` for players that are not models.
     pub mode: Option<String>,
     /// The differences of the player's prompts from the default, sorted, with one flag per difference.
     pub aids: Vec<String>,
-    /// The settings in which the player differs from other players with the same name, mode and aids. They
-    /// are sorted phrases such as `temperature 0` or `served by m-2026-08`. The list is empty if there are no
-    /// such players.
+    /// The settings in which the player differs from other players with the same name, mode and aids. Each
+    /// setting is a phrase such as `temperature 0` or `served by m-2026-08`, and the phrases are sorted. The
+    /// list is empty if there are no such players.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub conditions: Vec<String>,
 }
@@ -26,12 +26,12 @@ pub const ZERO_SHOT: &str = "zero-shot";
 pub const CONTEXTUAL: &str = "contextual";
 
 impl Player {
-    /// Creates a player that is not a model.
+    /// Creates a non-model player.
     pub fn reference(name: &str) -> Player {
         Player { name: name.to_owned(), mode: None, aids: Vec::new(), conditions: Vec::new() }
     }
 
-    /// Creates a model in a mode, without aids.
+    /// Creates a model player in a given mode, without aids.
     pub fn model(name: &str, mode: &str) -> Player {
         Player { mode: Some(mode.to_owned()), ..Player::reference(name) }
     }

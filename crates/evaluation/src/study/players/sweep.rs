@@ -1,36 +1,35 @@
-//! The results of each player by game with their totals, which are called the sweep in the paper (`spec/06`
-//! §4 and §5.2).
+//! Each player's results by game, with totals. The paper calls such a table a sweep (`spec/06` §4 and §5.2).
 
 use crate::study::Study;
 use crate::study::episodes::scores::{Estimate, Scores, levels_of};
 use report::{Table, TableCell};
 use serde::Serialize;
 
-/// The results of a player, by game.
+/// A player's results by game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sweep {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
-    /// The results by game, for each game that the player played, in the order of the study.
+    /// The results for each of the player's games, in the order of the study.
     pub games: Vec<SweepRow>,
     /// The scores over all games played.
     pub total: Scores,
     /// The number of levels played in all games.
     pub levels: u64,
-    /// The number of levels that were played but never won.
+    /// The number of played levels without a win.
     pub zero_win_levels: u64,
 }
 
-/// The results of a player on a game.
+/// A player's results on a game.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SweepRow {
-    /// The index of the game in the study.
+    /// The game's index in the study.
     pub game: usize,
-    /// The scores over all levels of the game that the player played.
+    /// The scores over all of the game's levels that the player played.
     pub scores: Scores,
-    /// The number of levels of the game that the player played.
+    /// The number of the game's levels that the player played.
     pub levels: u64,
-    /// The number of levels that were played but never won.
+    /// The number of played levels without a win.
     pub zero_win_levels: u64,
 }
 
@@ -58,11 +57,11 @@ impl Sweep {
     }
 }
 
-/// A row of a table: the player, the game or games, the scores, the number of levels played, and the number
-/// of levels never won.
+/// A table row: the player, the game or games, the scores, the number of levels played, and the number of
+/// levels without a win.
 type Row<'a> = (String, String, &'a Scores, u64, u64);
 
-/// Returns the table of results by game and its summary.
+/// Returns the table of results by game, and its summary.
 pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let note = "Never won: levels without a single win. Efficiency: 1 − mean steps of wins / maximum \
                 steps of any episode on the level, over the levels that were won.";

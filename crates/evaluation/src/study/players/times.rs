@@ -8,7 +8,7 @@ use statistics::quantile;
 /// The durations of a player's decisions, including decisions in aborted episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeRow {
-    /// The index of the player in the study.
+    /// The player's index in the study.
     pub player: usize,
     /// The number of decisions.
     pub decisions: u64,
@@ -16,9 +16,9 @@ pub struct TimeRow {
     pub median_ms: Option<f64>,
     /// The 90th percentile of the duration, in milliseconds.
     pub p90_ms: Option<f64>,
-    /// The median number of forward-model calls per decision, for players that make such calls.
+    /// The median number of forward-model calls per decision, for players that use the forward model.
     pub median_calls: Option<f64>,
-    /// The 90th percentile of the number of forward-model calls per decision.
+    /// The 90th percentile of forward-model calls per decision.
     pub p90_calls: Option<f64>,
 }
 

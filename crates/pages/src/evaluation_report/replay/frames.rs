@@ -1,10 +1,10 @@
-//! The boards of an episode. Each board is stored as a difference from the previous board.
+//! An episode's boards. Each board is stored as a difference from the previous board.
 
 use render::{Picture, Tile, svg_tile};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 use std::fmt::Write;
 
-/// The tiles on a game's boards, each stored once in the page.
+/// The tiles on a game's boards. Each tile is stored once in the page.
 pub(super) struct Tiles {
     pub(super) prefix: String,
     known: Vec<Tile>,
@@ -29,14 +29,14 @@ impl Tiles {
     }
 }
 
-/// The index of a tile, and its left edge, top edge, width and height in pixels.
+/// A tile's index, and its left edge, top edge, width and height in pixels.
 type Mark = (usize, [i32; 4]);
 
 pub(super) struct Boards {
     cell: i32,
     last: Vec<Mark>,
-    /// For each board, the replacements that turn the previous board into this board. The replacements go
-    /// from the end of the board to its beginning. The first board replaces an empty board.
+    /// For each board, the replacements that turn the previous board into the board. The replacements are
+    /// ordered from the end of the board to its beginning. The first board replaces an empty board.
     pub(super) changes: Vec<String>,
 }
 
@@ -58,9 +58,9 @@ impl Boards {
     }
 }
 
-/// Returns the change from one board to the next, with one line `AT COUNT MARK…` for each replaced range. The
-/// last range comes first, so that the positions of earlier ranges stay valid. A mark is `TILE,X,Y`, followed
-/// by its width and height if it does not fill a cell.
+/// Returns the change from one board to the next, with one line `AT COUNT MARK…` per replaced range. The last
+/// range comes first, so that the positions of earlier ranges remain valid. A mark is `TILE,X,Y`, followed by
+/// its width and height if it does not fill a cell.
 fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
     let mut text = String::new();
     for op in capture_diff_slices(Algorithm::Myers, from, to).iter().rev() {

@@ -1,4 +1,4 @@
-//! Replays of some episodes, step by step. Each board is shown with its prompts and answers.
+//! Step-by-step replays of some episodes. Each board is shown with its prompts and answers.
 
 mod frames;
 mod talk;
@@ -19,13 +19,13 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use talk::{Talk, talks};
 
-/// The number of decisions shown from the start of a long episode.
+/// The number of decisions shown at the start of a long episode.
 const FIRST: usize = 200;
-/// The number of decisions shown from the end of a long episode.
+/// The number of decisions shown at the end of a long episode.
 const LAST: usize = 100;
-/// The cell size of the animated boards, in pixels.
+/// The cell size of animated boards, in pixels.
 const CELL: u32 = 20;
-/// The longer side of the still boards, in pixels.
+/// The longer side of still boards, in pixels.
 const STILL: u32 = 220;
 /// The number of still boards per episode, including the start and the end.
 const STILLS: usize = 4;
@@ -46,21 +46,21 @@ struct PlayerReplays {
 
 #[derive(Serialize)]
 struct Replay {
-    /// The title of the replay, with the game, level and run.
+    /// The replay's title, with the game, level and run.
     title: String,
     result: String,
     /// `true` if the episode was won.
     won: bool,
     size: [u32; 2],
-    /// The data for the page's script, with the tiles, the changes from board to board, and the text below
-    /// each board.
+    /// The data for the page's script: the tiles, the changes from board to board, and the text below each
+    /// board.
     data: String,
     stills: Vec<Figure>,
-    /// The actions of the episode. Repeated actions are counted.
+    /// The episode's actions. Repeated actions are counted.
     actions: String,
     /// The prompt shown to the player before its first decision.
     told: Vec<String>,
-    /// The messages of each decision. The list is empty for players without messages.
+    /// Each decision's messages. The list is empty for players without messages.
     decisions: Vec<Decision>,
     /// The number of decisions omitted from the middle of the episode.
     skipped: usize,
@@ -68,17 +68,17 @@ struct Replay {
 
 #[derive(Serialize)]
 struct Decision {
-    /// The index of the board at which the player decided, among the boards shown.
+    /// The board at which the player decided, as an index into the shown boards.
     at: usize,
     /// The index of the decision's first step.
     step: usize,
     action: String,
-    /// A phrase for the problem with the choice, or an empty text.
+    /// A phrase about the problem with the choice, or an empty text.
     validity: &'static str,
     talk: Talk,
 }
 
-/// The data that the page's script reads.
+/// The data read by the page's script.
 #[derive(Serialize)]
 struct Data<'a> {
     cell: u32,
@@ -87,7 +87,7 @@ struct Data<'a> {
     captions: &'a [String],
 }
 
-/// An episode that may be replayed in the page.
+/// An episode that the page may replay.
 struct Candidate<'a> {
     evaluation: &'a Evaluation,
     task: Task<'a>,
@@ -95,9 +95,9 @@ struct Candidate<'a> {
 }
 
 impl Replays {
-    /// Returns up to `results.replays` episodes per player. Failures come first, with one episode for each
-    /// cause. If the replays exceed `room` bytes, models take precedence. Cost: O(steps) of play and drawing
-    /// per episode.
+    /// Returns up to `results.replays` episodes per player. Failures come first, with one episode per cause.
+    /// If the replays exceed `room` bytes, models take precedence. Cost: O(steps) of play and drawing per
+    /// episode.
     pub(super) fn of(results: &Results<'_>, room: usize) -> Result<Replays, PageError> {
         let (players, mut left_out) = (candidates(results), 0);
         let mut tiles: BTreeMap<String, Tiles> = BTreeMap::new();
@@ -163,7 +163,7 @@ fn candidates<'a>(results: &Results<'a>) -> Vec<(String, Vec<Candidate<'a>>)> {
     order.map(of_player).collect()
 }
 
-/// Finds the evaluation and the task to which an episode of a study belongs.
+/// Finds the evaluation and the task for an episode in a study.
 fn found<'a>(evaluations: &'a [Evaluation], episode: &StudyEpisode) -> Option<Candidate<'a>> {
     let EpisodeMetrics { folder, game, level, run, ending, .. } = &episode.metrics;
     let evaluation = evaluations.get((*folder)?)?;
@@ -265,7 +265,7 @@ impl Replay {
     }
 }
 
-/// Returns the heading of the still board before the given decision, if the page shows such a board.
+/// Returns the heading of the still board before the given decision, if the page shows one.
 fn still(decision: usize, steps: usize) -> Option<&'static str> {
     if decision == 0 {
         return Some("the start");
@@ -286,7 +286,7 @@ fn failed(error: RenderError) -> PageError {
     PageError::failed("the boards of a replay")(error)
 }
 
-/// Returns the result of an episode, such as `won in 34 steps, score 5`.
+/// Returns an episode's result, such as `won in 34 steps, score 5`.
 fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String {
     let how = match state.outcome() {
         Outcome::Won => "won in",
@@ -300,7 +300,7 @@ fn result(log: &[Event], state: &State, steps: usize, max_steps: u64) -> String 
     format!("{how} {}, score {}", words::many(steps as u64, "step"), words::short(state.score()))
 }
 
-/// Returns the cause of an ending, such as `: died of touching dragonfly; 2 of 5 gem left`.
+/// Returns an ending's cause, such as `: died of touching dragonfly; 2 of 5 gem left`.
 fn because(ending: Option<&Ending>) -> String {
     ending.map_or(String::new(), |ending| {
         let distance = ending.distance.as_ref().map_or(String::new(), |left| format!("; {}", left.words()));
@@ -311,7 +311,7 @@ fn because(ending: Option<&Ending>) -> String {
     })
 }
 
-/// Returns a phrase for the problem with a choice, or an empty text.
+/// Returns a phrase about the problem with a choice, or an empty text.
 fn told(validity: Validity) -> &'static str {
     match validity {
         Validity::Valid => "",

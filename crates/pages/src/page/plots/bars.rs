@@ -1,29 +1,29 @@
-//! Stacked bars, with one amount per line that is divided into parts.
+//! Stacked bars: each line shows one amount, divided into parts.
 
 use super::Label;
 use super::canvas::{Anchor, Canvas};
 
-/// The width of the names, in pixels.
+/// The width reserved for names, in pixels.
 const LEFT: f64 = 150.0;
 /// The width of the longest bar, in pixels.
 const PLANE: f64 = 300.0;
-/// The width of the figures next to the bars, in pixels.
+/// The width reserved for the figures next to the bars, in pixels.
 const RIGHT: f64 = 70.0;
-/// The height of a line, in pixels.
+/// The line height, in pixels.
 const LINE: f64 = 24.0;
 /// The height of the key above the lines, in pixels.
 const HEAD: f64 = 24.0;
 
-/// An amount that is divided into parts.
+/// An amount divided into parts.
 pub(crate) struct BarRow {
     pub(crate) label: Label,
-    /// The sizes of the parts, which are not negative.
+    /// The nonnegative sizes of the parts.
     pub(crate) parts: Vec<f64>,
-    /// The amount as text, which is shown next to the bar.
+    /// The amount as text, shown next to the bar.
     pub(crate) amount: String,
 }
 
-/// Draws the rows in order, scaled to the largest amount. `label` describes the plot, and `key` holds the
+/// Draws the rows in order, scaled to the largest amount. `label` describes the plot, and `key` contains the
 /// names of the parts. Cost: O(rows).
 pub(crate) fn bars(label: &str, key: &[&str], rows: &[BarRow]) -> String {
     let mut canvas = Canvas::new("bars", LEFT + PLANE + RIGHT, HEAD + rows.len() as f64 * LINE + 4.0, label);
@@ -55,7 +55,7 @@ pub(crate) fn bars(label: &str, key: &[&str], rows: &[BarRow]) -> String {
     canvas.finish()
 }
 
-/// Returns the corners of a rectangle.
+/// Returns a rectangle's corners.
 fn boxed([x, y, w, h]: [f64; 4]) -> [[f64; 2]; 4] {
     [[x, y], [x + w, y], [x + w, y + h], [x, y + h]]
 }

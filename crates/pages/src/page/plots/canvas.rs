@@ -5,10 +5,10 @@ use crate::page::facts::number;
 use report::visible;
 use std::fmt::Write;
 
-/// The maximum length of a row's name, in characters.
+/// The maximum length of a row name, in characters.
 const LETTERS: usize = 18;
 
-/// The part of a text that is placed at the given position.
+/// The part of a text to align with the given position.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     Start,
@@ -21,13 +21,13 @@ pub(super) struct Canvas {
     text: String,
 }
 
-/// Escapes a text for XML, which allows no control characters.
+/// Escapes a text for XML, which does not allow control characters.
 fn escaped(text: &str) -> String {
     render::escaped(&visible(text))
 }
 
 impl Canvas {
-    /// Creates an empty drawing of the given kind, with its size in pixels. `label` describes the drawing for
+    /// Creates an empty drawing of the given kind, with its size in pixels. `label` describes the drawing to
     /// people who cannot see it.
     pub(super) fn new(kind: &str, width: f64, height: f64, label: &str) -> Canvas {
         let (width, height, label) = (number(width), number(height), escaped(label));
@@ -46,7 +46,7 @@ impl Canvas {
         }
     }
 
-    /// Closes the group that was opened last.
+    /// Closes the most recently opened group.
     pub(super) fn close(&mut self) {
         self.text.push_str("</g>\n");
     }
@@ -61,7 +61,7 @@ impl Canvas {
         let _ = write!(self.text, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" class=\"{class}\"/>");
     }
 
-    /// Draws polylines, each through its points.
+    /// Draws polylines through the given points.
     pub(super) fn lines(&mut self, lines: &[&[[f64; 2]]], class: &str) {
         let ways: String = lines.iter().map(|points| way(points)).collect();
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{ways}\"/>");
@@ -71,7 +71,7 @@ impl Canvas {
         let _ = write!(self.text, "<path class=\"{class}\" d=\"{}Z\"/>", way(points));
     }
 
-    /// Draws a text whose baseline is at the given position.
+    /// Draws a text with its baseline at the given position.
     pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, class: &str, words: &str) {
         let (x, y, words) = (number(x), number(y), escaped(words));
         let anchor = match anchor {
@@ -83,8 +83,8 @@ impl Canvas {
         let _ = write!(self.text, "<text x=\"{x}\" y=\"{y}\"{anchor}{class}>{words}</text>");
     }
 
-    /// Draws a row's label to the left of a position. A label with one line is at the height of the position,
-    /// and a label with two lines is centred on it. Each line is shortened to fit.
+    /// Draws a row label to the left of a position. A one-line label is at the height of the position, and a
+    /// two-line label is centred on it. Each line is shortened to fit.
     pub(super) fn label(&mut self, x: f64, y: f64, Label { name, note }: &Label) {
         let lift = if note.is_empty() { 0.0 } else { 5.0 };
         self.text(x, y - lift, Anchor::End, "", &shortened(name, LETTERS));
@@ -93,7 +93,7 @@ impl Canvas {
         }
     }
 
-    /// Draws a text that runs upwards, with its middle at the given position.
+    /// Draws a vertical text that reads upwards, with its middle at the given position.
     pub(super) fn upright(&mut self, x: f64, y: f64, class: &str, words: &str) {
         let (x, y, words) = (number(x), number(y), escaped(words));
         let _ = write!(
@@ -102,7 +102,7 @@ impl Canvas {
         );
     }
 
-    /// Draws a grey, hatched rectangle with a dash, which represents a missing value.
+    /// Draws a grey, hatched rectangle with a dash, as a placeholder for a missing value.
     pub(super) fn missing(&mut self, [x, y, w, h]: [f64; 4], title: &str) {
         self.open("none", title);
         self.rect([x, y, w, h]);

@@ -5,17 +5,16 @@ use crate::page::words;
 
 /// The width and height of the plotting area, in pixels.
 const PLANE: [f64; 2] = [300.0, 150.0];
-/// The width of the margin to the left of the plotting area, in pixels.
+/// The width of the left margin, in pixels.
 const LEFT: f64 = 46.0;
-/// The width of the margin to the right of the plotting area, in pixels.
+/// The width of the right margin, in pixels.
 const RIGHT: f64 = 24.0;
-/// The height of the margin above the plotting area, in pixels.
+/// The height of the top margin, in pixels.
 const TOP: f64 = 10.0;
-/// The height of the margin below the plotting area, in pixels.
+/// The height of the bottom margin, in pixels.
 const FOOT: f64 = 36.0;
 
-/// A point on a curve, with its position on the scale, the name of the position, and a fraction with its
-/// interval.
+/// A point on a curve: its position on the scale, the position's name, and a fraction with its interval.
 pub(crate) struct CurvePoint {
     pub(crate) at: f64,
     pub(crate) name: String,
@@ -23,8 +22,8 @@ pub(crate) struct CurvePoint {
     pub(crate) band: [f64; 2],
 }
 
-/// Draws a curve of fractions with whiskers, and a line at one half. `marked` holds the position where the
-/// curve crosses that line, with its interval on the scale. Cost: O(points).
+/// Draws a curve of fractions with whiskers, and a horizontal line at one half. `marked` contains the
+/// position where the curve crosses that line, with its interval on the scale. Cost: O(points).
 pub(crate) fn curve(label: &str, points: &[CurvePoint], marked: Option<(f64, [f64; 2])>) -> String {
     let mut canvas = Canvas::new("curve", LEFT + PLANE[0] + RIGHT, TOP + PLANE[1] + FOOT, label);
     let ends = marked.iter().flat_map(|(at, band)| [*at, band[0], band[1]]);

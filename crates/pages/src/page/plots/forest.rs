@@ -1,23 +1,23 @@
-//! Forest plots, with one fraction and its interval per line.
+//! Forest plots: each line shows one fraction with its interval.
 
 use super::Label;
 use super::canvas::{Anchor, Canvas};
 use crate::page::words;
 
-/// The width of the names, in pixels.
+/// The width reserved for names, in pixels.
 const LEFT: f64 = 150.0;
 /// The width of the scale from 0 to 1, in pixels.
 const PLANE: f64 = 200.0;
-/// The width of the figures next to the scale, in pixels.
+/// The width reserved for the figures next to the scale, in pixels.
 const RIGHT: f64 = 160.0;
-/// The height of a line, in pixels.
+/// The line height, in pixels.
 const LINE: f64 = 28.0;
-/// The height of the scale's labels, in pixels.
+/// The height reserved for the scale's labels, in pixels.
 const FOOT: f64 = 24.0;
 
 pub(crate) struct ForestRow {
     pub(crate) label: Label,
-    /// The fraction and its interval, or `None` if there are no cases.
+    /// The fraction with its interval, or `None` without cases.
     pub(crate) share: Option<(f64, [f64; 2])>,
     pub(crate) of: String,
     /// `true` for a reference player, and `false` for a player under test.

@@ -1,32 +1,31 @@
-//! Heat maps, which show a value for each row and column as a colour and in digits.
+//! Heat maps, which show one value per row and column, as a colour and in digits.
 
 use super::canvas::{Anchor, Canvas};
 use super::{Label, step};
 
-/// The width of the row names, in pixels.
+/// The width reserved for row names, in pixels.
 const LEFT: f64 = 142.0;
 /// The width and height of a cell, in pixels.
 const CELL: [f64; 2] = [38.0, 28.0];
-/// The height of the column names above the cells, in pixels.
+/// The height reserved for column names above the cells, in pixels.
 const TOP: f64 = 36.0;
-/// The height of a line in a title, in pixels.
+/// The line height in titles, in pixels.
 const LINE: f64 = 15.0;
-/// The maximum width of a letter, in pixels.
+/// The maximum width of a character, in pixels.
 const LETTER: f64 = 7.4;
-/// The maximum number of letters in a line of a title that is wider than the columns below it.
+/// The maximum number of characters per line in a title wider than the columns below it.
 const LETTERS: usize = 14;
-/// The gap between two groups of columns, in pixels.
+/// The gap between groups of columns, in pixels.
 const GAP: f64 = 8.0;
 
 pub(crate) struct HeatMap<'a> {
     pub(crate) label: &'a str,
     pub(crate) rows: &'a [Label],
-    /// The groups of columns, each with its title and the names of its columns. A group is a game with its
-    /// levels.
+    /// The column groups, each with its title and its column names. A group is a game with its levels.
     pub(crate) groups: &'a [(String, Vec<String>)],
-    /// The values by row and column, with `None` for a missing value.
+    /// The values by row and column. `None` represents a missing value.
     pub(crate) cells: &'a [Vec<Option<f64>>],
-    /// The values at the low end and at the high end of the scale.
+    /// The values at the low end and the high end of the scale.
     pub(crate) scale: [f64; 2],
     /// A function that formats a value with at most four characters.
     pub(crate) show: fn(f64) -> String,
@@ -79,15 +78,15 @@ pub(crate) fn heat_map(map: &HeatMap<'_>) -> String {
     canvas.finish()
 }
 
-/// Returns the width in pixels of a group of columns, including the gap after it. The group is as wide
-/// as its columns or its title, whichever is wider.
+/// Returns a column group's width in pixels, including the gap after it. The group is as wide as its columns
+/// or its title, whichever is wider.
 pub(crate) fn group_width(title: &str, columns: usize) -> f64 {
     let lines = title_lines(title, columns);
     let longest = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0);
     (columns as f64 * CELL[0]).max(longest as f64 * LETTER) + GAP
 }
 
-/// Breaks a title above columns into lines. Lines end between words, after hyphens, and within words that are
+/// Breaks a title above columns into lines. Lines are broken between words, after hyphens, and within words
 /// longer than a line.
 fn title_lines(title: &str, columns: usize) -> Vec<String> {
     let room = ((columns as f64 * CELL[0] / LETTER) as usize).max(LETTERS);

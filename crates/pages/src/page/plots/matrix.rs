@@ -1,17 +1,17 @@
-//! Correlation matrices, in which each pair of measures occurs once.
+//! Correlation matrices, which show each pair of measures once.
 
 use super::canvas::{Anchor, Canvas};
 use super::step;
 
-/// The width of the row names, in pixels.
+/// The width reserved for row names, in pixels.
 const LEFT: f64 = 128.0;
 /// The width and height of a cell, in pixels.
 const CELL: [f64; 2] = [74.0, 46.0];
-/// The height of the column names below the cells, in pixels.
+/// The height reserved for column names below the cells, in pixels.
 const FOOT: f64 = 24.0;
 
-/// Draws the part of the matrix below the diagonal. `label` describes the matrix. For each pair of the
-/// measures in `names`, `cells` holds the coefficient from -1 to 1 and the text below it. `None` stands for a
+/// Draws the part of the matrix below the diagonal. `label` describes the matrix. For each pair of measures
+/// in `names`, `cells` contains the coefficient from -1 to 1, and the text below it. `None` represents a
 /// missing value. Cost: O(cells).
 pub(crate) fn matrix(label: &str, names: &[&str], cells: &[Vec<Option<(f64, String)>>]) -> String {
     let count = names.len();

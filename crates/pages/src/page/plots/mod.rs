@@ -1,11 +1,11 @@
-//! Plots as SVG inside a page. Plots are pure functions of plain numbers, so the same numbers give the same
+//! SVG plots inside a page. Plots are pure functions of plain numbers, so the same numbers give the same
 //! bytes.
 //!
 //! Colours are classes with a light and a dark variant in `plots.css`. `q0` to `q10` form a sequential scale
-//! of one hue. Its steps differ only in lightness, so that the scale is readable with every kind of colour
-//! vision. `d0` to `d10` form a diverging scale from blue over neutral to orange, for values that may be
-//! negative. Every value is also written as text. Missing values are grey and hatched, and never have a
-//! colour of the scale.
+//! in one hue. Its steps differ only in lightness, so that the scale is readable with every kind of colour
+//! vision. `d0` to `d10` form a diverging scale from blue through neutral to orange, for values that may be
+//! negative. Every value is also written as text. Missing values are grey and hatched, and never use a colour
+//! from the scale.
 
 mod bars;
 mod canvas;
@@ -26,7 +26,7 @@ pub(crate) use months::{MonthPlot, MonthPoint, MonthSeries, over_months};
 pub(crate) use range::range;
 pub(crate) use violin::{Violin, violins};
 
-/// The label of a row in a plot. The label has two lines, the second of which may be empty.
+/// A row label in a plot. The label has two lines, the second of which may be empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
     pub(crate) name: String,
@@ -34,15 +34,15 @@ pub(crate) struct Label {
     pub(crate) note: String,
 }
 
-/// Returns the step of a value on a scale of 0 to 10. Values up to `low` have step 0, and values from `high`
-/// on have step 10.
+/// Returns a value's step on a scale from 0 to 10. Values up to `low` have step 0, and values from `high`
+/// upwards have step 10.
 fn step(value: f64, low: f64, high: f64) -> usize {
     let part = if high > low { (value - low) / (high - low) } else { 0.5 };
     (part.clamp(0.0, 1.0) * 10.0).round() as usize
 }
 
-/// Shortens a text to at most `letters` characters by omitting its middle. The names of models usually differ
-/// in their first and last characters.
+/// Shortens a text to at most `letters` characters by omitting its middle. Model names usually differ in
+/// their first and last characters.
 fn shortened(text: &str, letters: usize) -> String {
     let all: Vec<char> = text.chars().collect();
     if all.len() <= letters {

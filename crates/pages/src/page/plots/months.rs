@@ -1,19 +1,19 @@
-//! Plots of values over the months, such as abilities, with an interval for each value.
+//! Plots of values over the months, such as abilities, with one interval per value.
 
 use super::canvas::{Anchor, Canvas};
 use super::shortened;
 
-/// The width of the margin on the left, in pixels.
+/// The width of the left margin, in pixels.
 const LEFT: f64 = 38.0;
-/// The height of the margin at the top, in pixels.
+/// The height of the top margin, in pixels.
 const TOP: f64 = 8.0;
-/// The height of the margin at the bottom, in pixels.
+/// The height of the bottom margin, in pixels.
 const FOOT: f64 = 24.0;
 /// The minimum vertical distance between line names next to the plotting area, in pixels.
 const LABEL: f64 = 13.0;
-/// The maximum number of characters in a name next to the plotting area.
+/// The maximum number of characters in a line name next to the plotting area.
 const LETTERS: usize = 22;
-/// The width of the names next to the plotting area, in pixels.
+/// The width reserved for line names next to the plotting area, in pixels.
 const NAMES: f64 = 150.0;
 
 /// A value for one month, with its interval.
@@ -21,33 +21,33 @@ const NAMES: f64 = 150.0;
 pub(crate) struct MonthPoint {
     pub(crate) value: f64,
     pub(crate) band: [f64; 2],
-    /// For each end of the interval, `true` if the end was determined. Otherwise, the interval extends to the
-    /// edge of the plot.
+    /// For each end of the interval, `true` if that end is determined by the data. Otherwise, the interval
+    /// extends to the edge of the plot.
     pub(crate) is_bounded: [bool; 2],
 }
 
 /// A line in a plot over the months.
 pub(crate) struct MonthSeries {
     pub(crate) name: String,
-    /// The class that sets the line's colour, which is `hue0` to `hue5`, or `mark`.
+    /// The class that sets the line's colour: `hue0` to `hue5`, or `mark`.
     pub(crate) class: String,
-    /// The value for each month, or `None` for a month without a value.
+    /// The value for each month, or `None` for months without a value.
     pub(crate) points: Vec<Option<MonthPoint>>,
     /// `true` to draw the intervals in addition to the line.
     pub(crate) whiskers: bool,
 }
 
-/// A plot of lines over the months.
+/// A plot with lines over the months.
 pub(crate) struct MonthPlot<'a> {
     pub(crate) label: &'a str,
     pub(crate) months: &'a [String],
-    /// The lines of the plot. Later lines are drawn over earlier lines.
+    /// The plot's lines. Later lines are drawn over earlier lines.
     pub(crate) series: &'a [MonthSeries],
     /// The lower and the upper end of the axis.
     pub(crate) range: [f64; 2],
     /// The width and height of the plotting area, in pixels.
     pub(crate) plane: [f64; 2],
-    /// `true` to write the names of the lines next to the plotting area.
+    /// `true` to write the line names next to the plotting area.
     pub(crate) names: bool,
 }
 
@@ -134,7 +134,7 @@ fn draw(
     }
 }
 
-/// Writes the names of the lines at their ends, with sufficient vertical distance between names.
+/// Writes the line names at the ends of the lines, with sufficient vertical distance between names.
 fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64) -> f64) {
     let mut ends: Vec<(f64, &MonthSeries)> = plot
         .series
@@ -171,7 +171,7 @@ fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64
     }
 }
 
-/// Returns the distance between two labels of the axis. An axis has about five to ten labels.
+/// Returns the distance between axis labels. An axis has about five to ten labels.
 fn tick(range: f64) -> f64 {
     [0.5, 1.0, 2.0, 5.0, 10.0].into_iter().find(|step| range / step <= 8.0).unwrap_or(20.0)
 }

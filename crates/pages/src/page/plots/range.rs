@@ -1,4 +1,4 @@
-//! Plots of expressive ranges, which show points in a plane, counted by cell.
+//! Expressive range plots, which count points in a plane by cell.
 
 use super::canvas::{Anchor, Canvas};
 use super::step;
@@ -7,12 +7,12 @@ use forge::levels::report::{Axis, BINS, Range};
 
 /// The width and height of the plotting area, in pixels.
 const PLANE: f64 = 240.0;
-/// The width of the margin for the labels of the vertical axis, in pixels.
+/// The width of the margin for vertical axis labels, in pixels.
 const LEFT: f64 = 58.0;
-/// The height of the margin at the top, in pixels.
+/// The height of the top margin, in pixels.
 const TOP: f64 = 10.0;
 
-/// Draws the levels of a set by two measures. Cells with more levels are darker. The game's own levels are
+/// Draws the levels in a set by two measures. Cells with more levels are darker. The game's own levels are
 /// shown as diamonds. Cost: O(cells).
 pub(crate) fn range(range: &Range) -> String {
     let Range { x, y, cells, examples, .. } = range;

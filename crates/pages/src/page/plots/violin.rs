@@ -1,37 +1,37 @@
-//! Violin plots, which show several distributions of values side by side.
+//! Violin plots, which show several distributions side by side.
 
 use super::canvas::{Anchor, Canvas};
 use crate::page::words;
 use statistics::quantile;
 
-/// The width of the axis labels, in pixels.
+/// The width reserved for axis labels, in pixels.
 const LEFT: f64 = 44.0;
-/// The height of the margin at the top, in pixels.
+/// The height of the top margin, in pixels.
 const TOP: f64 = 10.0;
 /// The height of the plotting area, in pixels.
 const PLANE: f64 = 190.0;
-/// The width of the space for each violin, in pixels.
+/// The width reserved for each violin, in pixels.
 const PLACE: f64 = 104.0;
-/// The height of the labels below the violins, in pixels.
+/// The height reserved for the labels below the violins, in pixels.
 const FOOT: f64 = 54.0;
-/// Half the width of the widest violin, in pixels.
+/// Half the maximum width of a violin, in pixels.
 const HALF: f64 = 46.0;
 /// The number of points at which a violin's density is evaluated.
 const POINTS: usize = 48;
-/// The maximum number of values for which the values are also drawn as dots.
+/// The maximum number of values for which individual values are also drawn as dots.
 const DOTS: usize = 30;
 
 pub(crate) struct Violin<'a> {
     pub(crate) name: &'a str,
-    /// The values of the distribution. Values that are not finite are ignored.
+    /// The values in the distribution. Non-finite values are ignored.
     pub(crate) values: &'a [f64],
 }
 
 /// Draws violins, each with a box from the lower to the upper quartile and a line at the median. `label`
-/// describes the plot. The scale runs from `low` at the bottom to `high` at the top.
+/// describes the plot. The scale extends from `low` at the bottom to `high` at the top.
 ///
-/// The densities are estimated with Gaussian kernels of Silverman's width (Density Estimation, 1986, equation
-/// 3.31). All violins have the same maximum width. Cost: O(values).
+/// The densities are estimated with Gaussian kernels, using Silverman's width (Density Estimation, 1986,
+/// equation 3.31). All violins have the same maximum width. Cost: O(values).
 pub(crate) fn violins(label: &str, groups: &[Violin<'_>], [low, high]: [f64; 2]) -> String {
     let width = LEFT + groups.len() as f64 * PLACE + 8.0;
     let mut canvas = Canvas::new("violins", width, TOP + PLANE + FOOT, label);
@@ -72,7 +72,7 @@ pub(crate) fn violins(label: &str, groups: &[Violin<'_>], [low, high]: [f64; 2])
     canvas.finish()
 }
 
-/// Returns the outline of a violin, which runs up its right side and down its left side.
+/// Returns a violin's outline, which goes up its right side and down its left side.
 fn outline(sorted: &[f64], [low, high]: [f64; 2], middle: f64, up: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     let (first, last) = (sorted[0], sorted[sorted.len() - 1]);
     let width = bandwidth(sorted).max((high - low) / 60.0);
@@ -94,7 +94,7 @@ fn at_share(values: &[f64], share: f64) -> f64 {
     quantile(values, share).expect("there are values, and all are finite")
 }
 
-/// Returns the kernel width given by Silverman's rule of thumb, or 0 if all values are equal.
+/// Returns the kernel width according to Silverman's rule of thumb, or 0 if all values are equal.
 fn bandwidth(sorted: &[f64]) -> f64 {
     let count = sorted.len() as f64;
     let mean = sorted.iter().sum::<f64>() / count;

@@ -7,8 +7,8 @@ use forge::levels::report::{LevelSetReport, Sample};
 use forge::survey::{LevelSurvey, SurveyedLevel};
 use validators::{Criteria, Difficulty};
 
-/// Returns the report on a set that consists of the corpus game's own levels, fully judged. Hard difficulty
-/// was requested for every other level.
+/// Returns the report on a set with the corpus game's own levels, fully judged. Hard difficulty was requested
+/// for every other level.
 fn made() -> (LevelSetReport, Vec<File>) {
     let (source, levels) = texts("quiet-jars");
     let game = Game::from_source(&source).unwrap();

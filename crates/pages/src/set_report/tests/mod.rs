@@ -14,7 +14,7 @@ fn corpus() -> Vec<String> {
     names
 }
 
-/// Returns the rules of a corpus game and the texts of its levels.
+/// Returns a corpus game's rules and the texts of its levels.
 fn texts(game: &str) -> (String, Vec<String>) {
     let read = |file: &str| std::fs::read_to_string(corpora().join(game).join(file));
     let levels = (0..).map_while(|number| read(&format!("lvl{number}.txt")).ok());
@@ -30,7 +30,7 @@ fn read(files: &[File], name: &str) -> Vec<u8> {
     files.iter().find(|file| file.name == name).unwrap().bytes.clone()
 }
 
-/// Returns the page of a report that consists of three files, after checking that the page is self-contained.
+/// Returns the page of a three-file report, after checking that the page is self-contained.
 fn page(files: &[File], pictures: usize) -> String {
     assert_eq!(files.len(), 3);
     let read = |name: &str| read(files, name);

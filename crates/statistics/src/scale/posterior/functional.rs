@@ -1,5 +1,4 @@
-//! Linear functions of the effects, from which the abilities, difficulties and months of a calibration are
-//! computed.
+//! Linear functions of the effects, used to compute the abilities, difficulties and months in a calibration.
 
 use super::Model;
 use crate::scale::plays::Dimension;
@@ -23,14 +22,14 @@ impl Model<'_> {
         }
     }
 
-    /// Returns the functional whose value is a shared parameter.
+    /// Returns the functional for a shared parameter.
     pub(in crate::scale) fn shared_functional(&self, at: usize) -> Functional {
         let mut found = self.nothing();
         found.shared[at] = 1.0;
         found
     }
 
-    /// Returns the functionals whose values are the difficulties of a game's levels.
+    /// Returns the functionals for the difficulties of a game's levels.
     pub(in crate::scale) fn game_functionals(
         &self,
         spreads: &Spreads,
@@ -67,7 +66,7 @@ impl Model<'_> {
         layouts.flat_map(|(game, layout)| (0..layout.levels).map(move |level| (game, level)))
     }
 
-    /// Returns the functional whose value is the mean difficulty of all levels.
+    /// Returns the functional for the mean difficulty of all levels.
     pub(in crate::scale) fn mean_functional(&self, spreads: &Spreads, dimension: Dimension) -> Functional {
         let mut found = self.nothing();
         let share = 1.0 / self.levels().count() as f64;
@@ -77,8 +76,8 @@ impl Model<'_> {
         found
     }
 
-    /// Returns the functional whose value is the planners' mean logit on all levels. The value is the ease of
-    /// the levels for exactly these planners.
+    /// Returns the functional for the planners' mean logit on all levels: the levels' ease for exactly these
+    /// planners.
     pub(in crate::scale) fn planners_functional(&self, spreads: &Spreads) -> Functional {
         let mut found = self.nothing();
         let planners: Vec<usize> = (0..self.examinees.len())

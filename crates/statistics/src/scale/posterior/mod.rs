@@ -1,11 +1,10 @@
-//! The mode and the curvature of the model for given spreads (Laplace's method).
+//! The model's mode and curvature for given spreads (Laplace's method).
 //!
-//! Effects of different games interact only through the few parameters that all games share. Therefore, a
-//! step costs the Cholesky factorisation of a small matrix for each game, and of one Schur complement.
+//! The effects of different games interact only through the few parameters shared by all games. Therefore,
+//! each step costs one Cholesky factorisation of a small matrix per game, and one of a Schur complement.
 //!
-//! Effects of games are measured in units of standard deviations, so that their prior is standard normal, and
-//! the spreads are part of the loadings. Therefore, the model stays well-defined when a spread approaches
-//! zero.
+//! Game effects are measured in standard deviations, so that their prior is standard normal, and the spreads
+//! are part of the loadings. Therefore, the model stays well-defined when a spread approaches zero.
 
 mod functional;
 mod slope;
@@ -19,32 +18,32 @@ use super::spreads::Spreads;
 use arrayvec::ArrayVec;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// The precision of the prior of an ability, or of a month's shift. The prior is weak, but it keeps the
-/// estimate defined if nobody wins.
+/// The precision of the prior for an ability, or for a month's shift. The prior is weak, but it keeps the
+/// estimate defined if all episodes are lost.
 const FIXED_PRECISION: f64 = 1.0 / (5.0 * 5.0);
-/// The maximum number of Newton steps. 6 steps are typical, or 3 steps from a nearby mode.
+/// The maximum number of Newton steps (typically 6, or 3 from a nearby mode).
 const STEPS: usize = 100;
-/// The step length below which the mode counts as found. Newton's steps converge quadratically.
+/// The step length below which the mode is considered found. Newton's method converges quadratically.
 const FOUND: f64 = 1e-5;
-/// The step length below which the expected values count as found. Steps to expected values converge only
-/// linearly.
+/// The step length below which the expected values are considered found. Steps to expected values converge
+/// only linearly.
 const FOUND_EXPECTED: f64 = 1e-6;
-/// The maximum number of steps to expected values. 15 to 60 steps are typical.
+/// The maximum number of steps to expected values (typically 15 to 60).
 const EXPECTED_STEPS: usize = 200;
-/// The fraction of each change of the variances that is applied. Variances follow the means, so applying full
-/// changes can cause oscillation.
+/// The applied fraction of each change in the variances. Variances follow the means, so applying full changes
+/// can cause oscillation.
 const DAMPING: f64 = 0.7;
 /// The number of steps after which only half of the usual fraction is applied.
 const SETTLING: f64 = 50.0;
-/// The maximum change of an effect in one step. A limit is needed because the likelihood is flat far from its
+/// The maximum change in an effect per step. A limit is needed because the likelihood is flat far from its
 /// maximum.
 const LONGEST: f64 = 3.0;
 
-/// The results on some games, and the parameters that all games share.
+/// The results on some games, and the parameters shared by all games.
 ///
 /// If the abilities are unknown, they are the shared parameters. Otherwise, the shared parameter is the shift
-/// of difficulty for planners. If readers played, a second shared parameter is the additional shift for
-/// readers, beyond the implied shift.
+/// in difficulty for planners. If readers played, a second shared parameter is the additional shift for
+/// readers, beyond the shift implied for them.
 pub(super) struct Model<'a> {
     pub(super) examinees: &'a [Examinee],
     pub(super) games: &'a [GamePlays],
@@ -57,12 +56,12 @@ pub(super) struct Model<'a> {
 struct Layout {
     size: usize,
     levels: usize,
-    /// The position of the first effect for readers, which is the game's effect. The effects of the levels
-    /// follow. Without readers, these effects keep their prior distribution.
+    /// The position of the first effect for readers (the game's effect). The levels' effects follow. Without
+    /// readers, these effects keep their prior distribution.
     readers: usize,
     has_readers: bool,
-    /// The positions of two matches for each examinee: the match of its family, and its own match beyond that
-    /// of the family. A family with a single member has only the former, and a reader has only the latter.
+    /// The positions of two matches per examinee: the family's match, and the examinee's additional match.
+    /// The only member of a family has only the first, and a reader has only the second.
     matches: Vec<(Option<usize>, Option<usize>)>,
 }
 
@@ -85,12 +84,12 @@ impl<'a> Model<'a> {
         self.has_readers
     }
 
-    /// Returns the number of effects of a game.
+    /// Returns the number of a game's effects.
     pub(super) fn effects(&self, game: usize) -> usize {
         self.layouts[game].size
     }
 
-    /// Returns the number of parameters that all games share.
+    /// Returns the number of parameters shared by all games.
     pub(super) fn shared(&self) -> usize {
         self.abilities.map_or(self.examinees.len(), |_| 1 + usize::from(self.has_readers))
     }
@@ -102,7 +101,7 @@ impl<'a> Model<'a> {
         (shift.into_iter().map(|(at, factor)| (at, -factor)).collect(), abilities[examinee])
     }
 
-    /// Returns the shared terms of a level's difficulty.
+    /// Returns the shared terms in a level's difficulty.
     fn shift_terms(&self, spreads: &Spreads, dimension: Dimension) -> Terms {
         match (self.abilities, dimension) {
             (None, _) => Terms::new(),
@@ -114,7 +113,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns the terms of a level's difficulty that belong to its game.
+    /// Returns the game's terms in a level's difficulty.
     fn difficulty_terms(&self, spreads: &Spreads, game: usize, level: usize, dimension: Dimension) -> Terms {
         let layout = &self.layouts[game];
         match dimension {
@@ -128,7 +127,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns the terms of an examinee's linear predictor on a level that belong to the level's game.
+    /// Returns the game's terms in an examinee's linear predictor on a level.
     pub(super) fn terms(&self, spreads: &Spreads, game: usize, examinee: usize, level: usize) -> Terms {
         let dimension = self.examinees[examinee].dimension;
         let mut terms = self.difficulty_terms(spreads, game, level, dimension);
@@ -147,8 +146,8 @@ impl<'a> Model<'a> {
         terms
     }
 
-    /// Returns the mode and the curvature at the mode. `start` is a nearby mode, if one is known. Returns
-    /// `None` if the mode cannot be computed.
+    /// Returns the mode and the curvature at the mode. `start` is a nearby mode, if known. Returns `None` if
+    /// the mode cannot be computed.
     pub(super) fn posterior(&self, spreads: &Spreads, start: Option<&Modes>) -> Option<Posterior> {
         let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
         let mut modes = start.cloned().unwrap_or_else(|| Modes {
@@ -168,13 +167,13 @@ impl<'a> Model<'a> {
         Some(Posterior::new(modes, height - curvature.half_log_determinant(), curvature, &rows, None))
     }
 
-    /// Returns the normal distribution that is nearest to the posterior by relative entropy, given the
-    /// spreads (J. T. Ormerod and M. P. Wand, "Gaussian variational approximate inference for generalized
-    /// linear mixed models", 2012).
+    /// Returns the normal distribution nearest to the posterior by relative entropy, given the spreads (J. T.
+    /// Ormerod and M. P. Wand, "Gaussian variational approximate inference for generalized linear mixed
+    /// models", 2012).
     ///
-    /// The means of this distribution are those of a skewed distribution, whose modes would be biased towards
-    /// the middle. The shared parameters solve the equation of the marginal likelihood with expected
-    /// probabilities. Returns `None` if the distribution cannot be computed.
+    /// The posterior is skewed, and its modes are biased towards the middle. The means of the normal
+    /// distribution avoid this bias. The shared parameters solve the marginal likelihood equation with
+    /// expected probabilities. Returns `None` if the distribution cannot be computed.
     pub(super) fn expected_posterior(&self, spreads: &Spreads) -> Option<Posterior> {
         let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
         let start = self.posterior(spreads, None)?;
@@ -201,8 +200,8 @@ impl<'a> Model<'a> {
         None
     }
 
-    /// Takes a step that increases the log density. The step is halved until the log density increases.
-    /// Returns the new modes, their log density, and an upper bound on the step length.
+    /// Takes a step that increases the log density, halving the step until it does. Returns the new modes,
+    /// their log density, and an upper bound on the step length.
     fn raised(
         &self,
         rows: &[Vec<Row>],
@@ -238,8 +237,8 @@ impl<'a> Model<'a> {
         plays.map(row).collect()
     }
 
-    /// Returns the logarithm of the likelihood times the prior, up to a constant. If the variances of the
-    /// linear predictors are given, returns its expected value instead.
+    /// Returns the logarithm of the likelihood times the prior, up to a constant. If variances of the linear
+    /// predictors are given, returns the expected value instead.
     fn height(&self, rows: &[Vec<Row>], modes: &Modes, variances: Option<&[Vec<f64>]>) -> f64 {
         let mut sum = -0.5 * FIXED_PRECISION * modes.shared.norm_squared();
         for (game, (rows, own)) in rows.iter().zip(&modes.games).enumerate() {
@@ -259,7 +258,7 @@ impl<'a> Model<'a> {
         sum
     }
 
-    /// Returns the curvature at the modes. If the variances of the linear predictors are given, returns the
+    /// Returns the curvature at the modes. If variances of the linear predictors are given, returns the
     /// expected curvature around the modes instead.
     fn curvature(
         &self,
@@ -348,7 +347,7 @@ impl Layout {
     }
 }
 
-/// The results of an examinee on a level, and the terms of the linear predictor.
+/// An examinee's results on a level, with the terms of the linear predictor.
 struct Row {
     examinee: usize,
     level: usize,
@@ -367,8 +366,8 @@ impl Row {
     }
 }
 
-/// Returns the expected probability of winning and the expected variance of a result, for a normally
-/// distributed logit.
+/// Returns the expected win probability and the expected variance of a result, for a normally distributed
+/// logit.
 fn expected(mean: f64, variance: f64) -> (f64, f64) {
     let sd = variance.max(0.0).sqrt();
     nodes().fold((0.0, 0.0), |(chances, spreads), (z, weight)| {
@@ -384,8 +383,8 @@ pub(super) struct Modes {
     pub(super) games: Vec<DVector<f64>>,
 }
 
-/// The factored negative second derivatives, and the gradient of the shared parameters. The effects of the
-/// games are eliminated.
+/// The factored negative second derivatives, and the gradient with respect to the shared parameters. The game
+/// effects are eliminated.
 struct Curvature {
     schur: Cholesky<f64, Dyn>,
     gradient: DVector<f64>,
@@ -393,7 +392,7 @@ struct Curvature {
 }
 
 struct GameCurvature {
-    /// The block of second derivatives for the game's own effects, factored.
+    /// The factored block of second derivatives for the game's own effects.
     within: Cholesky<f64, Dyn>,
     /// The block between the game's effects and the shared parameters, by column. This block and the gradient
     /// are already divided by the triangle of `within`.
@@ -402,13 +401,13 @@ struct GameCurvature {
 }
 
 impl GameCurvature {
-    /// Divides the effects of a game by the transposed triangle of `within`, which completes a solution.
+    /// Divides a game's effects by the transposed triangle of `within`, which completes a solution.
     fn divided(&self, mut half: DVector<f64>) -> DVector<f64> {
         self.within.l_dirty().tr_solve_lower_triangular_unchecked_mut(&mut half);
         half
     }
 
-    /// Returns the decrease of the game's effects when each shared parameter increases by one.
+    /// Returns the decrease in the game's effects per unit increase in each shared parameter.
     fn gain(&self) -> DMatrix<f64> {
         let mut gain = self.cross.clone();
         self.within.l_dirty().tr_solve_lower_triangular_unchecked_mut(&mut gain);
@@ -417,7 +416,7 @@ impl GameCurvature {
 }
 
 impl Curvature {
-    /// Returns the Newton step for the shared parameters and for the effects of each game.
+    /// Returns the Newton step for the shared parameters and for each game's effects.
     fn step(&self) -> (DVector<f64>, Vec<DVector<f64>>) {
         let shared = self.schur.solve(&self.gradient);
         let games = self.games.iter().map(|game| game.divided(&game.slope - &game.cross * &shared)).collect();
@@ -437,7 +436,7 @@ impl Curvature {
         self.games.iter().zip(rows).map(of_game).collect()
     }
 
-    /// Returns half of the logarithm of the matrix's determinant.
+    /// Returns half the logarithm of the matrix's determinant.
     fn half_log_determinant(&self) -> f64 {
         let of = |factor: &Cholesky<f64, Dyn>| {
             let factor = factor.l_dirty();
@@ -450,14 +449,14 @@ impl Curvature {
 /// The normal distribution that approximates the posterior.
 pub(super) struct Posterior {
     pub(super) modes: Modes,
-    /// The logarithm of the marginal likelihood, in which all effects are integrated out, up to a constant.
+    /// The logarithm of the marginal likelihood, with all effects integrated out, up to a constant.
     pub(super) marginal: f64,
     curvature: Curvature,
-    /// The decrease of each game's effects when each shared parameter increases by one.
+    /// The decrease in each game's effects per unit increase in each shared parameter.
     gains: Vec<DMatrix<f64>>,
     /// The covariance matrix of the shared parameters.
     pub(super) covariance: DMatrix<f64>,
-    /// The expected weight of each row with the row's terms, by game. Empty if the distribution is at a mode.
+    /// Each row's expected weight and terms, by game. Empty if the distribution is at a mode.
     weights: Vec<Vec<(usize, f64, Terms, Terms)>>,
 }
 
@@ -488,8 +487,8 @@ impl Posterior {
         functional.constant + functional.shared.dot(&self.modes.shared) + games.sum::<f64>()
     }
 
-    /// Returns the gradient of a functional with respect to the shared parameters, which the effects of games
-    /// follow.
+    /// Returns a functional's gradient with respect to the shared parameters, including their influence on
+    /// the game effects.
     fn slope(&self, functional: &Functional) -> DVector<f64> {
         let mut slope = functional.shared.clone();
         for (gain, terms) in self.gains.iter().zip(&functional.games) {
@@ -498,8 +497,8 @@ impl Posterior {
         slope
     }
 
-    /// Returns two components of the covariance of two functionals. The first component comes from the shared
-    /// parameters, and the second from the games, given the shared parameters.
+    /// Returns two components of the covariance between two functionals. The first component comes from the
+    /// shared parameters, and the second from the games, given the shared parameters.
     pub(super) fn covariance(&self, one: &Functional, other: &Functional) -> (f64, f64) {
         let (left, right) = (self.slope(one), self.slope(other));
         let shared = left.dot(&(&self.covariance * right));
@@ -515,7 +514,7 @@ impl Posterior {
         terms.tr_mul(&self.curvature.games[game].within.solve(&terms))
     }
 
-    /// Returns the change of a functional when the fixed ability of each examinee increases by one.
+    /// Returns a functional's change per unit increase in each examinee's fixed ability.
     pub(super) fn sensitivity(&self, functional: &Functional, examinees: usize) -> Vec<f64> {
         let shared = &self.covariance * self.slope(functional);
         let mut moves = vec![0.0; examinees];
@@ -533,8 +532,8 @@ impl Posterior {
 }
 
 impl Model<'_> {
-    /// Returns the misfit of the results on a game, which is the sum of the squared residuals divided by the
-    /// sum of their variances.
+    /// Returns the misfit of the results on a game: the sum of squared residuals divided by the sum of their
+    /// variances.
     pub(super) fn misfit(&self, spreads: &Spreads, posterior: &Posterior, game: usize) -> f64 {
         let (mut squares, mut variances) = (0.0, 0.0);
         for row in self.rows(spreads, game) {

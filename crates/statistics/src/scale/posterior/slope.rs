@@ -1,6 +1,6 @@
-//! The derivatives of the marginal likelihood with respect to the parameters of the spreads. Each derivative
-//! takes one pass over the results. The dependence of the modes on the spreads is included by the adjoint
-//! method, which solves one linear system for all parameters.
+//! The derivatives of the marginal likelihood with respect to the spreads' parameters. Each derivative
+//! requires one pass over the results. The adjoint method, which solves one linear system for all parameters,
+//! accounts for the dependence of the modes on the spreads.
 
 use super::{Model, Posterior};
 use crate::scale::logistic::logistic;
@@ -9,19 +9,19 @@ use crate::scale::spreads::{PLANNERS_ONLY, Spreads, WITH_READERS};
 use arrayvec::ArrayVec;
 use nalgebra::{DMatrix, DVector};
 
-/// The values at the mode for an examinee's results on a level.
+/// The values at the mode for one examinee's results on a level.
 struct Place {
     rest: f64,
     weight: f64,
-    /// The derivative of the weight with respect to the logit, multiplied by the variance of the logit.
+    /// The derivative of the weight with respect to the logit, multiplied by the logit's variance.
     bend: f64,
-    /// The covariances between the logit and the effects of its game for which the logit has a term.
+    /// The covariances between the logit and the game effects that appear as terms of the logit.
     covariances: ArrayVec<f64, 6>,
 }
 
 impl Model<'_> {
-    /// Returns the derivatives of the marginal likelihood with respect to the parameters of the spreads, at a
-    /// mode of a model with unknown abilities. Cost: about that of a step to the mode.
+    /// Returns the derivatives of the marginal likelihood with respect to the spreads' parameters, at a mode
+    /// of a model with unknown abilities. Cost: about one step to the mode.
     pub(in crate::scale) fn slope(&self, spreads: &Spreads, posterior: &Posterior) -> Vec<f64> {
         let shared = &posterior.modes.shared;
         let mut pull = DVector::<f64>::zeros(shared.len());
@@ -85,8 +85,8 @@ impl Model<'_> {
         slope
     }
 
-    /// Returns the derivatives of the factors of [`Model::terms`]. Each entry holds the parameter, the index
-    /// of the effect and the derivative.
+    /// Returns the derivatives of the factors in [`Model::terms`]. Each entry contains the parameter, the
+    /// effect's index and the derivative.
     fn term_slopes(
         &self,
         spreads: &Spreads,

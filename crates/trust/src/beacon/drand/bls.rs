@@ -2,21 +2,21 @@
 
 use blst::{BLST_ERROR, min_pk, min_sig};
 
-/// The domain separation tag for hashes to the group G1.
+/// The domain separation tag for hashing to the group G1.
 pub(super) const ON_G1: &[u8] = b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_";
-/// The domain separation tag for hashes to the group G2.
+/// The domain separation tag for hashing to the group G2.
 pub(super) const ON_G2: &[u8] = b"BLS_SIG_BLS12381G2_XMD:SHA-256_SSWU_RO_NUL_";
 
-/// The size of a compressed point of the group G1, in bytes. Only the compressed form gives a point a unique
-/// encoding. Otherwise, the same point could have a different hash, and thus a different value.
+/// The size of a compressed point in the group G1, in bytes. Only the compressed form is unique. Otherwise,
+/// the same point could have several hashes, and thus several values.
 const G1_BYTES: usize = 48;
-/// The size of a compressed point of the group G2, in bytes.
+/// The size of a compressed point in the group G2, in bytes.
 const G2_BYTES: usize = 96;
 
-/// Returns `true` if `signature` is a valid signature of the message under the key.
+/// Returns `true` if `signature` is a valid signature for the message under the key.
 ///
 /// # Errors
-/// Returns an error if the key is not a valid key of the scheme.
+/// Returns an error if the key is invalid for the scheme.
 pub(super) fn signed(scheme: &str, key: &[u8], message: &[u8], signature: &[u8]) -> Result<bool, String> {
     let no_key = || format!("has a `public_key` that is not valid in the scheme {scheme}");
     let verdict = if scheme == "bls-unchained-g1-rfc9380" {

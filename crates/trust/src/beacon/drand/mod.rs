@@ -1,9 +1,8 @@
-//! drand networks. A threshold of a network's members signs each round with BLS signatures on the curve
+//! drand networks. A threshold number of a network's members sign each round with BLS signatures on the curve
 //! BLS12-381.
 //!
-//! A network is identified by its chain hash, which covers its public key. Two networks have names in this
-//! module. Any other network is referred to by its chain hash, so that a commitment to the source fixes the
-//! key.
+//! A network is identified by its chain hash, which covers its public key. This module names two networks.
+//! All other networks are referred to by their chain hash, so that a commitment to the source fixes the key.
 
 #[cfg(feature = "drand")]
 mod bls;
@@ -16,8 +15,8 @@ use bls::signed;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-/// The facts about a network that its chain hash covers, and its signature scheme. The fields are in the form
-/// that the network serves under `/info`.
+/// The facts about a network covered by its chain hash, and its signature scheme. The fields are in the
+/// format served by the network under `/info`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chain {
@@ -27,15 +26,16 @@ pub struct Chain {
     pub period: u32,
     /// The time of round 1, in seconds since 1970.
     pub genesis_time: i64,
-    /// The chain hash of the network.
+    /// The network's chain hash.
     pub hash: Digest,
-    /// The digest of the group of the network's initial members.
+    /// The digest of the network's initial member group.
     #[serde(rename = "groupHash")]
     pub group_hash: Digest,
-    /// The scheme of the network's signatures.
+    /// The network's signature scheme.
     #[serde(rename = "schemeID")]
     pub scheme: String,
-    /// The metadata with the network's name, which distinguishes it from other networks of the same members.
+    /// The metadata with the network's name, which distinguishes the network from others with the same
+    /// members.
     pub metadata: Metadata,
 }
 
@@ -43,7 +43,7 @@ pub struct Chain {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Metadata {
-    /// The name of the network, such as `quicknet`.
+    /// The network's name, such as `quicknet`.
     #[serde(rename = "beaconID")]
     pub beacon_id: String,
 }
@@ -66,7 +66,7 @@ impl Chain {
     }
 }
 
-/// A network whose key is part of the source code.
+/// A network whose key is included in the source code.
 pub(super) struct Known {
     name: &'static str,
     hash: &'static str,
@@ -74,7 +74,7 @@ pub(super) struct Known {
     scheme: &'static str,
 }
 
-/// The networks that have names in this module, which are the networks that the League of Entropy runs today.
+/// The networks named in this module: all networks that the League of Entropy currently runs.
 const KNOWN: [Known; 2] = [
     Known {
         name: "drand quicknet",
@@ -91,15 +91,15 @@ const KNOWN: [Known; 2] = [
     },
 ];
 
-/// A network to which a source refers.
+/// A network referred to by a source.
 pub(super) enum Network {
     /// A network in [`KNOWN`].
     Known(&'static Known),
-    /// A network that is given by its chain hash. The beacon file must state the network's key.
+    /// A network given by its chain hash. The beacon file must contain the network's key.
     Hash(Digest),
 }
 
-/// Returns the network to which a source refers, or `None` if the source is not a drand network.
+/// Returns the network referred to by a source, or `None` if the source is not a drand network.
 ///
 /// # Errors
 /// Returns an error with the accepted names if the source mentions drand but is not the name of a network.
@@ -123,8 +123,8 @@ pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     })
 }
 
-/// Checks the name of a source in a recipe. Returns `true` if the source is a drand network. A name that
-/// mentions drand must refer to a drand network, as [`Drawn::check`](super::Drawn::check) requires.
+/// Checks a source name in a recipe. Returns `true` if the source is a drand network. A name that mentions
+/// drand must refer to a drand network, as required by [`Drawn::check`](super::Drawn::check).
 ///
 /// # Errors
 /// Returns an error with the names to use instead.
@@ -133,7 +133,7 @@ pub fn check_source(source: &str) -> Result<bool, String> {
 }
 
 impl Network {
-    /// Checks the signature of a round.
+    /// Checks a round's signature.
     pub(super) fn check(&self, round: &Round, signature: &[u8], proof: &Proof) -> Result<(), String> {
         let (key, scheme) = match (self, &proof.chain) {
             (Network::Known(_), Some(_)) => {
@@ -182,7 +182,7 @@ impl Network {
     }
 }
 
-/// Returns `true` if a signature of a round is valid.
+/// Returns `true` if a round's signature is valid.
 ///
 /// # Errors
 /// Returns an error if the signature cannot be checked, because the scheme is unknown, the previous signature

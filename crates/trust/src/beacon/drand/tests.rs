@@ -1,4 +1,4 @@
-//! Tests with real rounds, whose signatures are verified, and with rounds of networks that the tests create.
+//! Tests with real rounds, whose signatures are verified, and with rounds from networks created by the tests.
 
 use super::bls::{ON_G1, ON_G2};
 use super::*;
@@ -6,7 +6,7 @@ use crate::Drawn;
 use blst::{min_pk, min_sig};
 use serde_json::{Value, json};
 
-/// Rounds of real networks, in the form that the networks serve.
+/// Rounds from real networks, in the format served by the networks.
 const QUICKNET_123: &str =
     "b75c69d0b72a5d906e854e808ba7e2accb1542ac355ae486d591aa9d43765482e26cd02df835d3546d23c4b13e0dfc92";
 const QUICKNET_1000: &str =
@@ -124,7 +124,7 @@ fn sources_that_mention_drand_name_a_network() {
     assert!(by_hash.contains("is the network `drand quicknet`: write that"), "{by_hash}");
 }
 
-/// For a network without a name, the source fixes the chain hash, and the chain hash fixes the key.
+/// For an unnamed network, the source fixes the chain hash, and the chain hash fixes the key.
 #[test]
 fn other_networks_are_named_by_their_chain_hash() {
     let ikm = [7; 32];

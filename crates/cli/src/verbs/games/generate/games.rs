@@ -1,4 +1,4 @@
-//! `arcade generate games`: makes new games.
+//! `arcade generate games`: generates new games.
 
 use super::pretty;
 use crate::console::{Console, Stopwatch};
@@ -76,7 +76,7 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    /// Returns `true` if kernels are to provide the rules. Only kernels have kinds.
+    /// Returns `true` if kernels must provide the rules. Only kernels have kinds.
     fn is_of_kernels(&self) -> bool {
         !self.kind.is_empty()
     }
@@ -89,7 +89,7 @@ impl Args {
         GameOrder { kinds: self.kind.clone(), ..order }
     }
 
-    /// Returns the digest of everything that determines the bytes of the result. The digest decides whether stored
+    /// Returns a digest of all inputs that determine the result's bytes. The digest decides whether stored
     /// attempts can be used.
     fn plan(&self, order: &GameOrder) -> Digest {
         let versions = (engine::SEMANTICS, generators::GENERATION);
@@ -178,8 +178,8 @@ fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     embedded::corpus()?.games.iter().map(compile).collect()
 }
 
-/// Judges the games again, with different seeds and twice as many episodes as a release requires, and writes the report
-/// on the games.
+/// Judges the games again, with different seeds and twice as many episodes as required for a release, and
+/// writes the report on the games.
 fn report(
     args: &Args,
     draft: Draft,
@@ -220,18 +220,18 @@ fn report(
     Ok(())
 }
 
-/// The progress of the generation, as a bar, or as one line per game if no bar can be drawn. Finished attempts are
+/// The generation's progress, as a bar, or as one line per game if no bar can be drawn. Finished attempts are
 /// stored.
 struct Bar<'a> {
     bar: ProgressBar,
     console: &'a Console,
     store: JobFolder,
-    /// The first failure of the store; `None` if no access failed.
+    /// The store's first failure, or `None` if every access succeeded.
     failure: Mutex<Option<SnapshotError>>,
 }
 
 impl Bar<'_> {
-    /// Returns the value, or records the failure if it is the first.
+    /// Returns the value, or records the failure if it is the first one.
     fn noted<T>(&self, result: Result<T, SnapshotError>) -> Option<T> {
         let note = |failure| {
             let mut first = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
@@ -263,7 +263,7 @@ impl Progress for Bar<'_> {
     }
 }
 
-/// Writes a game, its card, its levels and the episodes that win them.
+/// Writes a game, its card, its levels and the winning episodes.
 fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
     let folder = &made.card.id;
     draft.write(&format!("{folder}/game.vgdl"), made.text.as_bytes())?;
@@ -278,7 +278,7 @@ fn write(draft: &Draft, made: &MadeGame) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the answer for programs. The same flags give the same bytes.
+/// Returns the machine-readable answer. The same flags give the same bytes.
 fn document(args: &Args, set: &GameSet) -> serde_json::Value {
     let cards: Vec<&Card> = set.games.iter().map(|game| &game.card).collect();
     json!({
@@ -293,7 +293,7 @@ fn document(args: &Args, set: &GameSet) -> serde_json::Value {
     })
 }
 
-/// Returns the answer for people.
+/// Returns the human-readable answer.
 fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     let mut text = String::new();
     let width = set.games.iter().map(|game| game.card.title.chars().count()).max().unwrap_or(0);

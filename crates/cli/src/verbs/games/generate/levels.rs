@@ -1,4 +1,4 @@
-//! `arcade generate levels`: makes new levels for a game.
+//! `arcade generate levels`: generates new levels for a game.
 
 use super::pretty;
 use crate::console::{Console, Stopwatch};
@@ -75,14 +75,14 @@ pub(crate) struct Args {
     out: PathBuf,
 }
 
-/// Parses a size such as `12x9`.
+/// Parses a board size such as `12x9`.
 fn size(text: &str) -> Result<(usize, usize), String> {
     let sides = text.split_once(['x', 'X']);
     let sides = sides.and_then(|(columns, rows)| Some((columns.parse().ok()?, rows.parse().ok()?)));
     sides.ok_or_else(|| "expected columns and rows with an x between them, such as 12x9".to_owned())
 }
 
-/// Parses a number of sprites of a type such as `box=3`.
+/// Parses a type and its number of sprites, such as `box=3`.
 fn count(text: &str) -> Result<(String, usize), String> {
     let parts = text
         .split_once('=')
@@ -159,10 +159,10 @@ fn stype(game: &Game, name: &str) -> Result<SpriteType, Failure> {
     })
 }
 
-/// The number of levels made without a requested difficulty, as a comparison.
+/// The number of levels generated without a requested difficulty, for comparison.
 const POOL: u32 = 60;
 
-/// Judges the levels again and writes the report on them.
+/// Judges the levels again, and writes the report on them.
 fn report(
     args: &Args,
     draft: Draft,
@@ -213,7 +213,7 @@ impl Progress for Bar {
     }
 }
 
-/// Writes the game, its levels and the episodes that win them.
+/// Writes the game, its levels and the winning episodes.
 fn write(draft: &Draft, input: &GameInput, set: &LevelSet) -> Result<(), Failure> {
     draft.write("game.vgdl", input.source.text.as_bytes())?;
     for (number, made) in set.levels.iter().enumerate() {
@@ -227,7 +227,7 @@ fn write(draft: &Draft, input: &GameInput, set: &LevelSet) -> Result<(), Failure
     Ok(())
 }
 
-/// Returns the answer for programs. The same flags give the same bytes.
+/// Returns the machine-readable answer. The same flags give the same bytes.
 fn document(args: &Args, game: &Game, set: &LevelSet) -> serde_json::Value {
     let levels: Vec<serde_json::Value> = set.levels.iter().enumerate().map(level).collect();
     json!({
@@ -266,7 +266,7 @@ fn level((number, made): (usize, &MadeLevel)) -> serde_json::Value {
     })
 }
 
-/// Returns the answer for people.
+/// Returns the human-readable answer.
 fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
     let mut text = String::new();
     for (number, made) in set.levels.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! `arcade generate`: makes new games, and new levels for a game.
+//! `arcade generate`: generates new games, and new levels for a game.
 
 mod games;
 mod levels;

@@ -1,4 +1,4 @@
-//! A level played on the terminal.
+//! Plays a level on the terminal.
 
 use super::{Args, MAX_PACE};
 use crate::console::Console;
@@ -68,7 +68,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the names of the game and of the level file, without their folders.
+/// Returns the names of the game and the level file, without their folders.
 fn title(game: &str, level: &str) -> String {
     let file = |name: &str| {
         Path::new(name).file_name().map_or(name.to_owned(), |n| n.to_string_lossy().into_owned())

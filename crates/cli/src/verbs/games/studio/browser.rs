@@ -1,14 +1,14 @@
-//! Opening the page in a browser.
+//! Opens the page in a browser.
 
 use std::io::Write;
 use std::process::{Command, Stdio};
 use tempfile::NamedTempFile;
 
-/// Tries to open an address in the user's browser. If no browser opens, that is not an error.
+/// Tries to open an address in the user's browser. A missing browser is not an error.
 ///
-/// Program arguments are visible to all users of a machine, and the address contains the token. The browser therefore
-/// gets a file that only this user can read and that redirects to the address. The file is removed when the returned
-/// value is dropped.
+/// Program arguments are visible to all users of a machine, and the address contains the token. Therefore,
+/// the browser opens a file that only the current user can read, and that redirects to the address. The file
+/// is removed when the returned value is dropped.
 pub(super) fn open(url: &str) -> Option<NamedTempFile> {
     let mut file = tempfile::Builder::new().prefix("arcade-studio-").suffix(".html").tempfile().ok()?;
     let page = format!(

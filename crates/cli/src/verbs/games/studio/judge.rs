@@ -1,5 +1,4 @@
-//! `arcade studio --judge`: shows pairs of games to people, who judge them without seeing the sources of the
-//! games.
+//! `arcade studio --judge`: shows people pairs of games, which they judge without seeing the games' sources.
 
 use super::open;
 use crate::console::Console;
@@ -30,7 +29,7 @@ pub(super) fn session(
     Ok(judging)
 }
 
-/// Prints the results of a record.
+/// Prints a record's results.
 pub(super) fn report(file: &Path, console: &Console) -> Answer {
     let (judgements, remarks) = Judgements::read(file)?;
     remarks.iter().for_each(|remark| console.remark(remark));
@@ -77,7 +76,7 @@ fn source(name: &str, console: &Console) -> Result<Source, Failure> {
     Ok(Source { name: name.to_owned(), games })
 }
 
-/// Returns the game as a candidate; `None` if the game has no level.
+/// Returns the game as a candidate, or `None` if the game has no levels.
 fn candidate(input: &GameInput) -> Result<Option<Candidate>, Failure> {
     let game: Game = input.compile(false)?;
     let levels: Vec<Level> = input.checked_levels(&game)?;
@@ -85,7 +84,7 @@ fn candidate(input: &GameInput) -> Result<Option<Candidate>, Failure> {
     Ok((!levels.is_empty()).then(|| Candidate { id: input.title.clone(), title, game, levels }))
 }
 
-/// Returns the game's title from its card, or else the name of its folder.
+/// Returns the title from the game's card, or else the name of the game's folder.
 fn title(input: &GameInput) -> Result<String, Failure> {
     if input.path.is_none() {
         let corpus = embedded::corpus()?;

@@ -84,7 +84,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     serve(with_signatures(studio, root, &args.trust), args, console)
 }
 
-/// Adds the check of the opened release's signatures if a key was given.
+/// Adds the check of the opened release's signatures, if a key was given.
 fn with_signatures(studio: Studio, root: Option<PathBuf>, trust: &TrustArgs) -> Studio {
     let Some(root) = root.filter(|_| !trust.is_empty()) else { return studio };
     let trust = trust.clone();
@@ -114,7 +114,7 @@ fn serve(studio: Studio, args: &Args, console: &Console) -> Answer {
     served.map(|()| true)
 }
 
-/// Stops the server, and the program with it, at the first SIGINT, SIGTERM or SIGHUP.
+/// Stops the server and the program at the first SIGINT, SIGTERM or SIGHUP.
 #[cfg(unix)]
 fn end_on_signal(stop: Stop) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -129,7 +129,7 @@ fn end_on_signal(stop: Stop) {
     });
 }
 
-/// Leaves it to the system to end the program.
+/// Does nothing, because the system ends the program.
 #[cfg(not(unix))]
 fn end_on_signal(stop: Stop) {
     std::mem::forget(stop);

@@ -1,4 +1,4 @@
-//! The places that the studio can open: the corpus, the user's games, a release, and results.
+//! The sources that the studio can open: the corpus, the user's games, a release, and results.
 
 use crate::failure::Failure;
 use crate::input;
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use studio::{GameEntry, Kind, NamedText, Place, WitnessEntry, Workspace};
 
-/// Opens the specified place, or the corpus if the user specified no place.
+/// Opens the specified source, or the corpus by default.
 pub(crate) fn workspace(
     place: Option<&str>,
     out: Option<&Path>,
@@ -73,7 +73,7 @@ fn is_in(file: &Path, place: &Path) -> bool {
     file == place || file.parent() == Some(place)
 }
 
-/// Returns the results of evaluations at a path, which are the folder itself or the results folders in it.
+/// Returns the evaluation results at a path: the folder itself, or the results folders in it.
 fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     if !path.is_dir() {
         return Ok(Vec::new());
@@ -86,7 +86,7 @@ fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(folders)
 }
 
-/// Returns `true` if a path is a release, which is a folder with a manifest, or an archive.
+/// Returns `true` if a path is a release: a folder with a manifest, or an archive.
 pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
     let Some(found) = paths::metadata(path)? else { return Ok(false) };
     if found.is_dir() {
@@ -96,7 +96,7 @@ pub(super) fn is_release(path: &Path) -> Result<bool, Failure> {
     Ok(start == input::text::ZSTD)
 }
 
-/// Returns the entry of a user's game, which can be edited unless the game lies in a release.
+/// Returns the entry for a user's game. The game can be edited unless it lies in a release.
 fn entry(input: &GameInput) -> Result<GameEntry, Failure> {
     let file_name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
     let place = match &input.path {
@@ -138,7 +138,7 @@ fn entry(input: &GameInput) -> Result<GameEntry, Failure> {
     Ok(GameEntry { id, title, place, summary, card, witnesses })
 }
 
-/// Returns the card beside a game; `None` if there is no readable card.
+/// Returns the card beside a game, or `None` if there is no readable card.
 pub(super) fn card(input: &GameInput) -> Option<serde_json::Value> {
     let folder = input.path.as_ref()?.parent()?;
     let read = |name: &str| input::text::read_text(&folder.join(name), MAX_CARD).ok();
@@ -150,7 +150,7 @@ pub(super) fn card(input: &GameInput) -> Option<serde_json::Value> {
 /// The maximum size of a card, in bytes.
 const MAX_CARD: usize = 1 << 22;
 
-/// Returns the winning episodes beside a game, in the form that `arcade generate games` writes.
+/// Returns the winning episodes beside a game, in the format written by `arcade generate games`.
 fn witnesses(folder: &Path, levels: usize) -> Vec<WitnessEntry> {
     let read = |level: usize| {
         let name = format!("lvl{level}");
@@ -180,7 +180,7 @@ fn corpus() -> Result<Vec<GameEntry>, Failure> {
     Ok(embedded::corpus()?.games.into_iter().map(entry).collect())
 }
 
-/// Opens a release, and the release to compare it with. Both are verified first.
+/// Opens a release, and optionally a second release to compare it with. Both are verified first.
 fn release(path: &Path, against: Option<&Path>, copies: PathBuf) -> Result<Workspace, Failure> {
     let read = |path: &Path| Released::read(path).map_err(|error| unsound(path, &error));
     let mut workspace = of_release(path, read(path)?, copies);
@@ -190,7 +190,7 @@ fn release(path: &Path, against: Option<&Path>, copies: PathBuf) -> Result<Works
     Ok(workspace)
 }
 
-/// Returns the workspace of a verified release.
+/// Returns a verified release's workspace.
 pub(crate) fn of_release(path: &Path, released: Released, copies: PathBuf) -> Workspace {
     let released = Arc::new(released);
     let games = released.games.iter().map(|game| {

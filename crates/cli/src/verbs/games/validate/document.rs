@@ -1,4 +1,4 @@
-//! The answer for programs. Its schema is in `docs/reference/validate.md`.
+//! The machine-readable answer. The schema is in `docs/reference/validate.md`.
 
 use crate::diagnostics::Named;
 use crate::failure::Placed;
@@ -16,7 +16,7 @@ pub(super) struct Document<'a> {
     pub(super) criteria: Option<&'a Criteria>,
     pub(super) problems: Vec<Placed>,
     pub(super) levels: Vec<LevelDocument<'a>>,
-    /// The judgements of the game over all its levels.
+    /// The judgements on the game over all its levels.
     pub(super) judgements: &'a [Judgement],
 }
 
@@ -28,14 +28,14 @@ pub(super) struct LevelDocument<'a> {
     pub(super) problems: Vec<Placed>,
     /// The level's characters, from top to bottom.
     pub(super) board: Vec<String>,
-    /// The winning terminations that can never apply in the level, each with the cause.
+    /// The winning terminations that can never apply in the level, each with its cause.
     pub(super) out_of_reach: Vec<String>,
     #[serde(flatten)]
     pub(super) report: Option<&'a Report>,
     pub(super) witness: Option<&'a Episode>,
 }
 
-/// Fills in the line numbers of the rules in evidence.
+/// Fills in the line numbers of the rules in the evidence.
 pub(super) fn locate(finding: &mut Finding, source: &Named) {
     for rule in finding.evidence.iter_mut().filter_map(|seen| seen.rule.as_mut()) {
         rule.line = Some(line_and_column(&source.text, rule.span.start).0);

@@ -54,7 +54,7 @@ pub(crate) struct Args {
     witness: Option<PathBuf>,
 }
 
-/// A level and its findings, which are problems in its text or judgements.
+/// A level and its findings: problems in its text, or judgements.
 struct JudgedLevel<'a> {
     named: &'a Named,
     level: Result<Level, Diagnostics>,
@@ -164,7 +164,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(passes)
 }
 
-/// Returns the warnings about a game and its levels as text.
+/// Returns warnings about a game and its levels as text.
 fn warnings(game: &Game, source: &Named, judged: &[JudgedLevel<'_>]) -> Vec<String> {
     let of_game = game.warnings().iter().map(|warning| (source, warning));
     let of_levels = judged.iter().flat_map(|judged| {
@@ -179,7 +179,8 @@ fn levels(args: &Args, input: &GameInput) -> Result<Vec<Named>, Failure> {
     input.named_levels(&args.levels)
 }
 
-/// Returns the failure of a game that does not compile, with its problems and the certain problems of its levels.
+/// Returns the failure for a game that does not compile, with its problems and the certain problems of its
+/// levels.
 fn malformed(args: &Args, console: &Console, input: &GameInput, problems: &[Diagnostic]) -> Failure {
     let mut told = vec![diagnostics::in_words(&input.source, problems)];
     let mapping = Some(&input.source.text).filter(|_| !args.as_reference);

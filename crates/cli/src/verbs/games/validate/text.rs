@@ -1,4 +1,4 @@
-//! The answer for people. It gives the verdict first and then the reasons.
+//! The human-readable answer: first the verdict, and then the reasons.
 
 use super::document::{Document, LevelDocument};
 use crate::diagnostics::Named;
@@ -11,11 +11,11 @@ const MAX_WIDTH: usize = 100;
 const MOST_BOARDS: usize = 2;
 /// The maximum number of pieces of evidence to show per criterion.
 const MOST_SEEN: usize = 6;
-/// The maximum number of links to show per chain of causes.
+/// The maximum number of links to show per causal chain.
 const MOST_LINKS: usize = 16;
 
-/// Returns the whole answer, which is the verdicts, the warnings about the files, and the criteria. A quiet answer
-/// leaves out everything that passes, and is empty if everything passes.
+/// Returns the complete answer: the verdicts, the warnings about the files, and the criteria. A quiet answer
+/// omits everything that passes, and is empty if everything passes.
 pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String], quiet: bool) -> String {
     if quiet && document.passes {
         return String::new();
@@ -72,7 +72,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String
     text
 }
 
-/// Returns the verdict on a level, in one line.
+/// Returns the verdict on a level, on one line.
 fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
     let Some(report) = level.report else { return "is not a level of this game".to_owned() };
     if let Some(judgement) = report.first_obstacle() {
@@ -94,7 +94,7 @@ fn in_words(difficulty: Difficulty) -> String {
     difficulty.to_string().replace('_', " ")
 }
 
-/// Returns one line with the reason why a criterion does not pass, and the position of the rule that it quotes.
+/// Returns one line with the reason why a criterion does not pass, and the position of the quoted rule.
 fn obstacle(judgement: &Judgement, source: &Named) -> String {
     let Judgement { criterion, finding } = judgement;
     match &finding.verdict {
@@ -110,7 +110,7 @@ fn obstacle(judgement: &Judgement, source: &Named) -> String {
     }
 }
 
-/// Writes one criterion with its answer and its evidence.
+/// Writes one criterion, with its answer and its evidence.
 fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &mut usize) {
     let Judgement { criterion, finding } = judgement;
     let mark = match &finding.verdict {
@@ -163,7 +163,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     }
 }
 
-/// Writes a piece of evidence, which is its text with tick, cell and line.
+/// Writes a piece of evidence: its text, with tick, cell and line.
 fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
     let mut parts = Vec::new();
     if !said.contains(seen.text.as_str()) {

@@ -1,4 +1,4 @@
-//! The choice of levels by a scale, with `--plan`, `--adaptive` and their targets.
+//! Chooses levels with a scale, using `--plan`, `--adaptive` and their targets.
 
 use super::Args;
 use super::player::RequestedPlayer;
@@ -16,9 +16,10 @@ use serde_json::json;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-/// The accepted range of the targets, in logits.
+/// The accepted range for targets, in logits.
 const TARGETS: RangeInclusive<f64> = 0.001..=100.0;
-/// The abilities that a plan can expect, in logits. Beyond this range, every episode is won or every episode is lost.
+/// The range of abilities for which a plan can be made, in logits. Outside this range, every episode is won
+/// or every episode is lost.
 const ABILITIES: RangeInclusive<f64> = -20.0..=20.0;
 
 /// The file in a results folder that records an adaptive choice.
@@ -78,17 +79,18 @@ pub(super) struct ChoiceArgs {
     batch: u64,
 }
 
-/// The method by which the levels of an evaluation are chosen.
+/// The method for choosing an evaluation's levels.
 pub(super) enum Choice {
-    /// All levels that the user specified.
+    /// All levels specified by the user.
     All,
-    /// The levels of a plan. The settings already contain only these levels.
+    /// A plan's levels. The settings already contain only these levels.
     Planned(Box<Plan>),
-    /// One level after the other, each chosen from the results so far.
+    /// One level after another, each chosen from the results so far.
     Adaptive(Box<AdaptiveChoice>),
 }
 
-/// Chooses the levels. Either restricts the settings and subjects to a plan's levels, or prepares an adaptive choice.
+/// Chooses the levels. Either restricts the settings and subjects to a plan's levels, or prepares an adaptive
+/// choice.
 pub(super) fn choose(
     args: &Args,
     requested: &RequestedPlayer,
@@ -178,7 +180,7 @@ impl Args {
     }
 }
 
-/// Prints a plan of an evaluation.
+/// Prints an evaluation plan.
 pub(super) fn print(plan: &Plan, settings: &Settings, console: &Console) -> Answer {
     let games: Vec<_> = settings
         .games
@@ -222,7 +224,7 @@ pub(super) fn words(plan: &Plan) -> String {
     )
 }
 
-/// Records the choices of an adaptive evaluation, and returns a sentence about why it ended.
+/// Records an adaptive evaluation's choices, and returns a sentence about why the evaluation ended.
 pub(super) fn record(choice: &AdaptiveChoice, folder: &Path) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(&json!({ "format": 1, "choices": choice.choices() }));
     let text = text.map_err(|error| Failure::environment(error, "the choice of levels"))? + "\n";

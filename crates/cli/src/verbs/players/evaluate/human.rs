@@ -1,12 +1,12 @@
-//! A person as a player, who reads a language model's prompt and types actions.
+//! A human player, who reads a language model's prompts and types actions.
 
 use evaluation::prompt::{Past, Prompter};
 use evaluation::{Agent, Choice, Halt, Journal, Turn};
 use std::io::{BufRead, Write};
 use std::sync::Arc;
 
-/// A player that reads actions from standard input, one per line. Prompts go to standard error, so that the answers of the
-/// subcommand can be piped.
+/// A player that reads actions from standard input, one per line. Prompts are written to standard error, so
+/// that the subcommand's answers can be piped.
 pub(crate) struct Human {
     prompter: Arc<Prompter>,
     past: Vec<Past>,
@@ -17,7 +17,7 @@ impl Human {
         Human { prompter, past: Vec::new() }
     }
 
-    /// Returns the prompt for a turn. At the first turn, the rules come first.
+    /// Returns the prompt for a turn. At the first turn, the prompt starts with the rules.
     fn shown(&self, turn: &Turn<'_>) -> String {
         if turn.number == 0 {
             show(self.prompter.static_part());

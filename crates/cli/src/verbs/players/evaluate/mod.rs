@@ -104,13 +104,13 @@ pub(crate) struct Args {
     model: ModelArgs,
 }
 
-/// The default of --budget.
+/// The default for `--budget`.
 const BUDGET: u64 = 1000;
 
-/// The default of --max-steps.
+/// The default for `--max-steps`.
 const MAX_STEPS: u64 = 1000;
 
-/// The file in a results folder that records which checks the release's root passed.
+/// The file in a results folder that records the checks passed by the release's root.
 const ORIGIN_FILE: &str = "origin.json";
 
 impl Args {
@@ -306,7 +306,7 @@ fn end_players() {
     evaluation::player::process::end_all();
 }
 
-/// Returns `results/` with the player's name.
+/// Returns the default results folder: the player's name within `results/`.
 fn default_folder(entrant: &Entrant) -> PathBuf {
     let name = [&entrant.name].into_iter().chain(&entrant.mode).chain(&entrant.aids).join("_");
     let is_other = |c: char| !(c.is_alphanumeric() || matches!(c, '-' | '_' | '.'));

@@ -1,4 +1,4 @@
-//! The flags of language models, and the settings that they select.
+//! Language model flags, and the settings that they select.
 
 use super::Args;
 use crate::failure::Failure;
@@ -18,9 +18,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The maximum size of the advice that can be added to a prompt, in bytes.
+/// The maximum size of the advice added to a prompt, in bytes.
 const MAX_STRATEGY: usize = 1 << 16;
-/// The number of tokens that dry runs assume per answer if no limit is given.
+/// The number of tokens per answer that dry runs assume if no limit is given.
 const ANSWER_TOKENS: u64 = 100;
 
 /// The model, its requests, and the limits on their cost.
@@ -129,13 +129,13 @@ pub(crate) struct PromptArgs {
     history_tokens: Option<u64>,
 }
 
-/// Parses the name of a track.
+/// Parses a track name.
 fn track_named(name: String) -> Track {
     let named = Track::ALL.into_iter().find(|track| track.name() == name);
     named.expect("the parser knows the names")
 }
 
-/// Returns a parser for one of the names that a setting has in JSON.
+/// Returns a parser for a setting's JSON names.
 fn named<T, const N: usize>(names: [&'static str; N]) -> impl TypedValueParser<Value = T>
 where
     T: DeserializeOwned + Clone + Send + Sync + 'static,
@@ -170,7 +170,7 @@ enum Aid {
 }
 
 impl PromptArgs {
-    /// Returns the settings of prompts, which come from the track or from the flags.
+    /// Returns the prompt settings, which come from the track or from the flags.
     ///
     /// # Errors
     ///
@@ -208,14 +208,14 @@ impl PromptArgs {
         Ok(settings)
     }
 
-    /// Returns the differences between the settings and the track's settings, as results list them. Without a track,
-    /// the defaults replace the track's settings.
+    /// Returns the differences between the settings and the track's settings, as listed in results. Without a
+    /// track, the defaults replace the track's settings.
     pub(super) fn aids(&self, settings: &PromptSettings) -> Vec<String> {
         let usual = self.track.map_or_else(PromptSettings::default, Track::settings);
         settings.aids_beyond(&usual)
     }
 
-    /// Returns `true` if a flag for prompts other than the track is set.
+    /// Returns `true` if any prompt flag other than the track is set.
     pub(super) fn has_flags(&self) -> Result<bool, Failure> {
         Ok(self.by_flags()? != PromptSettings::default())
     }
@@ -264,7 +264,7 @@ impl Aid {
     }
 }
 
-/// The defaults of flags that are rejected for players on which they have no effect.
+/// The defaults for flags that are rejected for players unaffected by them.
 const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("the default is positive");
 const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("the default is positive");
 const TIMEOUT: u64 = 600;
@@ -298,7 +298,7 @@ impl ModelArgs {
         self.concurrency.unwrap_or(CONCURRENCY)
     }
 
-    /// Returns the time limit for a try, or for an answer of a program.
+    /// Returns the time limit for a try, or for a program's answer.
     pub(crate) fn timeout(&self) -> Duration {
         Duration::from_secs(self.timeout.unwrap_or(TIMEOUT))
     }
@@ -332,7 +332,7 @@ impl ModelArgs {
     }
 }
 
-/// The prompters of the games, keyed by game ID.
+/// The games' prompters, by game ID.
 type Prompters = BTreeMap<String, Arc<Prompter>>;
 
 /// Creates the prompters for episodes of up to `max_steps` actions.
@@ -362,13 +362,13 @@ pub(crate) struct ConnectedModel {
     prompters: Prompters,
     decoding: Decoding,
     reasks: u32,
-    /// `true` if the model's price is known. If it is not known, the cost is unknown.
+    /// `true` if the model's price is known. Otherwise, the cost is unknown.
     pub(crate) is_priced: bool,
-    /// The spending so far, and the caps on it.
+    /// The spending so far, with its caps.
     pub(crate) caps: Arc<client::Caps>,
 }
 
-/// The cost of an evaluation, assuming that every episode takes all its steps.
+/// The cost of an evaluation, assuming that every episode reaches its step limit.
 #[derive(Serialize)]
 pub(crate) struct Forecast {
     episodes: u64,
@@ -376,22 +376,22 @@ pub(crate) struct Forecast {
     input_tokens: u64,
     cacheable_tokens: u64,
     output_tokens: u64,
-    /// The cost in US dollars; `None` if the price is unknown.
+    /// The cost in US dollars, or `None` if the price is unknown.
     cost: Option<f64>,
     cost_if_cached: Option<f64>,
     answer_tokens: u64,
-    /// The maximum number of tokens per answer; `None` if there is no limit.
+    /// The maximum number of tokens per answer, or `None` if there is no limit.
     max_answer_tokens: Option<u64>,
     /// The number of output tokens, assuming that all answers are as long as possible.
     max_output_tokens: Option<u64>,
     /// The cost in US dollars, assuming that all answers are as long as possible.
     max_cost: Option<f64>,
-    /// The number of requests, assuming that every episode lasts as long as the shortest known win of its level. `None` if a
-    /// level has no known win.
+    /// The number of requests, assuming that every episode lasts as long as the shortest known win of its
+    /// level. `None` if any level lacks a known win.
     estimated_requests: Option<u64>,
     /// The cost of the estimated requests in US dollars.
     estimated_cost: Option<f64>,
-    /// The part of the forecast that exceeds a cap; `None` if no cap is exceeded.
+    /// The part of the forecast that exceeds a cap, or `None` if no cap is exceeded.
     forbidden: Option<String>,
 }
 
@@ -404,7 +404,7 @@ impl RequestedModel {
         Ok(RequestedModel { options, settings, prompts, reasks })
     }
 
-    /// Returns the player's entry for results.
+    /// Returns the player's entry in results.
     pub(super) fn entrant(&self, subjects: &[Subject], args: &Args) -> Result<Entrant, Failure> {
         let digest = subjects
             .first()
@@ -427,7 +427,7 @@ impl RequestedModel {
         Prompter::within(subject, self.prompts.clone(), max_steps, commit).map_err(Failure::from)
     }
 
-    /// Connects without sending a request. A missing key is reported before anything is written.
+    /// Connects without sending a request, so that a missing key is reported before anything is written.
     pub(crate) fn connect(
         &self,
         subjects: &[Subject],
@@ -445,7 +445,7 @@ impl RequestedModel {
         })
     }
 
-    /// Estimates the cost, assuming that each episode takes all its steps and no request is repeated.
+    /// Estimates the cost, assuming that each episode reaches its step limit and no request is repeated.
     pub(crate) fn forecast(&self, tasks: &[Task<'_>]) -> Result<Forecast, Failure> {
         let price = client::price(&self.options)?;
         let most = self.settings.decoding.max_output_tokens.map(u64::from);
@@ -485,7 +485,7 @@ impl RequestedModel {
         })
     }
 
-    /// Returns the requests of each episode, assuming that the episode takes `decisions(task)` decisions.
+    /// Returns each episode's requests, assuming that the episode has `decisions(task)` decisions.
     fn batches(
         &self,
         tasks: &[Task<'_>],
@@ -528,8 +528,8 @@ impl RequestedModel {
     }
 }
 
-/// Returns the number of tokens of earlier turns in the prompts of `steps` steps. The number grows by `turn` per step
-/// up to `room`.
+/// Returns the number of tokens that earlier turns occupy in the prompts of `steps` steps. The number grows
+/// by `turn` per step, up to `room`.
 fn history(steps: u64, turn: u64, room: u64) -> u64 {
     let Some(most) = room.checked_div(turn) else { return 0 };
     let growing = steps.min(most + 1);

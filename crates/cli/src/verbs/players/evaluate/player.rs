@@ -1,4 +1,4 @@
-//! The player that a user requests, and its connection to the episodes.
+//! The player requested by the user, and its connection to the episodes.
 
 use super::human::Human;
 use super::mailbox::RequestedMailbox;
@@ -23,7 +23,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The player that a user requests.
+/// The player requested by the user.
 pub(super) enum RequestedPlayer {
     Planner(PlannerSpec),
     Replay(Replay),
@@ -35,10 +35,10 @@ pub(super) enum RequestedPlayer {
     Model(Box<model::RequestedModel>),
 }
 
-/// A constructor of the player for an episode.
+/// A constructor for an episode's player.
 pub(super) type PlayerOf = Box<dyn Fn(&Task<'_>) -> Contestant + Sync>;
 
-/// A connected player, which is a constructor of players for episodes and the state that outlives an episode.
+/// A connected player: a constructor for players of episodes, and the state that outlives an episode.
 pub(super) struct Connected {
     pub(super) contestant: PlayerOf,
     pub(super) model: Option<Arc<ConnectedModel>>,
@@ -52,7 +52,7 @@ impl From<PlayerOf> for Connected {
 }
 
 impl RequestedPlayer {
-    /// Returns the player's entry for results.
+    /// Returns the player's entry in results.
     pub(super) fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let (name, details) = match self {
             RequestedPlayer::Model(model) => return model.entrant(subjects, args),
@@ -87,12 +87,13 @@ impl RequestedPlayer {
         Ok(Entrant { name, mode: None, aids, details })
     }
 
-    /// Checks, before anything is written, that a player that reads prompts can read the first prompt of each game.
+    /// Checks, before anything is written, that a player that reads prompts can read each game's first
+    /// prompt.
     ///
     /// # Errors
     ///
-    /// Returns a failure if the player cannot read a prompt. The message lists the games, the reason, and the games
-    /// that the player can play.
+    /// Returns a failure if the player cannot read a prompt. The message lists the affected games, the
+    /// reason, and the games that the player can play.
     pub(super) fn check(&self, settings: &Settings, subjects: &[Subject]) -> Result<(), Failure> {
         let RequestedPlayer::Prompted(player, prompts) = self else { return Ok(()) };
         let prompters = model::prompters(subjects, prompts, settings.max_steps, settings.commit)?;
@@ -120,7 +121,7 @@ impl RequestedPlayer {
         }
     }
 
-    /// Connects the player, and returns a constructor of players for episodes.
+    /// Connects the player, and returns a constructor for players of episodes.
     pub(super) fn connect(
         &self,
         args: &Args,
@@ -182,8 +183,8 @@ impl RequestedPlayer {
         Ok(contestant.into())
     }
 
-    /// Returns the number of concurrent episodes, which is at most the number of episodes. Episodes of models wait most
-    /// of the time.
+    /// Returns the number of concurrent episodes (at most the total number of episodes). Model episodes spend
+    /// most of their time waiting.
     pub(super) fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let requested = match self {
             RequestedPlayer::Model(_) => args.model.concurrency().get(),
@@ -202,7 +203,7 @@ impl RequestedPlayer {
     }
 }
 
-/// Rejects flags that would have no effect, because a user who specifies such a flag expects an effect.
+/// Rejects flags without an effect, because a user who specifies a flag expects an effect.
 pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
     if args.budget.is_some() && !matches!(requested, RequestedPlayer::Planner(_)) {
         bail!(

@@ -1,4 +1,4 @@
-//! The progress of an evaluation on the terminal.
+//! An evaluation's progress on the terminal.
 
 use super::useless;
 use crate::console::Console;
@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// A progress bar that counts the episodes played and won.
+/// A progress bar that counts the played and won episodes.
 pub(super) struct Bar<'a> {
     pub(super) bar: ProgressBar,
     pub(super) won: AtomicU64,
@@ -21,9 +21,9 @@ pub(super) struct Bar<'a> {
     pub(super) refused: AtomicBool,
     pub(super) console: &'a Console,
     pub(super) keep_going: bool,
-    /// The folder of the logs.
+    /// The folder with the logs.
     pub(super) logs: PathBuf,
-    /// The mailbox whose episodes are waiting; `None` if the player has no mailbox.
+    /// The mailbox whose episodes are waiting, or `None` if the player has no mailbox.
     pub(super) mailbox: Option<Arc<Mailbox>>,
 }
 

@@ -1,4 +1,4 @@
-//! The subjects of an evaluation: the games of a snapshot, or games that the user specifies.
+//! An evaluation's subjects: the games in a snapshot, or games specified by the user.
 
 use crate::diagnostics;
 use crate::diagnostics::Named;
@@ -20,16 +20,17 @@ use snapshots::{Integrity, MANIFEST_FILE, check_integrity};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The maximum number of game names that a message lists.
+/// The maximum number of game names listed in a message.
 const MAX_LISTED: usize = 12;
 
-/// The maximum size of a card, in bytes. The card of a game with many levels has some hundred kilobytes.
+/// The maximum size of a card, in bytes. The card of a game with many levels can occupy several hundred
+/// kilobytes.
 const MAX_CARD: usize = 1 << 24;
 
-/// The maximum size of a file of marks, in bytes.
+/// The maximum size of a marks file, in bytes.
 const MAX_MARKS: usize = 1 << 26;
 
-/// The games that a user specifies, and the part of them that is played.
+/// The games specified by the user, and the selection to play.
 pub(crate) struct Wanted<'a> {
     pub(crate) subjects: &'a [String],
     pub(crate) games: &'a [String],
@@ -40,7 +41,7 @@ pub(crate) struct Wanted<'a> {
 /// The games, and the snapshot's root digest if all games come from one snapshot.
 pub(crate) struct Subjects {
     pub(crate) snapshot: Option<Digest>,
-    /// The name of the snapshot; `None` unless all games come from one snapshot.
+    /// The snapshot's name, or `None` unless all games come from one snapshot.
     pub(crate) release: Option<String>,
     pub(crate) games: Vec<Subject>,
 }
@@ -118,7 +119,7 @@ fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
     })
 }
 
-/// Returns suggestions for an unknown game. These are a similar ID or title, a game whose name contains the word, or
+/// Returns suggestions for an unknown game: a similar ID or title, a game whose name contains the word, or
 /// else a list of all games.
 fn help_with(unknown: &str, games: &[Subject]) -> String {
     let names =
@@ -161,7 +162,7 @@ impl<'a> Files<'a> {
         Ok((archive.integrity.clone(), Files::Archive(Box::new(archive))))
     }
 
-    /// Returns `true` if the release has a file at the path.
+    /// Returns `true` if the release contains a file at the path.
     fn has(&self, path: &str) -> bool {
         match self {
             Files::Folder(root) => root.join(path).is_file(),
@@ -169,7 +170,7 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// Reads a text of the release, of up to `limit` bytes.
+    /// Reads a text file in the release, of up to `limit` bytes.
     fn text(&self, path: &str, limit: usize) -> Result<String, Failure> {
         let archive = match self {
             Files::Folder(root) => return read_text(&root.join(path), limit),

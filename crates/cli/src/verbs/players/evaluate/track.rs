@@ -1,4 +1,4 @@
-//! The players of each track.
+//! The players for each track.
 
 use super::Args;
 use super::player::RequestedPlayer;
@@ -8,7 +8,7 @@ use evaluation::predictions::Trials;
 use evaluation::serve::PromptPlayer;
 use evaluation::{Subject, Track};
 
-/// Rejects a player that cannot play on the track. The message lists the players that can.
+/// Rejects a player that cannot play on the track. The message lists the suitable players.
 ///
 /// # Errors
 ///
@@ -67,7 +67,7 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
     }
 }
 
-/// Prints a note about the games in which exploring carries no risk.
+/// Prints a note about the games without any risk in exploring.
 pub(super) fn advise(track: Option<Track>, subjects: &[Subject], console: &Console) {
     if track != Some(Track::Discover) {
         return;

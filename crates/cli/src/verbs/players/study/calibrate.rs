@@ -1,4 +1,4 @@
-//! `arcade study calibrate`: measures difficulties of the levels of a release with examinees that never change.
+//! `arcade study calibrate`: measures the difficulties of a release's levels with unchanging examinees.
 
 use super::scale::left_out;
 use crate::console::Console;
@@ -62,7 +62,8 @@ pub(crate) struct Args {
     resume: bool,
 }
 
-/// The default seed text of evaluations, which mints also use for marks. Calibrations must not share it.
+/// The default seed text for evaluations, which mints also use for marks. Calibrations must use a different
+/// seed text.
 const OTHERS: &str = "evaluate";
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -158,7 +159,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the examinees that play, which are all examinees or those of an earlier scale.
+/// Returns the participating examinees: all examinees, or the examinees of an earlier scale.
 fn examinees(
     earlier: Option<&ScaleFile>,
     path: &Option<PathBuf>,
@@ -176,7 +177,7 @@ fn examinees(
     Ok(known)
 }
 
-/// Returns the scale with this release added.
+/// Returns the scale with the current release added.
 fn calibrated(
     args: &Args,
     earlier: Option<ScaleFile>,
@@ -228,7 +229,7 @@ fn calibrated(
     Ok(scale)
 }
 
-/// Rejects, before anything is played, results of readers that could not be included.
+/// Rejects, before anything is played, reader results that could not be included.
 fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) -> Result<(), Failure> {
     if args.readers.is_empty() {
         return Ok(());
@@ -257,7 +258,7 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
     Ok(())
 }
 
-/// Returns the episodes that the persons with these names played on the levels of a release.
+/// Returns the episodes played by the persons with the given names on a release's levels.
 fn plays(settings: &Settings, persons: &[PersonPlays], names: &[&str]) -> Vec<GamePlays> {
     let of_game = |game: &SubjectEntry| {
         let mut found = GamePlays { levels: game.levels.len(), plays: Vec::new() };
@@ -278,7 +279,7 @@ fn plays(settings: &Settings, persons: &[PersonPlays], names: &[&str]) -> Vec<Ga
     settings.games.iter().map(of_game).collect()
 }
 
-/// Returns the name of the folder of the first subject.
+/// Returns the name of the first subject's folder.
 fn default_name(subjects: &[String]) -> String {
     let path = Path::new(&subjects[0]);
     // The published part of a sealed release lies in a folder that is named after the release.

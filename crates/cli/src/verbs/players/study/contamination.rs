@@ -1,4 +1,4 @@
-//! `arcade study contamination`: tests whether a player has seen the games of a release, or their solutions.
+//! `arcade study contamination`: tests whether a player has seen a release's games or their solutions.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -40,7 +40,7 @@ pub(crate) struct Args {
     release: PathBuf,
 }
 
-/// The power below which a test that finds nothing says little.
+/// The power below which a nonsignificant test is not informative.
 const SMALL: f64 = 0.8;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(!players.iter().any(|player| player.evidence.is_seen()))
 }
 
-/// Returns the coins of a revealed release.
+/// Returns a revealed release's coins.
 fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     let manifest = &released.manifest;
     let (name, place) = (&manifest.name, args.release.in_message());
@@ -133,7 +133,7 @@ fn coin(released: &ReleasedGame) -> GameCoin {
     }
 }
 
-/// Returns the commands that play the episodes that the tests need.
+/// Returns the commands that play the episodes required by the tests.
 fn next(args: &Args) -> String {
     let release = args.release.as_os_str();
     let word = OsStr::new;
@@ -199,8 +199,8 @@ fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
     }
 }
 
-/// Returns the test's greater power against a player that knows half of the levels. Returns `None` if something was
-/// found, or if that power is not small.
+/// Returns the larger of the tests' powers against a player that knows half of the levels. Returns `None` if
+/// evidence was found, or if the power is not small.
 fn weak(player: &PlayerMemory) -> Option<f64> {
     let half = player.power.iter().find(|power| power.share == 0.5)?;
     let greatest = half.solutions.into_iter().chain(half.games).reduce(f64::max)?;

@@ -1,4 +1,4 @@
-//! `arcade study`: compares months and models beyond one evaluation.
+//! `arcade study`: compares months and models across several evaluations.
 
 mod calibrate;
 mod contamination;

@@ -1,4 +1,4 @@
-//! `arcade study scale`: computes abilities of players on one scale across releases.
+//! `arcade study scale`: computes players' abilities on a common scale across releases.
 
 use crate::console::Console;
 use crate::failure::Answer;
@@ -63,7 +63,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(found.iter().all(is_placed))
 }
 
-/// Returns one line per way in which the player's episodes differ from the episodes that the scale is based on.
+/// Returns one line per difference between the player's episodes and the episodes on which the scale is
+/// based.
 pub(crate) fn left_out(player: &str, left_out: &BTreeMap<String, u64>, max_steps: u64) -> Vec<String> {
     let line = |(flags, &episodes): (&String, &u64)| {
         let (episodes, were) =

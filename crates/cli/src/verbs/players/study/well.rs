@@ -1,4 +1,4 @@
-//! `arcade study well`: measures how many games a chain of months can still invent.
+//! `arcade study well`: estimates how many more games a chain of months can invent.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};

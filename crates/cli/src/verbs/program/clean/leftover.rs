@@ -1,4 +1,5 @@
-//! Files and folders left behind by interrupted runs. Each is recognised by a property that only arcade's files have.
+//! Files and folders left behind by interrupted runs. Each leftover is recognised by a property unique to
+//! arcade's files.
 
 use crate::failure::Failure;
 use base::MessagePath;
@@ -16,20 +17,20 @@ pub(super) struct Leftover {
 }
 
 pub(super) enum LeftoverKind {
-    /// The unfinished folder of a release, report or export. If it has finished jobs, the run was interrupted and can
-    /// resume.
+    /// The unfinished folder of a release, report or export. If the folder contains finished jobs, the run
+    /// was interrupted and can be resumed.
     Draft(Abandoned),
-    /// A shard of a release, with its description.
+    /// A release shard, with its description.
     Shard(String),
-    /// An unfinished file. While it is held open, no other process considers it abandoned.
+    /// An unfinished file. While it is held open, other processes do not consider it abandoned.
     File(#[expect(dead_code, reason = "the open file holds the lock")] File),
     Scratch,
-    /// A file that redirected a browser to the page of `arcade studio`.
+    /// A file that redirected a browser to the `arcade studio` page.
     Page,
 }
 
 impl Leftover {
-    /// Returns the leftover at this path; `None` if the path is anything else or in use.
+    /// Returns the leftover at the given path, or `None` if the path is anything else or in use.
     pub(super) fn at(path: &Path) -> Result<Option<Leftover>, Failure> {
         let Ok(found) = fs::symlink_metadata(path) else { return Ok(None) };
         let kind = if found.is_file() {
@@ -44,7 +45,7 @@ impl Leftover {
         Ok(kind.map(|kind| Leftover { path: path.to_path_buf(), kind }))
     }
 
-    /// Returns the kind of this leftover, for programs and in words.
+    /// Returns the kind of leftover, as a keyword and as a phrase.
     pub(super) fn described(&self) -> (&'static str, String) {
         match &self.kind {
             LeftoverKind::Draft(draft) if draft.finished_jobs == 0 => {
@@ -60,7 +61,7 @@ impl Leftover {
         }
     }
 
-    /// Returns the disk space that the leftover's files occupy, in bytes.
+    /// Returns the disk space occupied by the leftover's files, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         let (mut bytes, mut waiting) = (0, vec![self.path.clone()]);
         while let Some(path) = waiting.pop() {
@@ -88,18 +89,18 @@ impl Leftover {
     }
 }
 
-/// Returns `true` if the text may be the random part of a scratch name.
+/// Returns `true` if the text may be the random part of a scratch folder's name.
 fn is_drawn(text: &str) -> bool {
     text.len() == 6 && text.chars().all(|character| character.is_ascii_alphanumeric())
 }
 
-/// The prefix of the names of players' scratch folders.
+/// The name prefix of players' scratch folders.
 const SCRATCH: &str = "arcade-player-";
-/// The minimum age at which a scratch folder cannot belong to a player that is just starting.
+/// The minimum age at which a scratch folder cannot belong to a starting player.
 const SETTLED: Duration = Duration::from_secs(3600);
 
-/// Returns the scratch folders of players that no longer run, in the system's temporary folder. The list is empty on
-/// systems that do not list the working folders of processes.
+/// Returns the scratch folders of terminated players in the system's temporary folder. The list is empty on
+/// systems that do not list processes' working folders.
 pub(super) fn scratch() -> Vec<Leftover> {
     let Some(used) = working_folders() else { return Vec::new() };
     let Ok(place) = fs::canonicalize(std::env::temp_dir()) else { return Vec::new() };
@@ -115,7 +116,8 @@ pub(super) fn scratch() -> Vec<Leftover> {
     paths.into_iter().filter_map(of).collect()
 }
 
-/// Returns `true` for a file of this user that redirected a browser to a studio at least an hour ago.
+/// Returns `true` for a file owned by the current user that redirected a browser to a studio at least an hour
+/// ago.
 fn is_page(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let drawn = name.and_then(|name| name.strip_prefix("arcade-studio-")?.strip_suffix(".html"));
@@ -123,7 +125,7 @@ fn is_page(path: &Path) -> bool {
     drawn.is_some_and(is_drawn) && found.is_file() && is_own(&found) && found.modified().is_ok_and(is_settled)
 }
 
-/// Returns `true` for a scratch folder of this user's players that has not changed for an hour.
+/// Returns `true` for a scratch folder of the current user's players, unchanged for at least an hour.
 fn is_scratch(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let Ok(found) = fs::symlink_metadata(path) else { return false };
@@ -152,7 +154,7 @@ fn is_own(_found: &fs::Metadata) -> bool {
     false
 }
 
-/// Returns the working folders of running processes; `None` if the system does not list them.
+/// Returns the working folders of running processes, or `None` if the system does not list them.
 fn working_folders() -> Option<Vec<PathBuf>> {
     let processes = fs::read_dir("/proc").ok()?;
     let folders: Vec<PathBuf> =

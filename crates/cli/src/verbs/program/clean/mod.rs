@@ -1,4 +1,4 @@
-//! `arcade clean`: removes files that interrupted runs left behind.
+//! `arcade clean`: removes files left behind by interrupted runs.
 
 mod leftover;
 
@@ -83,7 +83,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the reason why a leftover is kept, with advice; `None` if the leftover is to be removed.
+/// Returns the reason for keeping a leftover, with advice, or `None` if the leftover will be removed.
 fn kept(args: &Args, kind: &LeftoverKind) -> Option<&'static str> {
     match kind {
         LeftoverKind::Draft(draft) if draft.finished_jobs > 0 && !args.interrupted => Some(

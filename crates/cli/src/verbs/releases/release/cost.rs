@@ -4,15 +4,15 @@ use super::probe;
 use snapshots::Corpus;
 use snapshots::mint::{Forecast, Job, Plan};
 
-/// The minimum expected duration at which a mint prints how to resume it, in seconds of one core.
+/// The minimum expected duration at which a mint prints how to resume it, in seconds on one core.
 pub(crate) const LONG: f64 = 30.0;
 
-/// The minimum expected duration at which it is worth a third of a second to measure the machine's speed, in seconds of
-/// one core.
+/// The minimum expected duration, in seconds on one core, at which it is worth spending a third of a second
+/// to measure the machine's speed.
 const PROBED: f64 = 30.0;
 
-/// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns how many times longer this
-/// machine takes than the machine on which costs were measured.
+/// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns how many times
+/// slower this machine is than the machine on which costs were measured.
 pub(crate) fn forecast(plan: &Plan<'_>, jobs: &[Job], corpus: &Corpus) -> (Forecast, Option<f64>) {
     let usual = plan.forecast(jobs);
     let slowness = if usual.median >= PROBED { probe::slowness(corpus) } else { None };
@@ -27,7 +27,7 @@ pub(crate) fn words(Forecast { median, tail }: Forecast) -> String {
     format!("about {} of one core; one mint in twenty takes more than {}", duration(median), duration(tail))
 }
 
-/// Formats seconds in a suitable unit.
+/// Formats a number of seconds in a suitable unit.
 fn duration(seconds: f64) -> String {
     match seconds {
         _ if seconds < 1.5 => "a second".to_owned(),

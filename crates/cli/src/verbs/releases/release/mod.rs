@@ -98,15 +98,15 @@ impl Args {
     }
 }
 
-/// The work that the flags request.
+/// The work requested by the flags.
 enum Request<'a> {
-    /// Draw a secret for the recipe in this file.
+    /// Draw a secret for the recipe in the given file.
     Commit(&'a Path),
     /// Join the public part of a sealed release with the withheld part.
     Reveal { held: &'a Path, what: Reveal },
     /// Print the public facts of a sealed release, without its secret.
     Facts(Recipe),
-    /// Print the contents of a mint and its cost.
+    /// Print a mint's contents and cost.
     Outline(Order),
     /// Mint a release.
     Mint(Order),
@@ -174,7 +174,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
 }
 
-/// Returns the tools of this binary that a mint uses.
+/// Returns the binary's tools for minting.
 pub(crate) fn tools(corpus: &Corpus) -> Tools<'_> {
     Tools { corpus, lockfile: embedded::lockfile(), players: &marks::Players }
 }
@@ -186,14 +186,14 @@ fn already_complete(order: &Order, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns `true` if the unfinished folder for `out` contains the result of at least one job.
+/// Returns `true` if the unfinished folder for `out` contains at least one job's result.
 fn has_finished_jobs(out: &Path) -> bool {
     let jobs = Draft::jobs_of(out).and_then(|jobs| fs::read_dir(jobs).ok());
     let is_result = |entry: fs::DirEntry| entry.path().extension().is_some_and(|end| end == "json");
     jobs.is_some_and(|jobs| jobs.flatten().any(is_result))
 }
 
-/// Mints the release or the shard, and reports it.
+/// Mints the release or the shard, and reports the result.
 fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answer {
     let (out, resumed) = (&order.out, args.resumed(&order.out));
     let reporter = Reporter::new(console, tools.corpus, &resumed);
@@ -227,7 +227,7 @@ fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answ
     }
 }
 
-/// Reports a release that was minted into the folder `out`.
+/// Reports a release minted into the folder `out`.
 pub(crate) fn report(
     minted: &Minted,
     recipe: &Recipe,
@@ -254,7 +254,7 @@ fn is_file(recipe: &Path) -> bool {
     recipe.extension().is_some_and(|extension| extension == "toml")
 }
 
-/// Finds the recipe that the user specifies, and parses it with `read`.
+/// Finds the recipe specified by the user, and parses it with `read`.
 pub(crate) fn find_recipe(
     path: &Path,
     read: impl Fn(&str) -> Result<Recipe, RecipeError>,

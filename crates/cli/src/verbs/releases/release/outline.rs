@@ -1,4 +1,4 @@
-//! `arcade release --dry-run`: the contents and the cost of a mint.
+//! `arcade release --dry-run`: a mint's contents and cost.
 
 use super::cost::{forecast, words};
 use super::progress::Remarks;
@@ -11,8 +11,8 @@ use snapshots::mint::{Job, JobFolder, Plan};
 use snapshots::{Corpus, Draft, Order, Prepared, PuzzleKind, Recipe, SnapshotError, Tools, check_vacant};
 use std::path::{Path, PathBuf};
 
-/// Prints the contents of a mint and its cost on this machine. The machine's speed is probed if the mint takes more
-/// than half a minute. If the order resumes, only the jobs that an interrupted mint has not finished are counted.
+/// Prints a mint's contents and its cost on this machine. Probes the machine's speed if the mint takes more
+/// than half a minute. If the order resumes a mint, only the unfinished jobs are counted.
 pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, console: &Console) -> Answer {
     let Prepared { plan, jobs, .. } = prepared;
     let &Order { ref recipe, ref out, resume, .. } = order;
@@ -95,7 +95,7 @@ pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, c
     Ok(true)
 }
 
-/// Returns, for each job, `true` if an interrupted mint has finished it.
+/// Returns, for each job, `true` if an interrupted mint has already finished it.
 fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, Failure> {
     let Some(folder) = Draft::jobs_of(out) else { return Ok(vec![false; names.len()]) };
     let digest = plan.digest()?;

@@ -1,4 +1,4 @@
-//! The speed of this machine, measured by timing a few fixed episodes.
+//! The machine's speed, measured by timing a few fixed episodes.
 
 use agents::{Budget, Limits, Mcts, MctsConfig, Olets, OletsConfig, Planner, play};
 use base::Seed;
@@ -6,7 +6,7 @@ use cpu_time::ThreadTime;
 use engine::{Game, Level};
 use snapshots::{Corpus, CorpusGame};
 
-/// The games of the probe, which are about pushing, chasing and shooting.
+/// The probe's games, about pushing, chasing and shooting.
 const GAMES: [&str; 3] = ["dormouse-millrace", "bellwether-down", "hailglass"];
 /// The number of ticks per episode.
 const TICKS: usize = 200;
@@ -14,13 +14,13 @@ const TICKS: usize = 200;
 const CALLS: u64 = 400;
 /// The number of repetitions. Only the fastest repetition counts, because other work can only slow episodes down.
 const TIMES: u64 = 3;
-/// The time that the episodes take on the machine that docs/reference/recipes.md describes, in seconds of one core.
-/// Both cores of that machine were playing.
+/// The duration of the episodes on the machine described in docs/reference/recipes.md, in seconds on one
+/// core, with both cores playing.
 const USUAL: f64 = 0.109;
 
-/// Returns how many times longer this machine takes than the machine on which costs were measured, with all threads of
-/// the current pool at work. Returns `None` if the corpus lacks a game of the probe. Cost: about a third of a second of
-/// each thread.
+/// Returns how many times slower this machine is than the machine on which costs were measured, with all
+/// threads in the current pool at work. Returns `None` if the corpus lacks any of the probe's games. Cost:
+/// about a third of a second per thread.
 pub(super) fn slowness(corpus: &Corpus) -> Option<f64> {
     let games = GAMES.iter().map(|name| compiled(corpus.games.iter().find(|game| game.name == *name)?));
     let games = games.collect::<Option<Vec<(Game, Level)>>>()?;
@@ -34,7 +34,7 @@ fn compiled(known: &CorpusGame) -> Option<(Game, Level)> {
     Some((game, level))
 }
 
-/// Plays all games once, and returns the CPU time of this thread in seconds.
+/// Plays all games once, and returns the thread's CPU time in seconds.
 fn timed(games: &[(Game, Level)]) -> f64 {
     let clock = ThreadTime::now();
     let seed = Seed::from_text("probe");

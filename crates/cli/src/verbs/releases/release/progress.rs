@@ -1,4 +1,4 @@
-//! The progress of a mint, as a bar on a terminal, and otherwise as one line per tenth of the jobs.
+//! A mint's progress, shown as a bar on a terminal, and otherwise as one line per tenth of the jobs.
 
 use super::cost::{LONG, forecast, words as forecast_words};
 use crate::console::{Console, Stopwatch};
@@ -15,7 +15,7 @@ pub(crate) struct ProgressBars<'a> {
     last_report: Mutex<LastReport>,
 }
 
-/// The progress that was reported last, for output without a bar.
+/// The most recently reported progress, for output without a bar.
 #[derive(Default)]
 struct LastReport {
     jobs: u64,
@@ -68,7 +68,7 @@ impl Progress for ProgressBars<'_> {
     }
 }
 
-/// A reporter that prints only the notes of a mint.
+/// A reporter that prints only a mint's notes.
 pub(crate) struct Remarks<'a>(pub(crate) &'a Console);
 
 impl Progress for Remarks<'_> {
@@ -77,13 +77,13 @@ impl Progress for Remarks<'_> {
     }
 }
 
-/// A reporter of a mint. It prints notes and the command that resumes the mint, and shows bars.
+/// A reporter for a mint. Prints notes and the command that resumes the mint, and shows bars.
 pub(crate) struct Reporter<'a> {
     console: &'a Console,
     corpus: &'a Corpus,
     /// The command that resumes the mint.
     resumed: &'a str,
-    /// The progress bars; empty until the jobs have begun.
+    /// The progress bars. Empty until the jobs have started.
     bars: OnceLock<ProgressBars<'a>>,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Reporter<'a> {
         Reporter { console, corpus, resumed, bars: OnceLock::new() }
     }
 
-    /// Returns the seconds since the jobs began; `None` if they have not begun.
+    /// Returns the seconds since the jobs started, or `None` if they have not started.
     pub(crate) fn seconds(&self) -> Option<f64> {
         self.bars.get().map(|bars| bars.started.seconds())
     }

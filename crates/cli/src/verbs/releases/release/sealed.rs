@@ -19,7 +19,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use trust::{Drawn, MAX_BEACON, check_source, read_bounded};
 
-/// Draws a secret for a recipe and writes it to a file that only its owner can read.
+/// Draws a secret for a recipe, and writes the secret to a file that only its owner can read.
 pub(super) fn commit(
     file: &Path,
     parent: Option<&Path>,
@@ -97,8 +97,8 @@ fn mint_command(recipe: &Path, secret: &Path, parent: Option<&Path>) -> String {
     shell::command(mint)
 }
 
-/// Returns the failure for a path that already holds a secret, with advice on how to continue. A secret is never
-/// overwritten.
+/// Returns the failure for a path that already contains a secret, with advice on how to continue. A secret is
+/// never overwritten.
 fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) -> Failure {
     let shown = format!("`{}` exists, and a secret is never overwritten", file.in_message());
     let Ok(there) = read_secret(file) else {
@@ -123,7 +123,7 @@ fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) ->
     }
 }
 
-/// Returns the default path of the file that a secret is written to.
+/// Returns the default path for a secret file.
 pub(crate) fn secret_file(name: &str) -> PathBuf {
     PathBuf::from(format!("{name}.secret.json"))
 }
@@ -139,14 +139,14 @@ pub(crate) fn read(file: &Path) -> Result<Secret, Failure> {
     read_secret(file).map_err(Failure::from)
 }
 
-/// Checks the beacon source that a recipe specifies, so that the beacon's value can be filled in later.
+/// Checks the beacon source in a recipe, so that the beacon's value can be filled in later.
 pub(crate) fn check_beacon(recipe: &Recipe) -> Result<(), Failure> {
     let Some(beacon) = &recipe.beacon else { return Ok(()) };
     check_source(&beacon.source).map_err(|fault| malformed!("`beacon.source` of the recipe: {fault}"))?;
     Ok(())
 }
 
-/// Fills in the value of the beacon that a recipe specifies.
+/// Fills in the value of a recipe's beacon.
 pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failure> {
     let shown = file.in_message().to_string();
     let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &shown)?;
@@ -161,7 +161,7 @@ pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failur
         .map_err(|error| malformed!("`{shown}`: {error}"))
 }
 
-/// Joins the public part and the withheld part of a sealed release.
+/// Joins a sealed release's public and withheld parts.
 pub(super) fn reveal(
     public: Option<&Path>,
     held: &Path,

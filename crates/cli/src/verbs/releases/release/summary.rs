@@ -1,4 +1,4 @@
-//! The answer of `arcade release` for people.
+//! The human-readable answer of `arcade release`.
 
 use crate::shell;
 use base::MessagePath;
@@ -69,20 +69,21 @@ pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Opt
     text
 }
 
-/// Returns the command that signs a release with the key of its publisher.
+/// Returns the command that signs a release with its publisher's key.
 pub(crate) fn sign_command(release: &Path) -> String {
     let flags = ["--secret", "NAME.key"].map(OsStr::new);
     shell::command([OsStr::new("trust"), OsStr::new("sign"), release.as_os_str()].into_iter().chain(flags))
 }
 
-/// Returns the command that appends an item to the log in the folder `log`. A new log also needs an origin.
+/// Returns the command that appends an item to the log in the folder `log`. A new log also requires an
+/// origin.
 pub(super) fn log_command<'a>(what: impl IntoIterator<Item = &'a OsStr>) -> String {
     let origin = ["--origin", "example.org/arcade"].into_iter().filter(|_| !Path::new("log").exists());
     let command = ["trust", "log", "append", "log", "--secret", "log.key"].into_iter().chain(origin);
     shell::command(command.map(OsStr::new).chain(what))
 }
 
-/// Returns the shortest answer: the contents of the release, its root and its path.
+/// Returns the shortest answer: the release's contents, its root and its path.
 pub(super) fn in_short(minted: &Minted, out: &Path) -> String {
     let levels: usize = minted.cards.iter().map(|card| card.levels.len()).sum();
     let (games, levels) = (count(minted.cards.len(), "game"), count(levels, "level"));
@@ -90,7 +91,7 @@ pub(super) fn in_short(minted: &Minted, out: &Path) -> String {
     format!("{name}: {games}, {levels}; root {root} in {}", out.in_message())
 }
 
-/// Returns one new level as text, as an illustration.
+/// Returns one of the new levels as text, as an illustration.
 fn example_board(minted: &Minted, out: &Path) -> Option<String> {
     let new = |card: &&Card| matches!(card.origin, Origin::Generated { .. });
     let card = minted.cards.iter().find(new).or_else(|| minted.cards.first())?;

@@ -1,4 +1,4 @@
-//! `arcade trust keygen`: makes a new pair of keys.
+//! `arcade trust keygen`: generates a new key pair.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};

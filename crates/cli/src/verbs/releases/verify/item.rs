@@ -1,4 +1,4 @@
-//! Proofs of single items. They are written from a snapshot, and checked without it.
+//! Proofs for single items. Proofs are written from a snapshot, and checked without the snapshot.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -15,7 +15,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Writes the proof for an item of a verified snapshot, and returns a message.
+/// Writes the proof for an item in a verified snapshot, and returns a message.
 pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String, Failure> {
     let proof = ItemProof::of(manifest, id)?;
     let bytes = proof.to_bytes()?;

@@ -72,7 +72,7 @@ struct Document<'a> {
     verification: &'a Verification,
     /// `true` if the root was compared with a root from another source.
     root_compared: bool,
-    /// The result of checking the signatures; `None` if they were not checked.
+    /// The result of checking the signatures, or `None` if they were not checked.
     #[serde(skip_serializing_if = "Option::is_none")]
     signed: Option<&'a Signed>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -235,12 +235,14 @@ fn damaged(error: SnapshotError, snapshot: &Path, console: &Console) -> Answer {
     Ok(false)
 }
 
-/// Puts a problem on one line. A problem may quote untrusted text, which must not look like a line of our own output.
+/// Formats a problem on one line. A problem may quote untrusted text, which must not look like a line of
+/// arcade's own output.
 fn one_line(problem: &str) -> String {
     problem.replace('\n', "\\n")
 }
 
-/// Prints a note about a snapshot whose witnesses were not replayed, for subcommands that use a snapshot without verifying it.
+/// Prints a note about a snapshot with unreplayed witnesses, for subcommands that use a snapshot without
+/// verifying it.
 pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     if manifest.semantics != engine::SEMANTICS {
         console.remark(format_args!(
@@ -252,8 +254,8 @@ pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     }
 }
 
-/// Converts the error. A folder that does not exist or is not a snapshot is a malformed question, and a disk failure is
-/// a failure of the environment.
+/// Converts the error. A nonexistent folder or a folder without a snapshot is a malformed question, and a
+/// disk failure is an environment failure.
 impl From<SnapshotError> for Failure {
     fn from(error: SnapshotError) -> Failure {
         match error {
@@ -279,7 +281,8 @@ fn absent(path: &Path) -> Failure {
     })
 }
 
-/// Returns a failure that states the kind of file found instead of a snapshot, and explains what a snapshot is.
+/// Returns a failure that states the kind of file found instead of a snapshot, and explains what a snapshot
+/// is.
 fn no_snapshot(path: &Path) -> Failure {
     let shown = path.in_message();
     let ends = |end: &str| path.extension().is_some_and(|found| found == end);

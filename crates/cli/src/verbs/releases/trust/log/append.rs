@@ -179,8 +179,8 @@ fn keys(file: &Path) -> Result<Entry, Failure> {
     }
 }
 
-/// Rejects a set of keys that does not yet follow from the sets that its readers know. If such a set were made again
-/// with different keys, the log could accept no further set.
+/// Rejects a key set that does not yet follow from the sets known to the log's readers. If such a set were
+/// created again with different keys, the log could not accept any further set.
 fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let found = Signatures::read(folder)?;
@@ -197,8 +197,8 @@ fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     )
 }
 
-/// Rejects a commitment that follows a release which is not in the log, because the root of the committed release could
-/// not be appended later.
+/// Rejects a commitment that follows a release missing from the log, because the committed release's root
+/// could not be appended later.
 fn reachable(all: &[Entry], new: &[Entry]) -> Result<(), Failure> {
     for entry in new {
         let Entry::Commitment { release, parent: Some(parent), .. } = entry else { continue };
@@ -212,8 +212,8 @@ fn reachable(all: &[Entry], new: &[Entry]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the entry of a commitment. A commitment cannot be withdrawn, and the root appended later must match its
-/// parent, recipe and name. Everything that can be checked is therefore checked here.
+/// Returns the entry for a commitment. A commitment cannot be withdrawn, and the root appended later must
+/// match its parent, recipe and name. Therefore, this function checks everything that can be checked.
 fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> Result<Entry, Failure> {
     let mut recipe = find_recipe(file, Recipe::from_toml)?;
     if let Some(parent) = &args.parent {
@@ -264,7 +264,7 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
     })
 }
 
-/// Returns the entry of a release. Only its signed statement depends on who creates the entry.
+/// Returns the entry for a release. Only the release's signed statement depends on who creates the entry.
 pub(super) fn release(manifest: Manifest, place: &Path) -> Result<Entry, Failure> {
     let folder = signatures_of(place);
     let statement = match folder.is_dir() {
@@ -283,7 +283,7 @@ pub(super) fn release(manifest: Manifest, place: &Path) -> Result<Entry, Failure
     })
 }
 
-/// Returns the manifest of a release after checking that its files match the manifest.
+/// Returns a release's manifest, after checking that the release's files match it.
 pub(super) fn sound(place: &Path) -> Result<Manifest, Failure> {
     let integrity = integrity_of(place)?;
     match integrity.problems.first() {

@@ -1,4 +1,4 @@
-//! `arcade trust log check`: checks a log, or a proof about a log.
+//! `arcade trust log check`: checks a log, or a log proof.
 
 use super::{absent, append, checkpoint, counted, line, public_key, read_text, row, rules};
 use crate::console::Console;
@@ -58,7 +58,7 @@ pub(crate) struct Args {
     growth: Option<PathBuf>,
 }
 
-/// Parses the name of a month from the user.
+/// Parses a month's name from the user.
 fn month(text: &str) -> Result<String, String> {
     match is_month(text) {
         true => Ok(text.to_owned()),
@@ -148,7 +148,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(sound)
 }
 
-/// Reports that nobody can read the log.
+/// Reports an unreadable log.
 fn damaged(error: &TrustError, console: &Console) -> Answer {
     console.document(&json!({ "problems": [error.to_string()] }))?;
     console.say(error);
@@ -169,7 +169,7 @@ fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {
     Ok(problems)
 }
 
-/// Returns the sentence about a month that the log has reached.
+/// Returns the sentence about a month reached by the log.
 fn reached(entries: &[Entry], month: &str) -> String {
     match root_of(entries, month) {
         Some(number) => format!("the release of {month} is entry {number}"),
@@ -177,7 +177,7 @@ fn reached(entries: &[Entry], month: &str) -> String {
     }
 }
 
-/// Returns the sentence about a release that is in the log.
+/// Returns the sentence about a release in the log.
 fn placed(place: &Path, manifest: &Manifest, entries: &[Entry]) -> Option<String> {
     let number = root_of(entries, &manifest.name)?;
     Some(format!(
@@ -192,7 +192,7 @@ fn root_of(entries: &[Entry], name: &str) -> Option<usize> {
     entries.iter().position(|entry| matches!(entry, Entry::Root { release, .. } if release == name))
 }
 
-/// Returns the problem of a log that lacks this release.
+/// Returns the problem with a log that lacks the given release.
 fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option<String>, Failure> {
     let shown = place.in_message();
     let asked = append::release(manifest, place)?;
@@ -217,16 +217,16 @@ fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option
     Ok(fault)
 }
 
-/// The result of checking a row.
+/// The result of checking a leaderboard row.
 #[derive(Default)]
 struct Replayed {
     problems: Vec<String>,
-    /// A note about a comparison that was not made.
+    /// A note about an omitted comparison.
     note: Option<String>,
 }
 
-/// Returns the differences between the row in the log and the row recomputed from the episodes. The episodes are played
-/// on the games of the release.
+/// Returns the differences between the row in the log and the row recomputed from the episodes. The episodes
+/// are replayed on the release's games.
 fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Replayed, Failure> {
     let shown = folder.in_message();
     let only = |problem: String| Ok(Replayed { problems: vec![format!("`{shown}`: {problem}")], note: None });

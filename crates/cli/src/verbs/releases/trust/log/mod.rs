@@ -1,4 +1,4 @@
-//! `arcade trust log`: keeps a public log from which nothing can be removed.
+//! `arcade trust log`: maintains a public log from which nothing can be removed.
 
 mod append;
 mod check;
@@ -53,12 +53,12 @@ fn open(folder: &Path) -> Result<Log, Failure> {
     Log::open(folder)?.ok_or_else(|| absent(folder))
 }
 
-/// Returns the number of entries in a log, for people.
+/// Formats the number of entries in a log for people.
 fn counted(size: u64) -> String {
     if size == 1 { "1 entry".to_owned() } else { format!("{size} entries") }
 }
 
-/// Returns a line about an entry, for people. A commitment or a root is shown with its parent release.
+/// Formats an entry as one human-readable line. A commitment or a root is shown with its parent release.
 fn line(entry: &Entry, all: &[Entry]) -> String {
     let (Entry::Commitment { parent, .. } | Entry::Root { parent, .. }) = entry else { return entry.line() };
     let named = |parent: &Digest| {
@@ -89,7 +89,7 @@ fn public_key(file: &Path) -> Result<PublicKey, Failure> {
     }
 }
 
-/// Reads a checkpoint of a log.
+/// Reads a log's checkpoint.
 fn checkpoint(file: &Path) -> Result<Checkpoint, Failure> {
     let text = read_text(file, MAX_CHECKPOINT)?;
     Ok(Checkpoint::parse(&text, &file.in_message().to_string())?)
@@ -99,12 +99,12 @@ fn read_text(file: &Path, limit: u64) -> Result<String, Failure> {
     Ok(String::from_utf8_lossy(&read_bounded(file, limit)?).into_owned())
 }
 
-/// Returns the contradictions between the entries of a log.
+/// Returns the contradictions between a log's entries.
 fn rules(entries: &[Entry]) -> Vec<String> {
     problems(entries, &commitment_of)
 }
 
-/// Computes the commitment to a revealed secret in the same way as releases.
+/// Computes the commitment to a revealed secret in the same way as for releases.
 fn commitment_of(revealed: &Revealed) -> Digest {
     let Revealed { release, seed, nonce, recipe, .. } = revealed.clone();
     Secret { name: release, seed, nonce, recipe: Some(recipe) }.commitment()

@@ -1,5 +1,4 @@
-//! `arcade trust log prove`: writes small files that prove a fact about a log to people who do not have the
-//! log.
+//! `arcade trust log prove`: writes small files that prove a fact about a log to people without the log.
 
 use super::{checkpoint, open};
 use crate::console::Console;

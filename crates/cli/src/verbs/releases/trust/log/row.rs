@@ -1,4 +1,4 @@
-//! Rows of the leaderboard, computed from the logs of their episodes.
+//! Leaderboard rows, computed from the episodes' logs.
 
 use crate::failure::Failure;
 use crate::input::text::sorted_entries;
@@ -47,8 +47,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
     })
 }
 
-/// Returns the games and levels in the results that are not files of their release. The list is empty if all of them
-/// are.
+/// Returns the games and levels in the results that do not belong to their release, or an empty list.
 pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, Failure> {
     let mut problems = Vec::new();
     for Leaf { path, digest } in leaves(folder)? {
@@ -63,8 +62,8 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
     Ok(problems)
 }
 
-/// Returns the digest of a results folder. It is the root of a tree like a release's, over all files in the folder
-/// that are not hidden.
+/// Returns a results folder's digest: the root of a tree like a release's, over all visible files in the
+/// folder.
 pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
     merkle::root(&leaves(folder)?).map_err(|error| malformed!("`{}`: {error}", folder.in_message()))
 }

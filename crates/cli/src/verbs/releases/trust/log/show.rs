@@ -1,4 +1,4 @@
-//! `arcade trust log show`: lists the entries of a log without checking them.
+//! `arcade trust log show`: lists a log's entries without checking them.
 
 use super::{counted, line, open};
 use crate::console::Console;
