@@ -212,6 +212,27 @@ mod tests {
         assert_ne!(make("another board").map(|made| made.level), Some(made.level));
     }
 
+    /// No board of this game has a shortest win of 100 ticks.
+    #[test]
+    fn hopeless_searches_end_early() {
+        let game = Game::from_source(GAME).unwrap();
+        let analysis = Analysis::of(&game);
+        let order = BoardOrder { ticks: (100, 110), ..BoardOrder::of(BoardBrief::of_demand(0)) };
+        let calls = |hopeless| {
+            let budget = BoardBudget {
+                compositions: 8,
+                evaluations: 24,
+                calls: 5_000,
+                hopeless,
+                ..BoardBudget::default()
+            };
+            let search = search_boards(&analysis, &order, Seed::from_text("hopeless"), &budget);
+            assert!(search.made.is_none());
+            search.calls
+        };
+        assert!(calls(2) < calls(24));
+    }
+
     /// Every win takes the plum. No win needs the dog to kill the avatar, because the same actions win without that
     /// rule.
     #[test]
