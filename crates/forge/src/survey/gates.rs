@@ -43,7 +43,7 @@ pub struct GateRow {
 }
 
 impl GateSurvey {
-    /// Creates a survey with the thresholds of the criteria, and with their budget for a win.
+    /// Creates a survey with the criteria's thresholds and their budget for a win.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.

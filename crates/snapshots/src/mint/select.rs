@@ -1,4 +1,4 @@
-//! Selection: turning candidates into a release that is comparable with other months.
+//! Selection: turns candidates into a release comparable with other months.
 //!
 //! Every candidate passed its judges, so any selection is sound. The selection meets the recipe's quotas and matches
 //! its difficulty histogram as closely as possible, by swapping games in and out from several random starts. It uses
@@ -24,12 +24,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use validators::measures::{AvatarKind, GameKind, GoalKind};
 use validators::{Difficulty, GameForm, Tier};
 
-/// The part of a recipe that a game belongs to. Each part has its own number of games.
+/// The recipe part to which a game belongs. Each part has its own number of games.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {
-    /// New levels of corpus games.
+    /// New levels for corpus games.
     Corpus,
-    /// New games of kernels.
+    /// New games from kernels.
     Generated,
     /// Invented games.
     Invented,
@@ -53,7 +53,7 @@ impl Part {
         }
     }
 
-    /// Returns the part that a job belongs to.
+    /// Returns the part to which a job belongs.
     pub(super) fn of(job: Job) -> Part {
         match job {
             Job::Corpus(_) => Part::Corpus,
@@ -75,20 +75,20 @@ impl Part {
     }
 }
 
-/// A game that can be selected.
+/// A game available for selection.
 pub(super) struct Contender {
-    /// The index of the game's job, and the game's position in the job's result.
+    /// The index of the game's job, and the game's index in the job's result.
     pub(super) job: usize,
     pub(super) at: usize,
     part: Part,
     pub(super) is_new: bool,
-    /// The titles and casts of the game and of its sibling. Selection treats game and sibling in the same way, so
-    /// that the selection reveals nothing about a coin.
+    /// The titles and casts of the game and of its sibling. Selection treats the game and its sibling identically,
+    /// so that the choice reveals nothing about the secret coin that decides which of them is published.
     titles: Vec<String>,
     casts: Vec<Cast>,
     /// The difficulties of the game's levels.
     pub(super) difficulties: Vec<Difficulty>,
-    /// The tiers of the game's levels, if they were measured.
+    /// The tiers of the game's levels, if tiers were measured.
     tiers: Vec<Tier>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
@@ -101,8 +101,8 @@ pub(super) struct Contender {
 }
 
 impl Contender {
-    /// Makes the contender for a game; `None` if the game's rules or levels do not load. The game is given by the
-    /// index of its job and its position in the job's result.
+    /// Creates the contender for a game; `None` if the game's rules or levels do not load. The game is identified by
+    /// its job's index and its index in the job's result.
     pub(super) fn of(part: Part, (job, at): (usize, usize), frozen: &FrozenGame) -> Option<Contender> {
         let game = Game::from_source(&frozen.text).ok()?;
         let analysis = Analysis::of(&game);
@@ -139,7 +139,8 @@ impl Contender {
         self.casts.iter().any(|cast| other.casts.iter().any(|known| cast.is_shared(known)))
     }
 
-    /// Returns `true` if a previous release has a near copy of this new game, or an item of this corpus game.
+    /// Returns `true` if a previous release contains a near-duplicate of this new game, or an item of this corpus
+    /// game.
     fn is_known(&self, plan: &Plan<'_>) -> bool {
         match self.is_new {
             true => plan.before.iter().any(|form| self.form.is_near(form)),
