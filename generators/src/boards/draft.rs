@@ -8,9 +8,9 @@ use crate::levels::palette::holds_avatar;
 use engine::Level;
 use engine::analysis::Motion;
 
-/// The number of free cells that a patrol needs in its direction.
+/// The number of free cells that a patrol needs in its direction of movement.
 const LANE: usize = 5;
-/// The minimum number of steps between the hero and hunters or sources.
+/// The minimum distance in steps between the hero and hunters or sources.
 const AWAY: usize = 6;
 /// The maximum fraction of a board's floor that may be narrow.
 const MAX_NARROW: f64 = 0.36;
@@ -77,7 +77,8 @@ impl<'k> Draft<'k> {
         self.cells[cell] = self.kit.palette.base;
     }
 
-    /// Returns, for each side of a cell, `true` if there is a wall or the edge of the board, in the order of [`WAYS`].
+    /// Returns, for each side of a cell in the order of [`WAYS`], `true` if the side borders on a wall or the board
+    /// edge.
     pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
         WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_solid(next)))
     }
@@ -87,7 +88,7 @@ impl<'k> Draft<'k> {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
 
-    /// Returns the number of consecutive free cells through a cell, along its column or its row.
+    /// Returns the number of consecutive free cells that include a cell, along its column or its row.
     fn lane(&self, cell: usize, is_vertical: bool) -> usize {
         let ways = if is_vertical { [(0, -1), (0, 1)] } else { [(-1, 0), (1, 0)] };
         let along = |way: (i32, i32)| {
@@ -100,8 +101,7 @@ impl<'k> Draft<'k> {
         1 + ways.into_iter().map(along).sum::<usize>()
     }
 
-    /// Returns the weight of a cell for a piece. The weight is 0 if the piece must not be there. The cell counts as
-    /// free.
+    /// Returns a cell's weight for a piece; 0 if the piece must not be in the cell. The cell itself counts as free.
     pub(crate) fn fit(&self, piece: &Piece, cell: usize) -> u32 {
         let [up, left, down, right] = self.walls_beside(cell);
         let walls = [up, left, down, right].into_iter().filter(|&wall| wall).count();
@@ -141,8 +141,7 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// Returns the weight of a cell that is not a gap, for a piece that belongs in gaps. Such a piece may extend a gap
-    /// or a wall.
+    /// Returns a non-gap cell's weight for a piece that belongs in gaps. Such a piece may extend a gap or a wall.
     fn fit_of_barrier(&self, piece: &Piece, cell: usize) -> u32 {
         let own = |next: usize| self.cells[next] == piece.symbol;
         let barred = |next: usize| self.is_solid(next) && !self.grid.on_border(next);
@@ -153,7 +152,7 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// Returns the weight of a cell for a piece that moves straight ahead, whose lane must be long.
+    /// Returns a cell's weight for a piece that moves straight ahead and therefore needs a long lane.
     fn fit_of_patrol(&self, piece: &Piece, cell: usize) -> u32 {
         let Motion::Straight(direction) = self.kit.analysis.facts(piece.stype).motion else { return 1 };
         let lane = match (direction.x != 0.0, direction.y != 0.0) {
@@ -170,9 +169,9 @@ impl<'k> Draft<'k> {
         self.grid.flood(&from, |cell| self.is_open(cell))
     }
 
-    /// Returns `true` if the board is sound. A sound board has one hero, and nothing harmful is next to the hero. All
-    /// cells that are not solid are connected, and little of the board is narrow. The numbers of all pieces are in
-    /// their ranges, and there is no lone block of wall.
+    /// Returns `true` if the board is sound. A sound board has one hero, without anything harmful next to it. All
+    /// non-solid cells are connected, and little of the board is narrow. All piece counts are within their ranges, and
+    /// no wall block stands alone.
     pub(crate) fn is_sound(&self) -> bool {
         let Some(hero) = self.hero() else { return false };
         let reach = self.grid.flood(&[hero], |cell| !self.is_solid(cell));
@@ -192,7 +191,7 @@ impl<'k> Draft<'k> {
             && narrow(self.grid, |cell| !self.is_solid(cell)) <= MAX_NARROW
     }
 
-    /// Returns the maximum number of a piece on any board. Lines of barriers may exceed the usual number.
+    /// Returns the maximum number of a piece on any board. Lines of barriers may exceed the normal maximum.
     pub(crate) fn most(&self, piece: &Piece) -> usize {
         match piece.idiom {
             Idiom::Barrier | Idiom::Crossing | Idiom::Ground | Idiom::Road if !piece.asked => {
@@ -225,7 +224,7 @@ impl<'k> Draft<'k> {
         self.fragments() <= fragments && self.emptiness() <= empty
     }
 
-    /// Returns the number of wall blocks with nothing solid around them.
+    /// Returns the number of wall blocks without solid neighbours.
     pub(crate) fn lone_blocks(&self) -> usize {
         let is_lone = |&cell: &usize| {
             let mut around = self.grid.around(cell).into_iter();

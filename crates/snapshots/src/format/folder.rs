@@ -136,8 +136,8 @@ pub(crate) fn find(root: &Path, relative: &str, limit: u64) -> Result<Option<Vec
     }
 }
 
-/// Returns the size and digest of the file at `relative` below `root`, which is read in chunks. Only the first
-/// `limit` + 1 bytes of a file longer than `limit` are read and counted.
+/// Returns the size and digest of the file at `relative` below `root`, read in chunks. For a file longer than
+/// `limit`, only the first `limit` + 1 bytes are read and counted.
 ///
 /// # Errors
 /// See [`read`], except that a long file is not an error.
