@@ -134,7 +134,7 @@ fn is_influenced(merged: &Merged) -> bool {
         || merged.has(Tag::Spent)
 }
 
-/// Returns `true` if the game can be lost through events.
+/// Returns `true` if a type can harm the player, so that the game can be lost.
 fn can_be_lost(types: &[Merged]) -> bool {
     types.iter().any(|merged| merged.has(Tag::Harm))
 }

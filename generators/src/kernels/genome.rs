@@ -154,7 +154,7 @@ impl KernelGenome {
         named.and_then(|kernel| kernel.like.as_deref()).unwrap_or(kernel)
     }
 
-    /// Returns the forms of a kernel, starting with `None` for the kernel itself.
+    /// Returns a kernel's forms, starting with `None` for the kernel itself.
     pub fn forms(kernel: &str) -> Vec<Option<&'static str>> {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
         let forms =
@@ -168,12 +168,12 @@ impl KernelGenome {
         Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
     }
 
-    /// Returns `true` if the game always has a tick limit, and not only if it would not end without a limit.
+    /// Returns `true` if the game always has a tick limit, and not only if it would otherwise never end.
     pub fn has_clock(&self) -> bool {
         self.habits.has_clock
     }
 
-    /// Returns the same game with a different tick limit, or without one. A goal to survive for some ticks is
+    /// Returns the same game with a different tick limit, or without one. A goal of surviving for some ticks is
     /// unchanged.
     #[must_use]
     pub fn timed(&self, ticks: Option<u32>) -> KernelGenome {
@@ -234,12 +234,12 @@ fn drawn(forms: Vec<&'static Kernel>, sampler: &mut Sampler) -> Option<&'static 
     Some(forms[sampler.weighted(&weights)?])
 }
 
-/// Builds the game of a kernel file for the file's author. The game is in one of the kernel's forms, with or without
-/// its variants, and has the nouns of a scene or the type names as nouns.
+/// Builds a game from a kernel file for the file's author. The game uses one of the kernel's forms, with or without
+/// variants, and a scene's nouns or the type names.
 ///
 /// # Errors
-/// Returns the errors in the file or in its rules. Also returns an error if there is no such form, or if the scene
-/// does not fit.
+/// Returns the errors in the file or in its rules. Also returns an error if the form does not exist or the scene does
+/// not fit.
 pub fn preview(
     name: &str,
     text: &str,
@@ -281,7 +281,7 @@ pub fn preview(
     Ok((syntax::print(&description), course))
 }
 
-/// Returns `true` if anything moves, appears or ends by itself.
+/// Returns `true` if any sprite moves, appears or ends by itself.
 pub(crate) fn has_movers(description: &Description) -> bool {
     let moves = |class: &str| !STILL.contains(&class) && !class.ends_with("Avatar");
     description
