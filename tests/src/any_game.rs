@@ -43,7 +43,7 @@ pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
     AnyGame { source: syntax::print(&description), level: author.level(&symbols) }
 }
 
-/// The maximum depth of the tree of sprite types.
+/// The maximum depth of the sprite type tree.
 const DEPTH: usize = 3;
 /// The maximum number of childless sprite types with the same parent.
 const SIBLINGS: usize = 5;

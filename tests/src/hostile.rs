@@ -104,7 +104,7 @@ impl Case {
         format!("{outcome} after {} ticks", state.tick() + 1)
     }
 
-    /// Returns the player's actions, which are repeated.
+    /// Returns the player's actions, in a repeating sequence.
     fn actions(&self) -> Vec<Action> {
         let given = self.expect.lines().find_map(|line| line.strip_prefix("actions: "));
         let letters = given.unwrap_or("N").chars();

@@ -22,9 +22,9 @@ pub enum ValueKind {
     Direction,
     /// The value `GRID` or `CONT`.
     Physics,
-    /// The name of a colour.
+    /// A colour name.
     Color,
-    /// The name of a sprite type.
+    /// A sprite type name.
     Sprite,
     /// The names of sprite types.
     Sprites,
@@ -70,7 +70,7 @@ pub fn sprite_parameter(key: &str) -> Option<ValueKind> {
     })
 }
 
-/// Returns an integer. One in eight is extreme.
+/// Returns an integer. One result in eight is extreme.
 pub fn int(choices: &mut Choices<'_>) -> i32 {
     const TAME: [i32; 12] = [0, 1, 2, 3, 4, 5, 6, 8, 10, -1, -2, 20];
     const WILD: [i32; 6] = [i32::MAX, i32::MIN, i32::MAX - 1, -1000, 1_000_000, 1 << 16];

@@ -41,7 +41,7 @@ macro_rules! every_criterion {
 }
 pub(crate) use every_criterion;
 
-/// The assumptions of a level criterion.
+/// A level criterion's assumptions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
     /// The criterion does not depend on play, or its failure is the reason for skipping other criteria.
@@ -118,7 +118,7 @@ macro_rules! define {
                 }
             }
 
-            /// Returns the cost of a verdict.
+            /// Returns a verdict's cost.
             pub fn cost(self) -> Cost {
                 match self {
                     $(Criterion::$level => Cost::$level_cost,)*

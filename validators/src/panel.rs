@@ -241,7 +241,8 @@ fn skipped(why: &str) -> Finding {
 }
 
 /// Returns the reason why a verdict on the rules should not count, if any. The verdict may merely be a consequence of
-/// levels that are unwinnable or over in their first tick. It is meaningless if this is true of all levels.
+/// levels that are unwinnable or over in their first tick. The verdict is meaningless if all levels are unwinnable or
+/// over.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());

@@ -32,7 +32,7 @@ pub struct Finding {
     /// A ladder's results, if a ladder was played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// The episodes played. They show which rules are used.
+    /// The episodes played, which show the used rules.
     #[serde(skip)]
     pub episodes: Vec<Episode>,
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use validators::{Demand, Ladder, Rate, Tier};
 
-/// The origin of a game.
+/// A game's origin.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "from", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Origin {
@@ -16,7 +16,7 @@ pub enum Origin {
     },
     /// A game made by a rule generator.
     Generated {
-        /// The name of the generator.
+        /// The generator's name.
         generator: String,
         /// The kernel, its variants and the scene, each with its kind: `kernel/one-spark`.
         patterns: Vec<String>,
@@ -85,7 +85,7 @@ pub struct LevelCard {
     pub candidate: u32,
     /// The number of ticks of the witness.
     pub witness_ticks: usize,
-    /// The score of the witness.
+    /// The witness's score.
     pub witness_score: f64,
     /// The number of ticks of the shortest win, if it is proved to be the shortest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -132,7 +132,7 @@ pub struct Card {
     pub deterministic: bool,
     /// The digest of the game's canonical text without comments.
     pub digest: Digest,
-    /// The origin of the game.
+    /// The game's origin.
     pub origin: Origin,
     /// The rules in plain English.
     pub rules: String,

@@ -52,9 +52,9 @@ fn is_zero(count: &u64) -> bool {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JudgeCost {
-    /// The number of candidates that were judged.
+    /// The number of judged candidates.
     pub asked: u64,
-    /// The number of candidates that were rejected.
+    /// The number of rejected candidates.
     pub refused: u64,
     /// The forward-model calls spent on accepted levels and games.
     pub calls_accepted: u64,
@@ -150,7 +150,8 @@ impl Tally {
         cost.calls_accepted += calls;
     }
 
-    /// Adds the cost of `judge`. If `judge` accepts nothing, `refused` converts the cost before the addition.
+    /// Adds the cost of `judge`. If `judge` does not accept anything, `refused` converts the cost before the
+    /// addition.
     pub(crate) fn spend<T>(
         &mut self,
         refused: fn(Tally) -> Tally,

@@ -85,7 +85,7 @@ pub enum SnapshotError {
     /// A folder, pipe or device where a file should be, or a file where a folder should be.
     #[error("`{}` is not a {expected}: fetch the snapshot again", .path.in_message())]
     ReleaseKind {
-        /// The path of the entry.
+        /// The entry's path.
         path: PathBuf,
         /// The expected kind of entry: "file" or "folder".
         expected: &'static str,
@@ -93,7 +93,7 @@ pub enum SnapshotError {
     /// A file exceeds the size limit.
     #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.in_message())]
     TooLarge {
-        /// The file that is too large.
+        /// The oversized file.
         path: PathBuf,
         /// The limit, in bytes.
         limit: u64,
@@ -122,7 +122,7 @@ pub enum SnapshotError {
     /// The manifest is not JSON, or is not JSON with the expected structure.
     #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.in_message())]
     Syntax {
-        /// The path of the manifest.
+        /// The manifest's path.
         path: PathBuf,
         /// The position of the error, and the expected content.
         source: serde_json::Error,
@@ -130,7 +130,7 @@ pub enum SnapshotError {
     /// The manifest contradicts itself or its limits.
     #[error("`{}` is not a valid manifest: {message}", .path.in_message())]
     Manifest {
-        /// The path of the manifest.
+        /// The manifest's path.
         path: PathBuf,
         /// The problem, with the item's name.
         message: String,

@@ -18,7 +18,7 @@ use std::path::Path;
 /// A verified release, with its games parsed.
 #[derive(Clone, Debug)]
 pub struct Released {
-    /// The manifest of the release.
+    /// The release's manifest.
     pub manifest: Manifest,
     /// The games, sorted by the bytes of their folder names.
     pub games: Vec<ReleasedGame>,

@@ -33,7 +33,7 @@ pub struct GeneratedGame {
     pub title: String,
     /// A summary of the game in a few sentences.
     pub summary: String,
-    /// How to win, in one sentence.
+    /// The instructions for winning, in one sentence.
     pub goal: String,
     /// The kind of game.
     pub kind: Kind,

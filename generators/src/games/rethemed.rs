@@ -33,7 +33,7 @@ pub struct Rethemed {
     pub title: String,
     /// A sentence about the player character, the tasks and the dangers.
     pub summary: String,
-    /// How to win, in one sentence.
+    /// The instructions for winning, in one sentence.
     pub goal: String,
     /// The scene's name, such as `harbour`.
     pub scene: &'static str,

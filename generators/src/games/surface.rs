@@ -27,8 +27,8 @@ fn strip_lines(lines: &mut [SpriteLine]) {
     }
 }
 
-/// Returns the characters that the game's levels can use. The LevelMapping's characters come first, in order. They are
-/// followed by the unmapped built-in characters whose type the game declares.
+/// Returns the characters that the game's levels can use. The LevelMapping's characters come first, in order. The
+/// unmapped built-in characters follow with a type declared in the game.
 pub(super) fn symbols(description: &Description) -> Vec<char> {
     let own = description.mapping.iter().map(|line| line.symbol);
     own.chain(['w', 'A'].into_iter().filter(|&symbol| builtin(symbol, description).is_some())).collect()

@@ -1,5 +1,5 @@
-//! Characteristics of inventions that are known before any board exists. The characteristics are the axes
-//! of an archive.
+//! Characteristics of inventions, known before any board exists. An archive uses these characteristics as
+//! axes.
 
 use super::genome::Invention;
 use super::mechanic::{Body, Tag};

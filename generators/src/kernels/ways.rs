@@ -5,7 +5,7 @@ use engine::Description;
 use engine::syntax::{Param, SpriteLine};
 
 /// Lists the obstacles in the game's header. The obstacles are all stationary types that stop every path-finding
-/// type. They must be stationary because the path map is computed only once, when a level begins (spec page 01,
+/// type. Obstacles must be stationary because the path map is computed only once, when a level begins (spec page 01,
 /// section 8). Games without path-finding types are unchanged.
 pub(crate) fn set_obstacles(description: &mut Description) {
     let mut seekers = Vec::new();

@@ -313,7 +313,7 @@ impl Text {
         self.level.iter().map(|row| row.iter().collect::<String>() + "\n").collect()
     }
 
-    /// Returns the line range of a section.
+    /// Returns a section's line range.
     fn section(&self, name: &str) -> std::ops::Range<usize> {
         let Some(start) = self.lines.iter().position(|line| line.trim() == name) else { return 0..0 };
         let rest = &self.lines[start + 1..];

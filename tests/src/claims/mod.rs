@@ -43,7 +43,7 @@ impl Policy {
 pub struct Claim {
     /// The text of the claim, or the name of the proof.
     pub text: String,
-    /// The meaning of the claim.
+    /// The claim's meaning.
     pub fact: Fact,
 }
 

@@ -26,7 +26,7 @@ pub struct Frame {
 pub struct Play {
     /// The seed for the game's randomness.
     pub seed: Seed,
-    /// The actions of the episode.
+    /// The episode's actions.
     pub actions: Vec<Action>,
     /// The initial state, and the state at the end of each tick.
     pub frames: Vec<Frame>,

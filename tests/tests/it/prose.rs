@@ -1,5 +1,5 @@
-//! The prose in the book and on the front pages. It must not contain long sentences, or phrases that a native editor
-//! would replace.
+//! The prose in the book and on the front pages. This prose must not contain long sentences, or phrases that a
+//! native editor would replace.
 
 use std::path::Path;
 

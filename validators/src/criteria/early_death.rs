@@ -246,7 +246,7 @@ mod tests {
         finding
     }
 
-    /// Returns the game without wolves, which is deterministic.
+    /// Returns the deterministic game without wolves.
     fn calm() -> String {
         GAME.replace("    wolf > RandomNPC speed=1\n", "")
             .replace("    o > wolf\n", "")

@@ -131,7 +131,7 @@ fn own_types(game: &Game) -> Vec<SpriteType> {
     game.sprite_types().filter(|&stype| game.class(stype).is_some() && declared(game.name(stype))).collect()
 }
 
-/// Returns `true` unless it is proved that the two sides of an interaction cannot meet in any level.
+/// Returns `true` unless the two sides of an interaction are proved never to meet in any level.
 fn meets(analysis: &Analysis, recording: &[Recorded<'_>], reaches: &[Reach], line: usize) -> bool {
     let game = analysis.game();
     let of_line: Vec<_> = analysis.encounters().iter().filter(|encounter| encounter.line == line).collect();

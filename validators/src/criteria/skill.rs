@@ -45,7 +45,7 @@ struct Boundary {
     scored_plays: usize,
 }
 
-/// The boundary for stopping early. It is stricter to correct for repeated tests on growing data (O'Brien and Fleming
+/// The boundary for stopping early, made stricter to correct for repeated tests on growing data (O'Brien and Fleming
 /// 1979).
 const EARLY: Boundary = Boundary { z: 2.8, confidence: 0.995, scored_plays: 8 };
 /// The boundary for the final answer.

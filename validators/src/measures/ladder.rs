@@ -45,7 +45,7 @@ pub struct PlayerResult {
 pub struct Ladder {
     /// The players from weakest to strongest, in the order of the criteria.
     pub rungs: Vec<PlayerResult>,
-    /// The players that are held out until acceptance.
+    /// The players held out until acceptance.
     pub held_out: Vec<PlayerResult>,
     /// The ease, from 0 to 1 (`spec/06` §2.6); `None` if no player looks ahead.
     pub ease: Option<f64>,

@@ -40,8 +40,8 @@ pub struct PlayMeasures {
     /// futures give the value of a position, and the mean is taken over all moments, so that a single bad moment does
     /// not make a drama. A game that careless play can neither win nor lose has a drama of 0.
     pub drama: f64,
-    /// The mean number of times that the lead changes sides on the way to the win, at which point the player leads.
-    /// This is Browne and Maire's *lead change*, not divided by the number of moves.
+    /// The mean number of times that the lead changes sides on the way to the win, at which point the player leads. The
+    /// measure is Browne and Maire's *lead change*, not divided by the number of moves.
     pub lead_changes: f64,
     /// The number of levels with a measured episode.
     pub levels: usize,

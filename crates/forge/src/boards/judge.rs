@@ -15,9 +15,9 @@ use std::collections::BTreeSet;
 use std::slice;
 use validators::{Criterion, CriterionSet, Gates, Judging, NotInstant, Panel, Report};
 
-/// The number of ticks that a player who does nothing must survive.
+/// The number of ticks that an idle player must survive.
 const GRACE: usize = 10;
-/// The number of ticks in which doing nothing must not win.
+/// The number of ticks within which an idle player must not win.
 const IDLE: usize = 200;
 /// The number of episodes with random actions.
 const RANDOM_PLAYS: u64 = 24;
@@ -146,8 +146,8 @@ impl Judge<'_> {
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
 
-    /// Returns `None` if a player who does nothing neither wins nor loses soon. Otherwise returns how nearly the level
-    /// meets this condition, from 0 to 0.5.
+    /// Returns `None` if an idle player does not win or lose soon. Otherwise returns how nearly the level meets this
+    /// condition, from 0 to 0.5.
     fn idle_fault(&self, level: &Level, calls: &mut u64) -> Option<f64> {
         let game = self.analysis.game();
         let mut state = game.start(level, self.seed);

@@ -12,7 +12,7 @@ const DRAWS: u64 = 12;
 
 /// The number of attempts per game after which a different mechanic takes the lead in the draws.
 const PATIENCE: u32 = 6;
-/// The number of turns by which the lead then advances. It exceeds the number of games in a month.
+/// The number of turns by which the lead then advances. The stride exceeds the number of games in a month.
 const STRIDE: usize = 31;
 
 /// Inventions as search candidates, drawn at a large distance from known games. [`InventionVariation`] makes the

@@ -11,30 +11,30 @@ use validators::Judgement;
 /// A candidate game without levels.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The rules of the game.
+    /// The game's rules.
     pub game: Game,
     /// The title in the game's theme.
     pub title: String,
     /// A description of the game for players.
     pub description: String,
-    /// How to win, as explained to players.
+    /// The way to win, as explained to players.
     pub goal: String,
     /// The kind of game.
     pub kind: String,
     /// `true` if sprites move even while the player does nothing.
     pub real_time: bool,
-    /// The origin of the game.
+    /// The game's origin.
     pub origin: Origin,
 }
 
 /// A game with levels that its judges accepted.
 #[derive(Clone, Debug)]
 pub struct MadeGame {
-    /// The rules of the game.
+    /// The game's rules.
     pub game: Game,
     /// The rules as text, headed by title and canary.
     pub text: String,
-    /// The card of the game.
+    /// The game's card.
     pub card: Card,
     /// The levels, from easiest to hardest.
     pub levels: Vec<FoundLevel>,

@@ -28,7 +28,7 @@ pub struct KeptGame {
     pub text: String,
     /// The game card.
     pub card: Card,
-    /// The texts of the levels.
+    /// The level texts.
     pub levels: Vec<String>,
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,

@@ -31,7 +31,7 @@ pub enum GamesError {
         "no game was accepted ({looks} inspected, {} judged): {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
     )]
     NoneAccepted {
-        /// The numbers of candidates that a search looked at and that were judged, and the reasons for failures.
+        /// The numbers of candidates searched and judged, and the reasons for failures.
         tally: Box<Tally>,
     },
 }

@@ -34,7 +34,7 @@ pub enum PuzzleRules {
     Locks(Retold<LockRules>),
     /// Yards, in which the player carries parcels between carts.
     Yards(Retold<YardRules>),
-    /// Pushing puzzles among strays, which are sprites that wander at random and kill.
+    /// Pushing puzzles among strays (sprites that wander at random and kill).
     Strays(Retold<PushRules>),
 }
 

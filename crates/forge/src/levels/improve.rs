@@ -143,7 +143,7 @@ impl Maker<'_> {
     }
 
     /// Creates levels until the effort is spent. These levels show by which measures the game's levels differ, and
-    /// they seed an archive.
+    /// seed an archive.
     fn create_levels(
         &self,
         variation: &LevelSearch<'_>,

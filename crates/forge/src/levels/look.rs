@@ -47,8 +47,8 @@ pub(super) struct Look {
     pub(super) is_won: bool,
     /// The number of forward-model calls.
     pub(super) calls: u64,
-    /// The effort, in looks of typical cost. It is [`LEAST_EFFORT`] without a win search. Otherwise it is one per
-    /// [`super::Effort::calls`] calls of the win search, with a minimum of one.
+    /// The effort, in looks of typical cost. Without a win search, the effort is [`LEAST_EFFORT`]. Otherwise the effort
+    /// is one per [`super::Effort::calls`] calls of the win search, with a minimum of one.
     pub(super) effort: f64,
 }
 

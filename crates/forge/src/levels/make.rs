@@ -40,7 +40,7 @@ pub enum LevelsError {
         judged: u64,
         /// The reasons why the candidates failed.
         why: String,
-        /// What the most frequent obstacle implies for the game or the order, if anything.
+        /// The implication of the most frequent obstacle for the game or the order, if any.
         hint: Option<String>,
     },
     /// Not a single board could be filled.

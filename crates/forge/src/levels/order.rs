@@ -113,7 +113,7 @@ impl LevelOrder {
     /// Returns a release's level criteria, with a stricter limit for random play. Random play may win at most 1 of 40
     /// episodes, so that a second measurement with different seeds finds a win rate of 10% or less.
     ///
-    /// `readable` is left out because it is a property of the rules.
+    /// `readable` is omitted because it depends only on the rules.
     pub fn criteria_by_default() -> Criteria {
         let default = Criteria::default();
         let ask = default.ask.without(CriterionSet::of(&[Criterion::Readable]));

@@ -90,8 +90,8 @@ pub(super) fn time_limit(longest: usize) -> u32 {
 }
 
 impl Levels<'_> {
-    /// Judges a level that was found for the game with a different time limit, by all judges except the ladder.
-    /// Reuses the search result if its win is still valid. The seeds are unchanged, so a replay ends as before.
+    /// Judges a level found for the game under a different time limit, by all judges except the ladder. Reuses the
+    /// search result if its win is still valid. The seeds are unchanged, so a replay ends as before.
     fn rejudge(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let witness = replayed(game, &level, found.report.witness.as_ref()?);

@@ -105,7 +105,7 @@ impl BoardSource for InventedBoards {
 
 /// The result of a quick look at an invented game. A quick look is a cheap evaluation on a few boards.
 pub(crate) struct QuickLook {
-    /// The measures of the best of a few boards; `None` if no board is winnable.
+    /// The best board's measures; `None` if no board is winnable.
     board: Option<BoardMeasures>,
     /// The fraction of board constraints met by the board closest to a win.
     nearness: f64,

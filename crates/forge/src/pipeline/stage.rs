@@ -21,7 +21,7 @@ pub(super) struct Stage<T> {
     pub(super) run: Run<T>,
 }
 
-/// The code of a stage.
+/// A stage's code.
 pub(super) enum Run<T> {
     /// Judges the candidate, and changes it if the stage replaces a part.
     Once(fn(&mut T, &mut Tally) -> Passage),
@@ -32,7 +32,7 @@ pub(super) enum Run<T> {
 /// A stage's rejection of a candidate.
 #[derive(Debug)]
 pub(crate) enum Refusal {
-    /// The reason. It has not been counted yet.
+    /// A reason that has not been counted yet.
     Because(Cow<'static, str>),
     /// The reason has been counted by the stage.
     Counted,

@@ -81,12 +81,12 @@ impl Group {
 /// A line of the comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The subject of the line.
+    /// The line's subject.
     pub name: &'static str,
     unit: Unit,
-    /// The figures of the first group.
+    /// The first group's figures.
     pub ours: Group,
-    /// The figures of the second group.
+    /// The second group's figures.
     pub theirs: Group,
     /// The value of `ours` minus the value of `theirs`; `None` unless both groups have a value.
     pub difference: Option<f64>,

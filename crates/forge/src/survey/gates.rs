@@ -32,7 +32,7 @@ pub struct GateAnswer {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GateRow {
-    /// The name of the game.
+    /// The game's name.
     pub name: String,
     /// The number of judged levels.
     pub levels: usize,

@@ -17,7 +17,7 @@ pub(crate) const FOR_NOTHING: f64 = 0.1;
 pub struct SurveyedLevel {
     /// The judged level.
     pub level: Level,
-    /// The findings of the judges.
+    /// The judges' findings.
     pub report: Report,
     /// The level's player ladder, and the difficulty derived from it. The ladder's seeds did not guide any search.
     pub ladder: Option<Ladder>,

@@ -22,7 +22,7 @@ pub(super) const NO_LEVEL: &str = "no level";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameRow {
-    /// The name of the game.
+    /// The game's name.
     pub name: String,
     /// The digest of everything that determines the row; see [`GameSurvey::digest`](super::GameSurvey::digest).
     pub digest: Digest,

@@ -8,7 +8,7 @@ use validators::{GameReport, Judgement};
 pub struct SurveyedGame {
     /// The title in the game's theme, or the game's name among the games being judged.
     pub name: String,
-    /// How to win, as explained to players, as one line that may be empty.
+    /// The way to win, as explained to players: a single line that may be empty.
     pub goal: String,
     /// The judged game.
     pub game: Game,

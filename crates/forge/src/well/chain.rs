@@ -223,8 +223,8 @@ struct Selection {
 }
 
 impl Selection {
-    /// Returns `true` if a candidate becomes a game. This requires free room, and no similar game in the month or game
-    /// with the same title or cast.
+    /// Returns `true` if a candidate becomes a game. This requires free room, and no game in the month that is similar
+    /// or has the same title or cast.
     fn takes(&mut self, sketch: &Sketch, nearest: f64, room: u32) -> bool {
         let has_words = |other: &Sketch| other.title == sketch.title || other.cast.is_shared(&sketch.cast);
         if self.games.len() >= room as usize {

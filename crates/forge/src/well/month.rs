@@ -31,9 +31,9 @@ impl Default for WellOrder {
 pub struct Well {
     /// The simulation's order.
     pub order: WellOrder,
-    /// The estimated number of combinations of mechanics and an ending from which a game can be built.
+    /// The estimated number of buildable combinations of mechanics and an ending.
     pub sets: f64,
-    /// The fraction of all combinations of mechanics and an ending from which a game can be built.
+    /// The buildable fraction of all combinations of mechanics and an ending.
     pub sound: f64,
     /// The months in chronological order.
     pub months: Vec<WellMonth>,
@@ -99,7 +99,7 @@ pub struct Nearest {
 /// The part that occurs in the most games.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Top {
-    /// The name of the part.
+    /// The part's name.
     pub name: String,
     /// The fraction of games that contain the part.
     pub share: f64,

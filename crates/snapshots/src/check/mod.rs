@@ -82,7 +82,7 @@ pub struct Verification {
     pub manifest: Manifest,
 }
 
-/// Verifies the release at `root`, which is a folder or an [archive](crate::contents::archive).
+/// Verifies the release at `root`, a folder or an [archive](crate::contents::archive).
 ///
 /// The paths, links, sizes, digests and the root are checked first. If they are correct, the games, levels and cards
 /// must be well-formed and consistent. Under the same engine semantics, every witness is then replayed to its win,

@@ -1,7 +1,7 @@
 //! Inclusion proofs, which show without the rest of the release that a released file or game is under a root.
 //!
-//! A proof is a small file in canonical JSON. It contains no secrets and need not be trusted: the verifier trusts
-//! only a root from a different source.
+//! A proof is a small file in canonical JSON. A proof contains no secrets and need not be trusted: the verifier
+//! trusts only a root from a different source.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;

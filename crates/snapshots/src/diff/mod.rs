@@ -26,7 +26,7 @@ use validators::{GameForm, GameKind};
 pub struct Side {
     /// The release's name.
     pub name: String,
-    /// The root digest of the release.
+    /// The release's root digest.
     pub root: Digest,
     /// The root digest of the previous release; `None` for the first release in its chain.
     pub parent: Option<Digest>,

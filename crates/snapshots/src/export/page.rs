@@ -20,7 +20,7 @@ pub(super) struct Rows<'a> {
     pub(super) levels: usize,
 }
 
-/// Returns the dataset card of an export.
+/// Returns an export's dataset card.
 pub(super) fn page(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'_>) -> String {
     let mut text = front(released, export, columns, rows);
     text += &body(released, export, rows);

@@ -15,7 +15,7 @@ use crate::format::path::{PathProblem, check_path};
 use crate::format::problem::{Flaw, Problem};
 use base::Digest;
 
-/// The limits of a release folder.
+/// A release folder's limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// The maximum number of files, and also of folders.

@@ -1,6 +1,6 @@
 //! A Merkle tree over a release's files. One file can be proved without the rest.
 //!
-//! The shape is that of RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n). The hash is
+//! The shape follows RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n). The hash is
 //! BLAKE3. Leaves and nodes are domain-separated, so that neither can pass for the other:
 //!
 //! ```text

@@ -4,7 +4,7 @@ use base::SeedStep;
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// The content of a witness file.
+/// A witness file's content.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Witness {

@@ -25,9 +25,9 @@ pub enum AncestryError {
     OtherParent {
         /// The root stated in the recipe.
         asked: Digest,
-        /// The root of the given release.
+        /// The given release's root.
         found: Digest,
-        /// The name of the given release.
+        /// The given release's name.
         name: String,
     },
     /// The parent is damaged.

@@ -28,11 +28,11 @@ pub const MAX_RELEASES: usize = 10_000;
 /// The properties of a release that matter for the chain.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Link {
-    /// The name of the release.
+    /// The release's name.
     pub name: String,
-    /// The root of the release.
+    /// The release's root.
     pub root: Digest,
-    /// The root of the predecessor, as stated in the release.
+    /// The predecessor's root, as stated in the release.
     pub parent: Option<Digest>,
     /// The folder or archive that contains the release. Serialisation replaces invalid Unicode in this path.
     #[serde(serialize_with = "shown")]

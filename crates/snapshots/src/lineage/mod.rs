@@ -28,7 +28,7 @@ pub struct Ancestor {
     pub problems: Vec<String>,
 }
 
-/// The ancestors of a release.
+/// A release's ancestors.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lineage {
     /// The ancestors, from the parent back. Only the last ancestor can be absent or damaged.

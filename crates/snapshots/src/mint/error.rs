@@ -22,7 +22,7 @@ pub enum MintError {
     /// A corpus game does not compile.
     #[error("the corpus game `{name}` does not compile: {problems}")]
     BrokenCorpus {
-        /// The name of the game.
+        /// The game's name.
         name: String,
         /// The compiler's diagnostics.
         problems: engine::Diagnostics,
@@ -80,7 +80,7 @@ pub enum MintError {
     /// A recipe section adds a part to games, and the part could not be created.
     #[error("{section}: {message}")]
     Section {
-        /// The name of the section.
+        /// The section's name.
         section: &'static str,
         /// The reason why the part could not be created.
         message: String,

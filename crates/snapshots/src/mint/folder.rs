@@ -58,7 +58,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         Ok(())
     }
 
-    /// Writes the files of a game.
+    /// Writes a game's files.
     pub(super) fn game(&mut self, mut game: FrozenGame) -> Result<(), SnapshotError> {
         game.card.canary = self.canary.clone();
         for section in SECTIONS {

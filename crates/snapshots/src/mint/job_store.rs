@@ -66,7 +66,7 @@ const WHOSE: &str = "plan.txt";
 /// The maximum size of a result file, in bytes: 64 MiB.
 const JOB_LIMIT: u64 = 64 << 20;
 
-/// The content of a result file.
+/// A result file's content.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct JobFile<T> {
@@ -158,7 +158,7 @@ impl JobFolder {
         self.write(&self.folder.join(JobFolder::file(name)), &text)
     }
 
-    /// Returns the text of a result file.
+    /// Returns a result file's text.
     pub(super) fn text<T: Serialize>(plan: Digest, job: &T) -> Result<String, SnapshotError> {
         let digest = canonical_digest(job)?;
         Ok(to_canonical_json(&JobFile { plan, digest, result: job })?)

@@ -182,9 +182,9 @@ pub enum MergeError {
     /// Two shards do not belong together.
     #[error("{} and {} cannot be merged: {what}", .one.in_message(), .two.in_message())]
     Apart {
-        /// The folder of the first shard.
+        /// The first shard's folder.
         one: PathBuf,
-        /// The folder of the second shard.
+        /// The second shard's folder.
         two: PathBuf,
         /// The property in which the shards differ.
         what: &'static str,

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 /// The resources that a program provides for minting.
 #[derive(Clone, Copy, Debug)]
 pub struct Tools<'a> {
-    /// The hand-written games of the corpus.
+    /// The hand-written corpus games.
     pub corpus: &'a Corpus,
     /// The digest of the `Cargo.lock` used to build the program.
     pub lockfile: Digest,
@@ -35,7 +35,7 @@ pub struct Tools<'a> {
 pub struct Order {
     /// The recipe, including its parent and its beacon's value.
     pub recipe: Recipe,
-    /// The secret of a sealed release.
+    /// A sealed release's secret.
     pub secret: Option<Secret>,
     /// The output folder, which must be absent or empty. For a sealed release, it will contain two folders, `public`
     /// and `held`.
@@ -49,9 +49,9 @@ pub struct Order {
 /// An order with a mintable recipe.
 #[derive(Debug)]
 pub struct Prepared<'a> {
-    /// The plan of the whole release.
+    /// The whole release's plan.
     pub plan: Plan<'a>,
-    /// The jobs of the order.
+    /// The order's jobs.
     pub jobs: Vec<Job>,
     /// `true` if the folder already contains the requested result. Only a resuming order accepts an existing result.
     pub is_complete: bool,

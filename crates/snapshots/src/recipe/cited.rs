@@ -14,7 +14,7 @@ impl<'a> Cited<'a> {
         Cited { name, authors, publisher }
     }
 
-    /// Returns the title of the release.
+    /// Returns the release's title.
     pub(crate) fn title(&self) -> String {
         match (self.publisher, self.authors) {
             (Some(publisher), _) => format!("{publisher} {}", self.name),

@@ -75,7 +75,7 @@ base::with_defaults! {
     }
 }
 
-/// The weights of the methods of generating games.
+/// The weights of the generation methods.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mix {

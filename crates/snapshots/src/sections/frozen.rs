@@ -31,7 +31,7 @@ pub struct FrozenGame {
     /// played.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub difficulties: Vec<Difficulty>,
-    /// The texts of the levels.
+    /// The level texts.
     pub levels: Vec<String>,
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,

@@ -74,7 +74,7 @@ pub enum TwinError {
     Level {
         /// The level's number, from 0.
         number: usize,
-        /// The diagnostics of the level.
+        /// The level's diagnostics.
         problems: Diagnostics,
     },
     /// The rules cannot be mirrored faithfully.
@@ -133,10 +133,10 @@ pub(crate) fn renamed(
     Original::load(source, levels, known)?.renamed(seed)
 }
 
-/// The original of a twin.
+/// A twin's original.
 struct Original<'a> {
     game: Game,
-    /// The canonical texts of the levels.
+    /// The canonical level texts.
     levels: Vec<String>,
     /// The witnesses, with one entry per level.
     witnesses: Vec<Option<&'a Episode>>,

@@ -34,7 +34,7 @@ pub(crate) struct PieceUse {
     pub(crate) as_is: bool,
 }
 
-/// The size of a room.
+/// A room's size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Size {
     Small,
@@ -47,7 +47,7 @@ pub(crate) enum Size {
     Corridor,
 }
 
-/// The interior walls of a room.
+/// A room's interior walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Style {
     /// No interior walls, or only all corners cut.

@@ -278,8 +278,8 @@ impl<'a> ConstructiveLevels<'a> {
         }
     }
 
-    /// Draws walls like those in the examples. They are assembled from windows of the examples, or come from a layout
-    /// family that suits the game, with a similar number of walls.
+    /// Draws walls like those in the examples. The walls are assembled from windows in the examples, or come from a
+    /// layout family that suits the game, with a similar number of walls.
     fn walls_like(&self, target: &Target, ring: bool, loops: f64, layout: &mut Sampler) -> Vec<bool> {
         let grid = target.grid;
         let patterns = self.config.like.as_deref().map(|examples| &examples.patterns);

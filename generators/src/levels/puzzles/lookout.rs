@@ -1,5 +1,5 @@
-//! A careful player among strays, which are sprites that wander at random. The player's win rate shows how often a
-//! level is won by looking frequently.
+//! A careful player among strays (sprites that wander at random). The player's win rate shows how often a level is won
+//! by looking frequently.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::{Sampler, Seed};

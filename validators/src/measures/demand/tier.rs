@@ -74,7 +74,7 @@ impl Tier {
         TIERS.iter().rev().find(met).map_or(Tier::One, |bounds| bounds.tier)
     }
 
-    /// Returns the minimum demands of the tier.
+    /// Returns the tier's minimum demands.
     pub fn bounds(self) -> TierBounds {
         TIERS[usize::from(u8::from(self)) - 1]
     }

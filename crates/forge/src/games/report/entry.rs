@@ -38,7 +38,7 @@ impl<'a> Measured<'a> {
 pub struct GameEntry {
     /// The title in the game's theme.
     pub title: String,
-    /// How to win, as explained to players.
+    /// The way to win, as explained to players.
     pub goal: String,
     /// The digest of the game's rules.
     pub rules: Digest,
@@ -52,7 +52,7 @@ pub struct GameEntry {
     pub found: GameRow,
     /// The advantage in win rate of the strongest held-out player over the players that do not look ahead.
     pub held_out: Option<Edge>,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<LevelEntry>,
     /// The nearest game in the set.
     pub nearest: Option<Nearest>,
@@ -78,7 +78,7 @@ pub struct LevelEntry {
 /// A game's nearest neighbour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nearest {
-    /// The name of the game.
+    /// The game's name.
     pub name: String,
     /// The distance to the game, from 0 (the same) to 1.
     pub distance: f64,

@@ -14,7 +14,7 @@ const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
 pub struct Cast(BTreeSet<String>);
 
 impl Cast {
-    /// Returns the cast of a game.
+    /// Returns a game's cast.
     pub fn of(game: &Game) -> Cast {
         let names = game.sprite_types().map(|stype| game.name(stype).to_owned());
         Cast(names.filter(|name| !COMMON.contains(&name.as_str())).collect())

@@ -122,7 +122,7 @@ impl Hits {
         Hits { exact, within_one, random_exact, random_within_one }
     }
 
-    /// Adds the hits to a section. `key` is the key of the fraction of exact hits for the page header.
+    /// Adds the hits to a section. `key` identifies the fraction of exact hits in the page header.
     fn add(&self, section: Section, key: &'static str, which: &str) -> Section {
         let random = |section: Section, value: Option<f64>| match value {
             Some(value) => section.shown("— picked at random", Value::Expected(value)),

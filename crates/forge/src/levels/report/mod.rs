@@ -37,7 +37,7 @@ pub struct Sample<'a> {
     pub levels: &'a [SurveyedLevel],
     /// The game's own levels, for comparison; empty if the game has no levels of its own.
     pub examples: &'a [SurveyedLevel],
-    /// The labels of levels generated without a requested difficulty. They represent picking levels at random.
+    /// The labels of levels generated without a requested difficulty. The labels represent picking levels at random.
     pub pool: &'a [Difficulty],
     /// The cost of generating the levels, excluding the judging for the report.
     pub cost: &'a Tally,

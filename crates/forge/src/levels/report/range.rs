@@ -4,7 +4,7 @@
 use crate::survey::SurveyedLevel;
 use serde::Serialize;
 
-/// The pairs of measures to plot: x, then y. They were chosen before any level was generated.
+/// The pairs of measures to plot: x, then y. The pairs were chosen before any level was generated.
 const PAIRS: [(&str, &str); 6] = [
     ("openness", "ticks"),
     ("cover", "pressure"),
@@ -37,7 +37,7 @@ pub struct Range {
 /// A measure, and its displayed range.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
-    /// The name of the measure.
+    /// The measure's name.
     pub measure: String,
     /// The lower end of the range.
     pub low: f64,

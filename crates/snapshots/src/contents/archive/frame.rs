@@ -16,7 +16,7 @@ use base::Digest;
 const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// The base-2 logarithm of the compressor's window, in bytes: 8 MiB, which every reader accepts.
 const WINDOW_LOG: u8 = 23;
-/// The compression level. It is high because an archive is compressed once and read often.
+/// The compression level: high because an archive is compressed once and read often.
 const LEVEL: i32 = 15;
 
 /// Returns `true` if the regular file at `path` begins as an archive does.

@@ -56,7 +56,7 @@ pub const MAX_RATIO: u64 = 200;
 /// The result of [`pack`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Packed {
-    /// The root of the packed release.
+    /// The packed release's root.
     pub root: Digest,
     /// The digest of the uncompressed bytes.
     pub digest: Digest,
@@ -64,7 +64,7 @@ pub struct Packed {
     pub unpacked: u64,
     /// The size of the file, in bytes.
     pub size: u64,
-    /// The number of papers stored with the release, which are not packed.
+    /// The number of papers stored with the release, none of which is packed.
     pub papers: usize,
 }
 

@@ -73,7 +73,7 @@ pub struct Manifest {
     pub commitment: Option<Digest>,
     /// The digest of the minting binary's `Cargo.lock`. Records provenance only, and is not covered by the root.
     pub lockfile: Digest,
-    /// The complete recipe of the release.
+    /// The release's complete recipe.
     #[serde(deserialize_with = "bounded::bounded")]
     pub recipe: Value,
     /// Every file except `MANIFEST.json`, sorted by the bytes of their paths. From format 3 on, withheld files are
@@ -335,7 +335,7 @@ pub(crate) mod tests {
         example(&[("games/x/lvl0.txt", b"w"), ("README.md", b"read me")])
     }
 
-    /// These texts and roots define the formats. They were computed by an independent implementation.
+    /// These texts and roots define the formats. The values were computed by an independent implementation.
     #[test]
     fn golden() {
         #[track_caller]

@@ -23,7 +23,7 @@ pub struct CorpusCard {
     pub levels: Vec<Intent>,
 }
 
-/// The purpose of a level.
+/// A level's purpose.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Intent {

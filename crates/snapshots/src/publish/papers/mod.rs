@@ -96,7 +96,7 @@ impl Names {
     }
 }
 
-/// Returns the title of a release.
+/// Returns a release's title.
 pub(crate) fn title(manifest: &Manifest) -> String {
     let names = Names::of(manifest);
     Cited::of(&manifest.name, &names.authors, names.publisher.as_deref()).title()

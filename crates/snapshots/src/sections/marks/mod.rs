@@ -1,5 +1,5 @@
-//! Marks, or reference results: the results of never-changing players on a release's levels. They are stored in the
-//! release for comparison with other players.
+//! Marks, or reference results: the results of never-changing players on a release's levels. The results are stored
+//! in the release for comparison with other players.
 //!
 //! The recipe specifies the players, which play each level with each commitment when the release is minted. Their
 //! results are stored in a release file. In a sealed release, this file is withheld, so that a level's difficulty is
@@ -187,7 +187,7 @@ pub struct Marks {
 pub struct GameMarks {
     /// The name of the game's folder.
     pub id: String,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<LevelMarks>,
 }
 

@@ -82,7 +82,7 @@ pub enum PuzzleKind {
     Locks,
     /// Puzzles in which the player carries parcels between carts.
     Yards,
-    /// Puzzles about pushing objects among strays, which are sprites that wander at random and kill.
+    /// Puzzles about pushing objects among strays (sprites that wander at random and kill).
     Strays,
 }
 

@@ -27,8 +27,8 @@ pub(crate) struct Traffic {
     pub(crate) wraps: bool,
 }
 
-/// Returns the enemies that drive left or right, if their traffic makes the game a crossing. It does if the enemies
-/// wrap around to the other side. In a game with an exit, it also does if they turn at walls and drive in both
+/// Returns the enemies that drive left or right, if their traffic makes the game a crossing. Traffic makes a crossing
+/// if the enemies wrap around to the other side or, in a game with an exit, if they turn at walls and drive in both
 /// directions.
 pub(crate) fn traffic(analysis: &Analysis, palette: &Palette) -> Option<Traffic> {
     let enemies = plan::furnishable(analysis, palette, Role::Enemy);

@@ -31,7 +31,7 @@ base::with_defaults! {
 
 /// The maximum number of states per layout, so that a level can be searched exhaustively.
 const MOST_STATES: usize = 15_000;
-/// The number of layouts to request together. They are then rated one by one.
+/// The number of layouts to request together. The layouts are then rated one by one.
 const BATCH: usize = 8;
 /// The number of inner cells on a board for which [`furniture`] returns the default numbers of items.
 const USUAL: f64 = 64.0;

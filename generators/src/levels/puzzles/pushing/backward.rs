@@ -84,7 +84,7 @@ impl Pushing<'_> {
     /// as one position, with the avatar in the first reachable cell. The search stops after about `most` positions; the
     /// farthest positions are then missing.
     ///
-    /// Cost: O(positions × things), about a microsecond per position.
+    /// Cost: O(positions × objects), about a microsecond per position.
     pub(crate) fn by_pushes(&self, most: usize) -> SearchedPositions {
         let mut searched = SearchedPositions::default();
         for solved in self.solved() {

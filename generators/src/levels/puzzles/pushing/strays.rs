@@ -1,5 +1,5 @@
-//! Pushing puzzles on open boards among strays, which are sprites that wander at random. The player must plan the
-//! pushes ahead, and look before walking.
+//! Pushing puzzles on open boards among strays (sprites that wander at random). The player must plan the pushes ahead,
+//! and look before walking.
 
 use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
 use super::rules::{Destination, KINDS, Rules};

@@ -21,7 +21,7 @@ const MAX_STEPS: usize = 250_000;
 /// The approximate total number of positions to search per level. If floor plans have many positions, fewer plans are
 /// rated.
 const POSITIONS: usize = 1_200_000;
-/// The number of floor plans to request together. They are then rated one by one.
+/// The number of floor plans to request together. The plans are then rated one by one.
 const BATCH: usize = 8;
 /// The number of attempts to turn floor plans into a level before generation fails for the seed.
 const ATTEMPTS: u64 = 4;
