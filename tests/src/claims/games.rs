@@ -341,7 +341,7 @@ impl Text {
         sampler.choose(&self.names).clone()
     }
 
-    /// Makes one random change.
+    /// Applies one random change.
     fn change(&mut self, sampler: &mut Sampler) {
         match sampler.below(20) {
             0 | 1 => {

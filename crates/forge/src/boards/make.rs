@@ -18,8 +18,8 @@ const SCRUTINIZED: usize = 3;
 /// The maximum loss of quality from tidying.
 const TIDY_LOSS: f64 = 0.01;
 
-/// Makes a board for any game: composes boards, anneals the best of them, and tidies the result. Returns `None` if no
-/// board within the budget had a win that met the order, or if no character of the game places exactly one avatar.
+/// Generates a board for any game: composes boards, anneals the best of them, and tidies the result. Returns `None` if
+/// no board within the budget had a win that met the order, or if no character of the game places exactly one avatar.
 ///
 /// The same arguments make the same board on every machine. Cost: up to about [`BoardBudget::total`] forward-model calls.
 pub fn make_board(
@@ -43,7 +43,7 @@ pub(crate) struct BoardSearch {
     pub(crate) calls: u64,
 }
 
-/// Makes a board like [`make_board`], and also returns how close the search came if no board was made.
+/// Generates a board like [`make_board`], and also returns how close the search came if it failed.
 pub(crate) fn search_boards(
     analysis: &Analysis,
     order: &BoardOrder,

@@ -5,7 +5,7 @@ use engine::{Action, Analysis, Outcome, SearchKey, State};
 use std::collections::BTreeMap;
 use std::mem;
 
-/// The minimum number of states that a narrowed layer keeps.
+/// The minimum number of states in a narrowed layer.
 const LEAST_WIDTH: u64 = 40;
 
 /// The limits of a search.

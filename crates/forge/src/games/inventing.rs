@@ -19,8 +19,8 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// The divisor of an attempt's looks that gives the number of looks in a further archive round. Such a round follows if
-/// the judges have rejected the elites.
+/// The divisor of an attempt's looks that determines the number of looks in a further archive round. Such a round
+/// follows if the judges have rejected the elites.
 const MENDING: usize = 3;
 /// The maximum number of games in a round. Changing this number changes the generated games.
 const ROUND: usize = 4;

@@ -1,4 +1,4 @@
-//! Replays of witnesses within bounds, so that an untrusted release has a limited cost.
+//! Replays of witnesses within bounds, to limit the cost of an untrusted release.
 
 use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -66,8 +66,8 @@ impl Draft {
         }
     }
 
-    /// Starts a draft like [`create`](Draft::create), but keeps the finished [`jobs`](Draft::jobs) of an interrupted
-    /// draft.
+    /// Starts a draft like [`create`](Draft::create), but retains an interrupted draft's finished
+    /// [`jobs`](Draft::jobs).
     ///
     /// # Errors
     /// See [`create`](Draft::create), except that interrupted work is not an error.

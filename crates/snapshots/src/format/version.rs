@@ -11,7 +11,7 @@ use std::fmt;
 pub struct Version {
     /// The first version that mints these bytes, such as `0.11.0`. Its tag is `v0.11.0`.
     pub number: &'static str,
-    /// The version's `GENERATION`, which determines the bytes that a recipe gives.
+    /// The version's `GENERATION`, which determines the bytes that a recipe produces.
     pub generation: u32,
     /// The version's `SEMANTICS`, which determines the hashes that witnesses record.
     pub semantics: u32,

@@ -1,6 +1,6 @@
 //! A release as a single `.tar.zst` file that can be mailed, attached to papers, or identified by a single digest.
 //!
-//! The same folder always gives the same file, because every detail is fixed:
+//! The same folder always produces the same file, because every detail is fixed:
 //!
 //! - `<name>/MANIFEST.json` is the first entry, so that a reader knows what to expect. The items follow in the
 //!   manifest's order. In a revealed release, the lists of withheld files come next, followed by the listed files,
@@ -68,7 +68,7 @@ pub struct Packed {
     pub papers: usize,
 }
 
-/// Packs the release folder `root` into the file `out`, which must not exist yet. The same release gives the same
+/// Packs the release folder `root` into the file `out`, which must not exist yet. The same release produces the same
 /// uncompressed bytes on every machine.
 ///
 /// `out` is either complete or absent. Until `out` is complete, the data is stored in the folder `<out>.partial` of a

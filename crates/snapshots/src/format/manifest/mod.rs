@@ -42,7 +42,7 @@ pub const SEALED_FORMAT: u32 = 3;
 pub(crate) const OLDEST_FORMAT: u32 = 1;
 /// The file with the manifest, at the top of the release.
 pub const MANIFEST_FILE: &str = "MANIFEST.json";
-/// The path of the leaf that puts the manifest's header under the root.
+/// The path of the leaf that includes the manifest's header under the root.
 pub const HEADER_LEAF: &str = "MANIFEST";
 /// The maximum size of a manifest, in bytes: 64 MiB.
 pub const MANIFEST_LIMIT: u64 = 64 << 20;
@@ -59,7 +59,7 @@ pub struct Manifest {
     pub kind: ReleaseKind,
     /// The engine's `SEMANTICS` at minting. Witnesses replay under the same semantics.
     pub semantics: u32,
-    /// The generators' `GENERATION` at minting. Under the same generation, the recipe gives the same bytes.
+    /// The generators' `GENERATION` at minting. Under the same generation, the recipe produces the same bytes.
     pub generation: u32,
     /// The [version](crate::format::version) that minted the release, such as `0.12.0`. This is the generation's
     /// first version, even if a later version was used. `None` in format 1.
