@@ -1,30 +1,29 @@
-//! Simulated annealing: a few chains of candidates. Each chain accepts fewer and fewer steps to worse candidates as the
-//! search proceeds.
+//! Simulated annealing with a few chains of candidates. As the search proceeds, each chain accepts fewer steps to worse
+//! candidates.
 
 use crate::{Evaluation, Search, Variation};
 use base::{Sampler, Seed};
 use std::cmp::Ordering;
 use std::collections::VecDeque;
 
-/// The number of seeds that a chain tries for a starting candidate before the chain skips its turn.
+/// The number of seeds that a chain tries for a starting candidate before skipping its turn.
 const STARTS: usize = 16;
 
-/// The parameters of a search by annealing.
+/// The parameters of an annealing search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnnealingConfig {
-    /// The total number of candidates to evaluate. The temperature schedule covers all of them.
+    /// The total number of candidates to evaluate. The temperature schedule covers all evaluations.
     pub evaluations: usize,
     /// The number of independent chains.
     pub chains: usize,
-    /// The decrease in objective, relative to the current candidate, that is accepted with probability 1/e at the
-    /// start.
+    /// The decrease in objective, relative to the current candidate, that is accepted with probability 1/e at the start
+    /// of the search.
     pub warmest: f64,
-    /// The decrease in objective that is accepted with probability 1/e at the end; greater than 0.
+    /// The decrease in objective that is accepted with probability 1/e at the end of the search; greater than 0.
     pub coldest: f64,
-    /// The number of starting candidates per chain. The chain continues from the best of them.
+    /// The number of starting candidates per chain. The chain continues from the best starting candidate.
     pub starts: usize,
-    /// The number of consecutive candidates without an improvement over the best of the chain, after which the chain
-    /// restarts.
+    /// The number of consecutive candidates without improvement over the chain's best after which the chain restarts.
     pub patience: usize,
 }
 
@@ -40,13 +39,13 @@ impl AnnealingConfig {
 /// Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983, "Optimization by simulated annealing") with an
 /// ask-and-tell interface for batches.
 ///
-/// Each chain holds a current candidate and proposes neighbours of it. Among infeasible candidates only feasibility
-/// counts, and among feasible ones only the objective. A feasible candidate is never replaced by an infeasible one. The
-/// temperature falls geometrically with the number of reported evaluations, and no clock is read. The neighbours of a
-/// batch are processed in order, and each is compared with the current candidate at that point. A chain that has
+/// Each chain stores a current candidate and proposes its neighbours. Infeasible candidates are compared only by
+/// feasibility, and feasible candidates only by objective. An infeasible candidate never replaces a feasible one. The
+/// temperature falls geometrically with the number of reported evaluations, and no clock is read. A batch's neighbours
+/// are processed in order, and each is compared with the candidate that is current at that point. A chain that has
 /// stagnated restarts.
 ///
-/// Memory: two candidates per chain, and the best candidate. [`Search::ask`] returns an empty batch once it has
+/// Memory use is two candidates per chain, plus the best candidate. [`Search::ask`] returns an empty batch once it has
 /// proposed all candidates.
 #[derive(Debug)]
 pub struct Annealing<V: Variation> {
@@ -54,9 +53,9 @@ pub struct Annealing<V: Variation> {
     config: AnnealingConfig,
     seed: Seed,
     chains: Vec<Chain<V::Candidate>>,
-    /// The index of the chain whose turn is next.
+    /// The index of the next chain in turn.
     turn: usize,
-    /// The chains of the proposed candidates that have not been evaluated yet, in order.
+    /// The chains of the proposed, not yet evaluated candidates, in order.
     pending: VecDeque<usize>,
     asked: usize,
     told: usize,
@@ -67,7 +66,7 @@ pub struct Annealing<V: Variation> {
 
 #[derive(Debug)]
 struct Chain<C> {
-    /// A sampler that draws neighbours, and decides whether candidates are accepted.
+    /// A sampler that draws neighbours and decides on acceptance.
     sampler: Sampler,
     present: Option<(C, Evaluation)>,
     /// The number of starting candidates still to be proposed.
@@ -113,7 +112,7 @@ impl<V: Variation> Annealing<V> {
         self.told >= self.config.evaluations
     }
 
-    /// Returns the variation that proposes the candidates.
+    /// Returns the variation that proposes candidates.
     pub fn variation(&self) -> &V {
         &self.variation
     }
@@ -198,8 +197,8 @@ impl<C> Chain<C> {
     }
 }
 
-/// Compares feasible candidates by objective, and infeasible candidates by feasibility. Every feasible candidate ranks
-/// above every infeasible one.
+/// Compares feasible candidates by objective, and infeasible candidates by feasibility. Feasible candidates always rank
+/// above infeasible ones.
 fn compare(one: &Evaluation, two: &Evaluation) -> Ordering {
     let key = |evaluation: &Evaluation| {
         let feasible = evaluation.is_feasible();
@@ -209,7 +208,7 @@ fn compare(one: &Evaluation, two: &Evaluation) -> Ordering {
     one.0.cmp(&two.0).then(one.1.total_cmp(&two.1))
 }
 
-/// Returns how much worse the second evaluation is than the first; `None` if only one of the two is feasible.
+/// Returns how much worse the second evaluation is than the first; `None` if only one candidate is feasible.
 fn loss(one: &Evaluation, two: &Evaluation) -> Option<f64> {
     match (one.is_feasible(), two.is_feasible()) {
         (true, true) => Some(two.objective - one.objective),

@@ -1,4 +1,4 @@
-//! A grid of elites, with the best candidate of each cell. A candidate's measures determine its cell.
+//! A grid of elites: the best candidate in each cell. A candidate's measures determine its cell.
 
 use crate::Evaluation;
 use std::collections::BTreeMap;
@@ -7,18 +7,18 @@ use std::iter::repeat;
 /// A candidate with its evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluated<C> {
-    /// The candidate itself.
+    /// The candidate.
     pub candidate: C,
     /// The candidate's evaluation.
     pub evaluation: Evaluation,
 }
 
-/// One measure as an axis of the grid: a range that is divided into bins of equal width.
+/// A measure as a grid axis: a range divided into bins of equal width.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// The name of the measure in reports.
     pub name: String,
-    /// The range that the bins divide, as (from, to). Values outside the range belong to the first or the last bin.
+    /// The range divided into bins, as (from, to). Values outside the range belong to the first or the last bin.
     pub range: (f64, f64),
     /// The number of bins.
     pub bins: usize,
@@ -46,41 +46,41 @@ impl Axis {
 /// The outcome of adding a candidate to an archive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AddStatus {
-    /// The candidate is the first one in its cell.
+    /// The candidate is the first in its cell.
     New,
     /// The candidate replaced a worse candidate.
     Improved,
-    /// The archive does not keep the candidate.
+    /// The archive does not store the candidate.
     Rejected,
 }
 
 /// The best feasible candidate of every cell of a grid of measures (the archive of Mouret and Clune, "Illuminating
-/// search spaces by mapping elites", 2015). Each cell also has a pocket of infeasible candidates that are close to
-/// feasible (Khalifa et al., "Talakat: Bullet Hell Generation through Constrained Map-Elites", 2018).
+/// search spaces by mapping elites", 2015). Each cell also has a pocket of nearly feasible candidates (Khalifa et al.,
+/// "Talakat: Bullet Hell Generation through Constrained Map-Elites", 2018).
 ///
-/// Cells are numbered in row-major order, with the last axis varying fastest. Every iteration uses this order.
+/// Cells are numbered in row-major order, with the last axis varying fastest. All iterators use this order.
 #[derive(Clone, Debug)]
 pub struct Archive<C> {
     axes: Vec<Axis>,
-    /// The maximum number of infeasible candidates in a cell.
+    /// The maximum number of infeasible candidates per cell.
     pocket_size: usize,
     elites: BTreeMap<usize, Evaluated<C>>,
     /// The infeasible candidates by cell, from least to most infeasible. Among equally infeasible candidates, the
-    /// youngest comes first. No pocket is empty.
+    /// youngest comes first. Pockets are never empty.
     pockets: BTreeMap<usize, Vec<Evaluated<C>>>,
 }
 
 impl<C> Archive<C> {
-    /// Creates an empty archive that keeps up to `pocket_size` infeasible candidates per cell. The axes are the
+    /// Creates an empty archive that stores up to `pocket_size` infeasible candidates per cell. The axes are the
     /// measures of the evaluations, in the same order.
     pub fn new(axes: Vec<Axis>, pocket_size: usize) -> Archive<C> {
         Archive { axes, pocket_size, elites: BTreeMap::new(), pockets: BTreeMap::new() }
     }
 
-    /// Adds a candidate if it is good enough. Cost: O(log cells + pocket). A feasible candidate becomes the elite of
-    /// its cell if its objective is higher than the elite's. An infeasible candidate goes to the pocket, and evicts the
-    /// worst candidate if the pocket is full. Among equally infeasible candidates, the oldest is evicted, so that
-    /// candidates of equal feasibility can still drift.
+    /// Adds a candidate if it is good enough. Cost: O(log cells + pocket). A feasible candidate becomes its cell's
+    /// elite if its objective is higher than the current elite's. An infeasible candidate is added to the pocket, and
+    /// evicts the worst candidate if the pocket is full. Among equally infeasible candidates, the oldest is evicted, so
+    /// that candidates of equal feasibility can still drift.
     pub fn add(&mut self, candidate: C, evaluation: Evaluation) -> AddStatus {
         let cell = self.cell(&evaluation.measures);
         let judged = Evaluated { candidate, evaluation };
@@ -113,9 +113,8 @@ impl<C> Archive<C> {
         status
     }
 
-    /// Removes the elite of a cell because a closer look found it infeasible after all, and moves it to the pocket. The
-    /// cell is then free for a new elite. The call has no effect if `feasibility` is at least 1, which is the value of
-    /// a feasible candidate.
+    /// Moves a cell's elite to the pocket because a closer evaluation found it infeasible after all. The cell is then
+    /// free for a new elite. Has no effect if `feasibility` is at least 1, the value of a feasible candidate.
     pub fn demote(&mut self, cell: usize, feasibility: f64) {
         if feasibility < 1.0
             && let Some(mut judged) = self.elites.remove(&cell)
@@ -125,12 +124,12 @@ impl<C> Archive<C> {
         }
     }
 
-    /// Returns the axes of the grid.
+    /// Returns the grid's axes.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
     }
 
-    /// Returns the number of cells, including empty ones.
+    /// Returns the number of cells, including empty cells.
     pub fn cells(&self) -> usize {
         self.axes.iter().map(Axis::len).product()
     }
@@ -154,7 +153,7 @@ impl<C> Archive<C> {
         bins
     }
 
-    /// Returns the cells that differ from `cell` by one bin on one axis, in the order of the axes.
+    /// Returns the cells that differ from `cell` by one bin on one axis, in axis order.
     pub fn neighbours(&self, cell: usize) -> Vec<usize> {
         let mut stride = self.cells();
         let mut cells = Vec::with_capacity(2 * self.axes.len());
@@ -166,38 +165,38 @@ impl<C> Archive<C> {
         cells
     }
 
-    /// Returns the elite of a cell.
+    /// Returns a cell's elite.
     pub fn elite(&self, cell: usize) -> Option<&Evaluated<C>> {
         self.elites.get(&cell)
     }
 
-    /// Returns all elites with their cells, in the order of the cells.
+    /// Returns all elites with their cells, in cell order.
     pub fn elites(&self) -> impl ExactSizeIterator<Item = (usize, &Evaluated<C>)> {
         self.elites.iter().map(|(&cell, elite)| (cell, elite))
     }
 
-    /// Returns the infeasible candidates of a cell, from least to most infeasible.
+    /// Returns a cell's infeasible candidates, from least to most infeasible.
     pub fn pocket(&self, cell: usize) -> &[Evaluated<C>] {
         self.pockets.get(&cell).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns all cells that hold infeasible candidates, each with its candidates, in the order of the cells.
+    /// Returns all cells that contain infeasible candidates, each with its candidates, in cell order.
     pub fn pockets(&self) -> impl ExactSizeIterator<Item = (usize, &[Evaluated<C>])> {
         self.pockets.iter().map(|(&cell, pocket)| (cell, pocket.as_slice()))
     }
 
-    /// Returns the fraction of cells that have an elite.
+    /// Returns the fraction of cells with an elite.
     pub fn coverage(&self) -> f64 {
         self.elites.len() as f64 / self.cells() as f64
     }
 
-    /// Returns the sum of the objectives of all elites. An empty cell counts as 0, the worst objective.
+    /// Returns the sum of the elites' objectives. An empty cell counts as 0, the worst objective.
     pub fn qd_score(&self) -> f64 {
         // `sum` would return -0.0 for an empty archive.
         self.elites.values().fold(0.0, |sum, elite| sum + elite.evaluation.objective)
     }
 
-    /// Returns the elite with the highest objective. Among equally good elites, returns the one in the first cell.
+    /// Returns the elite with the highest objective. Ties go to the first cell.
     pub fn best(&self) -> Option<&Evaluated<C>> {
         self.elites.values().reduce(|best, elite| {
             if elite.evaluation.objective > best.evaluation.objective { elite } else { best }

@@ -4,18 +4,18 @@ use crate::Variation;
 use base::{Digest, Sampler, Seed};
 use std::collections::BTreeSet;
 
-/// The maximum number of attempts at an unseen candidate for one proposal.
+/// The maximum number of attempts to find an unseen candidate for one proposal.
 const TRIES: usize = 8;
 
 /// The key function. Candidates with the same key count as the same candidate.
 type Key<'a, C> = Box<dyn Fn(&C) -> Digest + Send + 'a>;
 
-/// Makes candidates that have not been proposed before.
+/// Generates candidates that have not been proposed before.
 pub(crate) struct Breeding<'a, V: Variation> {
     variation: &'a V,
     key: Key<'a, V::Candidate>,
     seed: Seed,
-    /// The probability of crossing two parents.
+    /// The probability of crossover.
     crossing: f64,
     /// The number of proposals so far. Each proposal draws from its own seed.
     drawn: u64,
@@ -34,7 +34,7 @@ impl<'a, V: Variation> Breeding<'a, V> {
         self.seed.child("proposal", self.drawn).sampler()
     }
 
-    /// Creates a new candidate from scratch; `None` if several seeds lead to no unseen candidate.
+    /// Creates a new candidate from scratch; `None` if several seeds all lead to known candidates.
     pub(crate) fn create(&mut self) -> Option<V::Candidate> {
         (0..TRIES).find_map(|_| {
             self.drawn += 1;
@@ -44,8 +44,8 @@ impl<'a, V: Variation> Breeding<'a, V> {
     }
 
     /// Breeds a new candidate from one or two parents. Two parents are crossed, and the child is then mutated half of
-    /// the time. A child of one parent is only mutated. A child that is already known is mutated further. Returns
-    /// `None` if the child stays known.
+    /// the time. A child of one parent is only mutated. A known child is mutated further. Returns `None` if all
+    /// attempts yield known candidates.
     pub(crate) fn breed(
         &mut self,
         parent: &V::Candidate,

@@ -1,16 +1,17 @@
-//! The interface of generators.
+//! The generator interface.
 
 use crate::GenerateError;
 use base::Seed;
 
-/// A generator, which makes an object from a seed. The same seed gives the same object on every machine.
+/// A generator that creates an object from a seed. The same seed yields the same object on every
+/// machine.
 pub trait Generator: Sync {
-    /// The type of the result.
+    /// The type of the generated object.
     type Output;
 
     /// Generates the output for a seed.
     ///
     /// # Errors
-    /// Returns an error if the seed or the configuration leads to no result.
+    /// Returns an error if the seed or the configuration does not lead to a result.
     fn generate(&self, seed: Seed) -> Result<Self::Output, GenerateError>;
 }

@@ -1,4 +1,4 @@
-//! Generators of levels and games: pure functions of a configuration and a seed.
+//! Generators for levels and games: pure functions of a configuration and a seed.
 //!
 //! Generators never judge their own output. The crate `infinite-arcade-forge` evaluates the candidates.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
@@ -23,5 +23,5 @@ pub use generator::Generator;
 pub use map_elites::{MapElites, MapElitesConfig};
 pub use search::{Evaluation, Search, Variation};
 
-/// The version of the generators, which is incremented when any minted byte changes for an unchanged recipe.
+/// The generators' version, incremented whenever any minted byte changes for an unchanged recipe.
 pub const GENERATION: u32 = 16;

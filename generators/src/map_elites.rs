@@ -1,39 +1,39 @@
-//! Illumination search, which finds the best candidate of each cell by varying known candidates.
+//! Illumination search: finds the best candidate for each cell by varying known candidates.
 
 use crate::breeding::Breeding;
 use crate::{Archive, Axis, Evaluated, Evaluation, Search, Variation};
 use base::{Digest, Sampler, Seed};
 
 /// The minimum size of the tournament among infeasible parents. The tournament grows with the number of pockets,
-/// because pockets keep many dead ends.
+/// because pockets retain many dead ends.
 const TOURNAMENT: usize = 3;
-/// The number of pockets per additional entrant in the tournament of infeasible parents.
+/// The number of pockets per additional entrant in the tournament among infeasible parents.
 const SHARE: usize = 8;
 
 base::with_defaults! {
     /// The parameters of [`MapElites`].
     #[derive(Clone, Debug, PartialEq)]
     pub struct MapElitesConfig {
-        /// The number of candidates to create before the first one is bred.
+        /// The number of candidates to create before breeding starts.
         pub initial: usize = 64,
         /// The probability that a child has two parents.
         pub crossing: f64 = 0.4,
-        /// The fraction of candidates that are created from scratch once breeding has started.
+        /// The fraction of candidates created from scratch once breeding has started.
         pub fresh: f64 = 0.05,
-        /// The fraction of candidates that are bred from infeasible parents once there are elites.
+        /// The fraction of candidates bred from infeasible parents once elites exist.
         pub infeasible: f64 = 0.15,
-        /// The maximum number of infeasible candidates in each cell.
+        /// The maximum number of infeasible candidates per cell.
         pub pocket: usize = 4,
     }
 }
 
-/// Constrained MAP-Elites, which fills an [`Archive`] as its result (Khalifa et al., "Talakat: Bullet Hell Generation
+/// Constrained MAP-Elites: fills an [`Archive`] as its result (Khalifa et al., "Talakat: Bullet Hell Generation
 /// through Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with
 /// Interactive Constrained MAP-Elites", 2019).
 ///
-/// Parents and mates are elites, drawn uniformly from the filled cells. A fraction of the parents are infeasible. They
-/// are preferably taken from the pockets of empty cells next to filled cells, where the frontier can advance. No
-/// candidate is proposed twice.
+/// Parents and mates are elites, drawn uniformly from the filled cells. A fraction of the parents are infeasible.
+/// Infeasible parents are preferably taken from the pockets of empty cells next to filled cells, where the frontier
+/// can advance. No candidate is proposed twice.
 ///
 /// ```
 /// # use base as infinite_arcade_base;
@@ -101,7 +101,7 @@ impl<'a, V: Variation> MapElites<'a, V> {
         &self.archive
     }
 
-    /// Removes an elite that a closer look found infeasible; see [`Archive::demote`].
+    /// Removes an elite that a closer evaluation found infeasible; see [`Archive::demote`].
     pub fn demote(&mut self, cell: usize, feasibility: f64) {
         self.archive.demote(cell, feasibility);
     }
@@ -134,8 +134,8 @@ impl<'a, V: Variation> MapElites<'a, V> {
 impl<V: Variation> Search for MapElites<'_, V> {
     type Candidate = V::Candidate;
 
-    /// Returns fewer than `count` candidates only if the variation yields nothing new. A later call may return more.
-    /// Cost per candidate in addition to its variation: O(pockets × axes).
+    /// Returns fewer than `count` candidates only if the variation yields no new candidates. A later call may return
+    /// more. Cost per candidate in addition to its variation: O(pockets × axes).
     fn ask(&mut self, count: usize) -> Vec<V::Candidate> {
         (0..count).filter_map(|_| self.propose()).collect()
     }
@@ -155,8 +155,8 @@ fn elite<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated
     archive.elites().nth(at).expect("an index below the length").1
 }
 
-/// Draws an infeasible candidate from an archive with at least one. It comes from an empty cell next to a filled cell
-/// if possible, and otherwise from any pocket.
+/// Draws an infeasible candidate from an archive with at least one. Prefers empty cells next to filled cells, and
+/// otherwise uses any pocket.
 fn infeasible<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated<C> {
     let is_filled = |cell: usize| archive.elite(cell).is_some();
     let at_frontier = |(cell, _): &(usize, &[Evaluated<C>])| {

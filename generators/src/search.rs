@@ -1,15 +1,15 @@
 //! Ask-and-tell search. A search proposes candidates, the caller evaluates them, and the search learns from the
 //! results.
 //!
-//! A search is independent of the candidates and of their evaluation. The same three algorithms generate levels, rules,
-//! or anything else that has a [`Variation`]. The interface follows Fontaine et al., "pyribs: A Bare-Bones Python
+//! A search is independent of the candidate type and of the evaluation. The same three algorithms generate levels,
+//! rules, or anything else with a [`Variation`]. The interface follows Fontaine et al., "pyribs: A Bare-Bones Python
 //! Library for Quality Diversity Optimization" (2023).
 
 use base::{Sampler, Seed};
 
 /// A search that proposes candidates and learns from their evaluations.
 pub trait Search {
-    /// The type of the candidates.
+    /// The candidate type.
     type Candidate;
 
     /// Returns up to `count` candidates to evaluate next. The candidates do not depend on the evaluator, or on the
@@ -20,16 +20,16 @@ pub trait Search {
     fn tell(&mut self, evaluated: Vec<(Self::Candidate, Evaluation)>);
 }
 
-/// The evaluation of a candidate, as numbers.
+/// A candidate's evaluation, as numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluation {
-    /// The degree to which the candidate meets the constraints, from 0.0 to 1.0, as the mean of graded constraints. The
+    /// The degree to which the candidate meets the constraints, from 0.0 to 1.0: the mean of graded constraints. The
     /// candidate is feasible only at 1.0.
     pub feasibility: f64,
-    /// The quality of the candidate, from 0.0 to 1.0, which is compared only among feasible candidates.
+    /// The candidate's quality, from 0.0 to 1.0. Compared only among feasible candidates.
     pub objective: f64,
-    /// The characteristics of the candidate, in the order of the measures that the judges declare. They are the axes of
-    /// an archive.
+    /// The candidate's characteristics, in the order of the measures declared by the judges. The measures serve as the
+    /// axes of an archive.
     pub measures: Vec<f64>,
 }
 
@@ -40,10 +40,9 @@ impl Evaluation {
     }
 }
 
-/// A source of candidates of one kind, which creates and varies them. All results are well-formed, but not necessarily
-/// good.
+/// A source that creates and varies candidates of one kind. All results are well-formed, but not necessarily good.
 pub trait Variation: Sync {
-    /// The type of the candidates.
+    /// The candidate type.
     type Candidate: Clone + Send + Sync;
 
     /// Creates a candidate from scratch; `None` if the creation fails with the seed.

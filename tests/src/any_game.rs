@@ -9,16 +9,16 @@ use engine::syntax::{
 };
 use engine::{EFFECTS, ParameterKind, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS, effect_parameters};
 
-/// A game and a level for it, as texts. Most such games load strictly, and all others load as in the reference.
+/// A game and one of its levels, as texts. Most such games load strictly, and all others load as in the reference.
 #[derive(Clone, Debug)]
 pub struct AnyGame {
-    /// The text of the game.
+    /// The game's text.
     pub source: String,
-    /// The text of the level.
+    /// The level's text.
     pub level: String,
 }
 
-/// Creates the game that these decisions describe.
+/// Creates the game described by the decisions.
 pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
     let leaves = vec![("wall".to_owned(), SpriteClass::Immovable)];
     let has_ground = choices.once_in(6);
@@ -43,25 +43,25 @@ pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
     AnyGame { source: syntax::print(&description), level: author.level(&symbols) }
 }
 
-/// The maximum depth of the tree of sprite types.
+/// The maximum depth of the sprite type tree.
 const DEPTH: usize = 3;
 /// The maximum number of childless sprite types with the same parent.
 const SIBLINGS: usize = 5;
 
 struct Author<'c, 'b> {
     choices: &'c mut Choices<'b>,
-    /// The types that have sprites, each with its effective class.
+    /// The types with sprites, each with its effective class.
     leaves: Vec<(String, SpriteClass)>,
-    /// The types that have subtypes.
+    /// The types with subtypes.
     groups: Vec<String>,
-    /// `true` if the lowest row is ground, on which avatars and walkers stand.
+    /// `true` if the lowest row is ground, on which avatars and walkers can stand.
     has_ground: bool,
     /// The number of counters in the game.
     counters: usize,
 }
 
 impl Author<'_, '_> {
-    /// Creates names and classes. An inherited class is not written again.
+    /// Creates names and classes. Inherited classes are not repeated.
     fn forest(&mut self, inherited: Option<SpriteClass>, depth: usize) -> Vec<SpriteLine> {
         let count = 1 + self.choices.below(SIBLINGS);
         let mut lines = Vec::new();
@@ -83,7 +83,7 @@ impl Author<'_, '_> {
         lines
     }
 
-    /// Chooses a class, which is rarely an avatar's.
+    /// Chooses a class. Avatar classes are rare.
     fn class(&mut self) -> SpriteClass {
         let avatars = self.choices.once_in(8);
         self.class_where(|class| class.is_avatar() == avatars)
@@ -142,7 +142,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Gives gravity to sprites that can stand, if there is ground.
+    /// Adds gravity to sprites that can stand, if there is ground.
     fn weight(&mut self, lines: &mut [SpriteLine]) {
         if !self.has_ground {
             return;
@@ -187,7 +187,7 @@ impl Author<'_, '_> {
         params
     }
 
-    /// Chooses a type that has sprites.
+    /// Chooses a type with sprites.
     fn leaf(&mut self) -> String {
         self.leaves[self.choices.below(self.leaves.len())].0.clone()
     }
@@ -198,7 +198,7 @@ impl Author<'_, '_> {
         (self.choices.pick(&others)).clone()
     }
 
-    /// Chooses any type, a parent or not.
+    /// Chooses any type, whether or not it has subtypes.
     fn family(&mut self) -> String {
         let at = self.choices.below(self.leaves.len() + self.groups.len());
         match self.leaves.get(at) {
@@ -207,7 +207,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Chooses a resource, if there is one.
+    /// Chooses a resource, if there are any.
     fn resource(&mut self) -> String {
         let is_resource = |leaf: &&(String, SpriteClass)| leaf.1 == SpriteClass::Resource;
         let found: Vec<&String> = self.leaves.iter().filter(is_resource).map(|(name, _)| name).collect();
@@ -231,7 +231,7 @@ impl Author<'_, '_> {
         Header { class: "BasicGame".into(), params, ..Header::default() }
     }
 
-    /// Sometimes replaces numbers in the rules by a `GameSpace` parameter.
+    /// Sometimes replaces numbers in the rules with a `GameSpace` parameter.
     fn space(&mut self, description: &mut Description) {
         if !self.choices.once_in(10) {
             return;
@@ -256,7 +256,7 @@ impl Author<'_, '_> {
         entries.join(",")
     }
 
-    /// Returns a character for each type that has sprites, and the characters that do not place an avatar.
+    /// Returns a character for each type with sprites, and the characters that do not place an avatar.
     fn mapping(&mut self) -> (Vec<MappingLine>, Vec<u8>) {
         let mut lines = Vec::new();
         let mut symbols = vec![b'w'];
@@ -448,7 +448,7 @@ impl Author<'_, '_> {
     }
 }
 
-/// Returns `true` if sprites of the class react to the ground below them.
+/// Returns `true` if sprites of the class respond to the ground below them.
 fn stands(class: SpriteClass) -> bool {
     class.is_a(SpriteClass::PlatformerAvatar) || class.is_a(SpriteClass::Walker)
 }

@@ -2,9 +2,9 @@
 
 use base::Sampler;
 
-/// Decisions read from bytes. Small decisions come from the front. [`Choices::from_end`] gives bytes from the back, so
-/// that changing one kind of decision does not shift the other. Past the end, every decision is the first option, which
-/// is always the simplest, so shorter inputs give simpler games.
+/// Decisions read from bytes. Small decisions are read from the front. [`Choices::from_end`] reads bytes from the back,
+/// so that changing one kind of decision does not shift the other. Past the end, every decision yields the first
+/// option. The first option is always the simplest, so shorter inputs give simpler games.
 #[derive(Clone, Debug)]
 pub struct Choices<'a> {
     bytes: &'a [u8],
@@ -46,7 +46,7 @@ impl<'a> Choices<'a> {
         (high | usize::from(self.byte())) % bound
     }
 
-    /// Returns `true` in one of `times` cases.
+    /// Returns `true` in one of `times` cases on average.
     pub fn once_in(&mut self, times: usize) -> bool {
         self.below(times) == times - 1
     }

@@ -1,9 +1,9 @@
-//! Random games with any classes, effects and parameters that compile.
+//! Random compilable games with any classes, effects and parameters.
 
 use base::Sampler;
 use engine::SpriteClass;
 
-/// Returns a game with a level, as texts. The game need not compile.
+/// Returns a game and a level, as texts. The game does not necessarily compile.
 pub fn game(sampler: &mut Sampler) -> (String, String) {
     let count = sampler.between(3, 7);
     let mut names: Vec<String> = (0..count).map(|number| format!("s{number}")).collect();
@@ -145,11 +145,11 @@ pub(crate) fn sprite(sampler: &mut Sampler, names: &[String], hero: bool) -> Str
     text
 }
 
-/// The parameters that only some classes have.
+/// The parameters specific to certain classes.
 const OWN: [&str; 8] = ["limit", "value", "total", "prob", "spawnorientation", "cons", "spreadprob", "stype"];
 
-/// Every effect with its parameters. N stands for a sprite, I for a small number, S for a speed, P for a probability, B
-/// for a truth value, and E for an effect.
+/// Every effect with its parameters. N stands for a sprite, I for a small integer, S for a speed, P for a probability,
+/// B for a Boolean, and E for an effect.
 const EFFECTS: [&str; 72] = [
     "killSprite",
     "killSprite",

@@ -9,8 +9,8 @@
 //! reference: refused too-large
 //! ```
 //!
-//! The last two lines give the result under each of the two ways to load a game. The result is the distinct codes of
-//! the diagnostics, or the outcome and the number of ticks played.
+//! The last two lines state the result for each of the two loading policies: the distinct diagnostic codes, or the
+//! outcome and the number of ticks played.
 
 use crate::{workspace_files, workspace_root};
 use base::Seed;
@@ -26,11 +26,11 @@ const FOLDER: &str = "tests/suite/hostile";
 pub struct Case {
     /// The file name without its extension.
     pub name: String,
-    /// The text of the game.
+    /// The game's text.
     pub source: String,
-    /// The text of the level, if the game is expected to load.
+    /// The level's text, if the game is expected to load.
     pub level: Option<String>,
-    /// The lines of the expectation.
+    /// The expectation, as text lines.
     pub expect: String,
 }
 
@@ -78,7 +78,7 @@ impl Case {
         lines.collect()
     }
 
-    /// Returns the result of the case.
+    /// Returns the case's result.
     pub fn end(&self, as_reference: bool) -> String {
         let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
         let game = match load(&self.source) {
@@ -104,7 +104,7 @@ impl Case {
         format!("{outcome} after {} ticks", state.tick() + 1)
     }
 
-    /// Returns the player's actions, which are repeated.
+    /// Returns the player's actions, in a repeating sequence.
     fn actions(&self) -> Vec<Action> {
         let given = self.expect.lines().find_map(|line| line.strip_prefix("actions: "));
         let letters = given.unwrap_or("N").chars();
@@ -121,7 +121,7 @@ impl Case {
     }
 }
 
-/// Returns the distinct codes, in the order of their positions.
+/// Returns the distinct codes, ordered by position.
 fn codes(problems: &Diagnostics) -> String {
     assert!(Diagnostics::has_errors(&problems.0), "refused without an error");
     let mut codes: Vec<&str> = Vec::new();

@@ -1,12 +1,12 @@
-//! Isomorphic games under a different theme, and games that are nearly the same.
+//! Isomorphic games in a different theme, and nearly identical games.
 
 use base::Sampler;
 use engine::Description;
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
 use std::collections::BTreeMap;
 
-/// Returns an isomorphic game with different names, characters, colours and order. Parameters that are inherited or have their
-/// default values are written out.
+/// Returns an isomorphic game with different names, characters, colours and order. Inherited and default parameters are
+/// written explicitly.
 pub fn rethemed(description: &Description, sampler: &mut Sampler) -> Description {
     let mut tree = description.clone();
     rename(&mut tree, sampler);
@@ -21,7 +21,7 @@ pub fn rethemed(description: &Description, sampler: &mut Sampler) -> Description
     tree
 }
 
-/// Changes all numbers that are sizes, without changing signs and zeros. Returns `None` if there are no such numbers.
+/// Changes all numbers that are sizes, preserving signs and zeros. Returns `None` if there are no such numbers.
 pub fn renumbered(description: &Description) -> Option<Description> {
     let mut tree = description.clone();
     let mut changed = false;
@@ -170,7 +170,7 @@ fn reorder_sprites(lines: &mut [SpriteLine], sampler: &mut Sampler) {
     lines.iter_mut().for_each(|line| reorder_sprites(&mut line.children, sampler));
 }
 
-/// Changes the order of partners, and sometimes moves them to their own lines.
+/// Reorders partners, and sometimes moves them to separate lines.
 fn split(lines: Vec<InteractionLine>, sampler: &mut Sampler) -> Vec<InteractionLine> {
     let mut all = Vec::new();
     for mut line in lines {

@@ -1,7 +1,7 @@
-//! Helpers of the tests that span crates: the root and files of the workspace, and checks that must hold for any input
+//! Helpers for the tests that span crates: the workspace root and files, and checks that must hold for any input
 //! ([`robustness`]).
 //!
-//! The tests themselves are in `tests/tests/it/`. The folder `tidy/` in it holds the rules that can be checked
+//! The tests themselves are in `tests/tests/it/`. Its subfolder `tidy/` contains the rules that can be checked
 //! automatically.
 
 extern crate infinite_arcade_base as base;
@@ -25,11 +25,11 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Returns the root folder of the workspace, which contains the virtual manifest.
+/// Returns the workspace's root folder, which contains the virtual manifest.
 ///
 /// # Panics
 ///
-/// Panics if this crate is not in a folder of the workspace.
+/// Panics if this crate is not in a workspace folder.
 pub fn workspace_root() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     here.parent().expect("this crate lies one folder below the workspace root").to_path_buf()
@@ -37,7 +37,7 @@ pub fn workspace_root() -> PathBuf {
 
 /// Returns every file that belongs to the repository, relative to [`workspace_root`], sorted.
 ///
-/// The following are excluded: top-level folders that `.gitignore` lists, such as `releases`; build output (any folder
+/// The following are excluded: top-level folders listed in `.gitignore`, such as `releases`; build output (any folder
 /// with cargo's `CACHEDIR.TAG`, and `target`); unfinished releases (`*.partial`); links; and hidden folders except
 /// `.cargo` and `.ci`.
 ///
@@ -81,8 +81,8 @@ pub fn rust_files() -> Vec<(PathBuf, String)> {
         .collect()
 }
 
-/// Returns the folder of the reference's public games, which are test data outside the repository. If the folder is
-/// missing, prints a message and returns `None`.
+/// Returns the folder with the reference's public games: test data outside the repository. If the folder is missing,
+/// prints a message and returns `None`.
 pub fn public_games() -> Option<PathBuf> {
     let games = workspace_root().join("../shared/gvgai/games");
     let found = games.is_dir();
@@ -92,8 +92,8 @@ pub fn public_games() -> Option<PathBuf> {
     found.then_some(games)
 }
 
-/// Loads the games in the subfolders of a folder as the reference does, sorted by name, with their levels. Games that do not load
-/// are left out.
+/// Loads the games in a folder's subfolders as the reference does, sorted by name, with their levels. Games that fail
+/// to load are skipped.
 pub fn games(folder: &Path) -> Vec<(String, Game, Vec<Level>)> {
     let mut folders: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     folders.sort();
@@ -107,7 +107,7 @@ pub fn games(folder: &Path) -> Vec<(String, Game, Vec<Level>)> {
     folders.iter().filter_map(load).filter(|(.., levels)| !levels.is_empty()).collect()
 }
 
-/// Returns the text of a file in the repository, given by its path relative to [`workspace_root`].
+/// Returns the text of a repository file, given its path relative to [`workspace_root`].
 ///
 /// # Panics
 ///
@@ -147,7 +147,7 @@ fn collect(root: &Path, folder: &Path, ignored: &[&Path], files: &mut Vec<PathBu
 mod tests {
     use super::*;
 
-    /// Minted releases and results do not belong to the repository, so tests do not find them.
+    /// Minted releases and results do not belong to the repository, so tests ignore them.
     #[test]
     fn ignored_folders_of_the_root_are_left_out() {
         let root = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Small damage to a file, like that from careless editing, broken disks and fuzzers.
+//! Small damage to a file, similar to careless editing, disk errors and fuzzing.
 
 use base::Sampler;
 use engine::{EFFECTS, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS};
@@ -12,7 +12,7 @@ pub fn mutated(bytes: &[u8], sampler: &mut Sampler) -> Vec<u8> {
     bytes
 }
 
-/// Bytes and words that have a special meaning in some context.
+/// Bytes and words with a special meaning in some context.
 const TOKENS: [&str; 24] = [
     "\n",
     "\r\n",
@@ -68,7 +68,7 @@ fn damage(bytes: &mut Vec<u8>, sampler: &mut Sampler) {
     }
 }
 
-/// Returns a keyword of VGDL.
+/// Returns a VGDL keyword.
 fn word(sampler: &mut Sampler) -> &'static str {
     let words = match sampler.below(4) {
         0 => return sampler.choose(SpriteClass::ALL).name(),

@@ -1,4 +1,5 @@
-//! The pages that newcomers read first. Their programs run here, where every crate has the name that users know.
+//! The pages that newcomers read first. Their example programs run in this crate, where every crate has its
+//! public name.
 
 #[doc = include_str!("../../README.md")]
 struct Workspace;

@@ -1,8 +1,8 @@
-//! Properties that must hold for any input. Each check takes bytes from any source. The fuzz targets in `tools/fuzz/`
-//! and the short runs in `tests/tests/it/robustness.rs` are one call each.
+//! Properties that must hold for any input. Each check takes bytes from any source. Each fuzz target in `tools/fuzz/`
+//! and each short run in `tests/tests/it/robustness.rs` is a single call to a check.
 //!
-//! - [`text`]: any text parses, compiles or gets diagnostics, and prints canonically.
-//! - [`level`]: any text is a level of a valid game, or gets diagnostics.
+//! - [`text`]: any text either compiles or yields diagnostics, and prints canonically.
+//! - [`level`]: any text either is a level of a valid game or yields diagnostics.
 //! - [`play`]: any actions on any valid game and level leave a sound state behind, tick after tick.
 
 use crate::any_game::any_game;
@@ -18,21 +18,21 @@ use engine::{
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// The coverage of a check.
+/// A check's coverage.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seen {
     /// The number of ticks played.
     pub ticks: usize,
     /// The number of pairs of distinct states with equal search keys whose futures were compared.
     pub merged: usize,
-    /// The executed effects, one bit per effect, in the order of [`EFFECTS`].
+    /// The executed effects, one bit per effect, in [`EFFECTS`] order.
     pub effects: u64,
-    /// The classes of the sprites that were present, one bit per class, in the order of [`SpriteClass::ALL`].
+    /// The classes of the sprites present, one bit per class, in [`SpriteClass::ALL`] order.
     pub classes: u64,
 }
 
 impl Seen {
-    /// Adds the coverage of another check.
+    /// Adds another check's coverage.
     pub fn and(self, other: Seen) -> Seen {
         Seen {
             ticks: self.ticks + other.ticks,
@@ -43,7 +43,7 @@ impl Seen {
     }
 }
 
-/// The corpus games: the text of each, and the texts of its levels.
+/// The corpus games: each game's text, and its levels' texts.
 static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     let folders = workspace_root().join("corpora").read_dir().expect("the corpus can be read");
     let mut folders: Vec<_> = folders.map(|entry| entry.expect("the corpus can be read").path()).collect();
@@ -56,8 +56,8 @@ static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     folders.iter().map(load).collect()
 });
 
-/// Checks a text as a game. Any text must parse and compile, strictly and as in the reference. Problems must be reported in
-/// diagnostics that point into the text, and a text without problems must print canonically.
+/// Checks a text as a game. Parsing and compiling any text, strictly and as in the reference, must not fail other than
+/// by diagnostics. Diagnostics must point into the text, and a text without problems must print canonically.
 pub fn text(bytes: &[u8]) {
     let source = String::from_utf8_lossy(bytes);
     let (description, problems) = syntax::parse(&source);
@@ -87,7 +87,8 @@ pub fn text(bytes: &[u8]) {
     }
 }
 
-/// Checks that spans are in the text and split no character, and that problems are sorted by position and have messages.
+/// Checks that spans are within the text and on character boundaries, and that problems are sorted by position and have
+/// messages.
 fn check_diagnostics(source: &str, problems: &[Diagnostic]) {
     for Diagnostic { code, message, span, severity, .. } in problems {
         let Span { start, end } = *span;
@@ -98,7 +99,7 @@ fn check_diagnostics(source: &str, problems: &[Diagnostic]) {
     assert!(problems.is_sorted_by_key(|problem| problem.span), "sorted by place: {problems:?}");
 }
 
-/// Checks that printing and parsing are inverse, that printing again changes nothing, and that no comment is lost.
+/// Checks that parsing inverts printing, that printing is idempotent, and that comments are preserved.
 fn check_print(source: &str, description: &Description) {
     let printed = syntax::print(description);
     if printed.len() > engine::MAX_SOURCE {
@@ -111,7 +112,7 @@ fn check_print(source: &str, description: &Description) {
     assert_eq!(comments(&printed), comments(source));
 }
 
-/// Returns the comments in a text, sorted because sections may be reordered.
+/// Returns the comments in a text, sorted, because sections may be reordered.
 fn comments(text: &str) -> Vec<&str> {
     let lines = text.split(['\n', '\r']).filter_map(|line| line.split_once('#'));
     let mut comments: Vec<&str> = lines.map(|(_, comment)| comment.trim()).collect();
@@ -165,8 +166,8 @@ fn bare(mut description: Description) -> Description {
     description
 }
 
-/// Checks bytes as a level. Any bytes must be a level of a valid game, or be rejected with reasons. A level must print as itself
-/// and be playable.
+/// Checks bytes as a level. Any bytes must be a level of a valid game, or be rejected with reasons. A level must print
+/// unchanged and be playable.
 pub fn level(bytes: &[u8]) -> Seen {
     let mut choices = Choices::new(bytes);
     let which = choices.below(2 * CORPUS.len());
@@ -199,8 +200,8 @@ pub fn level(bytes: &[u8]) -> Seen {
     seen
 }
 
-/// Checks arbitrary actions in a valid game. After every tick, the state must be sound. Episodes must replay, nothing may follow
-/// the end, and states with equal search keys must have equal futures.
+/// Checks arbitrary actions in a valid game. After every tick, the state must be sound. Episodes must replay, nothing
+/// may happen after the end, and states with equal search keys must have equal futures.
 pub fn play(bytes: &[u8]) -> Seen {
     let mut choices = Choices::new(bytes);
     let seed = Seed::from_text("play").child("chance", u64::from(choices.from_end()));
@@ -227,18 +228,18 @@ pub fn play(bytes: &[u8]) -> Seen {
 const EPISODE: usize = 24;
 /// The number of walks from states already seen.
 const WAYS: usize = 24;
-/// The maximum number of ticks in a walk.
+/// The maximum number of ticks per walk.
 const WAY: usize = 4;
-/// The number of pairs of states with equal search keys that are played further.
+/// The number of state pairs with equal search keys to play further.
 const TWINS: usize = 4;
-/// The number of ticks for which such a pair of states is played further.
+/// The number of ticks to play such a state pair further.
 const FUTURE: usize = 50;
-/// The work limit of a check, for all ticks together and including the work of checking sprites.
+/// The work limit of a check, over all ticks and including the work of checking sprites.
 const COST: usize = 300_000;
-/// The work of checking one sprite.
+/// The work of checking a single sprite.
 const CHECK: usize = 8;
 
-/// A walk through the states of one level, each step of which is checked.
+/// A walk through one level's states, with a check after each step.
 struct Walk<'g> {
     game: &'g Game,
     level: &'g Level,
@@ -249,7 +250,7 @@ struct Walk<'g> {
     seen: Seen,
 }
 
-/// An observer that records the executed effects and the work of a step.
+/// An observer that records a step's executed effects and work.
 struct Executed<'g> {
     description: &'g Description,
     effects: u64,
@@ -297,7 +298,7 @@ impl<'g> Walk<'g> {
     }
 
     /// Plays and checks one tick. A copy of the state taken before the tick must stay unchanged, and a second copy must
-    /// evolve equally.
+    /// evolve identically.
     fn step(&mut self, state: &mut State, action: Action) {
         let before = state.clone();
         let (hash, over) = (state.state_hash(), state.is_over());
@@ -322,7 +323,7 @@ impl<'g> Walk<'g> {
         assert_eq!((copy.outcome(), copy.score()), (state.outcome(), state.score()));
     }
 
-    /// Checks that a state restored from its packed form is unchanged and evolves equally.
+    /// Checks that a state restored from its packed form is unchanged and evolves identically.
     fn check_packing(&mut self, state: &State, base: &State) {
         let mut unpacked = base.clone();
         unpacked.unpack_from(&state.pack(base), base);
@@ -339,7 +340,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Checks that incrementally maintained values equal recomputed values.
+    /// Checks that incrementally maintained values match recomputed values.
     fn check(&mut self, state: &State) {
         assert_eq!(state.state_hash(), state.state_hash_from_scratch(), "tick {}", state.tick());
         let counts =
@@ -355,7 +356,7 @@ impl<'g> Walk<'g> {
         assert!(!self.game.actions(state).is_empty());
     }
 
-    /// Plays an episode, which must replay bit for bit.
+    /// Plays an episode and checks that it replays bit for bit.
     fn episode(&mut self, choices: &mut Choices<'_>) {
         let (mut episode, mut state) = Episode::begin(self.game, self.level, self.seed);
         self.check(&state);
@@ -381,8 +382,8 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Takes many short walks from states already reached. If two walks lead to states with equal search keys but
-    /// different histories, both states are played further, side by side.
+    /// Takes many short walks from visited states. If two walks lead to states with equal search keys but different
+    /// histories, plays both states further, side by side.
     fn explore(&mut self, choices: &mut Choices<'_>) {
         let start = self.start();
         let mut reached = vec![start.clone()];
@@ -428,10 +429,10 @@ impl<'g> Walk<'g> {
     }
 
     /// Checks that states with equal keys still have equal keys, outcomes and gains after the same actions. If nothing
-    /// draws random numbers, the random state is not part of the key and must not matter either.
+    /// draws random numbers, the random state is not part of the key, and must not matter.
     ///
-    /// If an `abstraction` is given, its keys are compared. If the abstraction leaves out the tick, the later state may
-    /// lose for that reason.
+    /// If an `abstraction` is given, its keys are compared. If the abstraction omits the tick, the later state may lose
+    /// for that reason.
     fn compare_futures(
         &mut self,
         one: &State,

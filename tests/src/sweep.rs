@@ -1,8 +1,8 @@
-//! The size and the seeds of randomised tests.
+//! The sizes and seeds of randomised tests.
 //!
 //! An ordinary run uses a tenth of the cases, with fixed seeds. `cargo xtask sweep` uses all cases, with a fresh seed,
-//! which it puts into [`VARIABLE`] and prints. Tests that call [`many_cases`] multiply the number of cases by the value
-//! of [`TIMES`].
+//! which it stores in [`VARIABLE`] and prints. Tests that call [`many_cases`] multiply the number of cases by
+//! [`TIMES`].
 
 use base::Seed;
 
@@ -12,7 +12,7 @@ pub const VARIABLE: &str = "ARCADE_SWEEP";
 /// The environment variable that contains the factor for [`many_cases`].
 pub const TIMES: &str = "ARCADE_SWEEP_TIMES";
 
-/// Returns the number of [`cases`], multiplied by the value of [`TIMES`] in a sweep.
+/// Returns the number of [`cases`], multiplied by [`TIMES`] in a sweep.
 ///
 /// # Panics
 ///
@@ -27,7 +27,7 @@ pub fn cases(full: usize) -> usize {
     if fresh().is_some() { full } else { full.div_ceil(10) }
 }
 
-/// Returns the seed of a randomised test, which is the same in every ordinary run and different in every sweep.
+/// Returns the seed for a randomised test: the same in every ordinary run, and different in every sweep.
 pub fn seed(purpose: &str) -> Seed {
     match fresh() {
         Some(text) => Seed::from_text(&text).child(purpose, 0),
@@ -35,7 +35,7 @@ pub fn seed(purpose: &str) -> Seed {
     }
 }
 
-/// Returns `true` in a sweep.
+/// Returns `true` during a sweep.
 pub fn is_full() -> bool {
     fresh().is_some()
 }

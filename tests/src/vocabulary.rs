@@ -1,14 +1,14 @@
-//! The kinds of values of VGDL's parameters, and example values. Most of these values are realistic, and some
-//! are extreme.
+//! The kinds of VGDL parameter values, with example values. Most example values are realistic, and some are
+//! extreme.
 
 use crate::choices::Choices;
 
 /// The kind of a sprite parameter's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ValueKind {
-    /// A whole number.
+    /// An integer.
     Int,
-    /// A number of ticks, which is rarely 0.
+    /// A number of ticks, rarely 0.
     Ticks,
     /// A real number.
     Number,
@@ -16,25 +16,25 @@ pub enum ValueKind {
     Probability,
     /// A size in cells.
     Size,
-    /// The word `True` or `False`.
+    /// The value `True` or `False`.
     Flag,
     /// A direction.
     Direction,
-    /// The word `GRID` or `CONT`.
+    /// The value `GRID` or `CONT`.
     Physics,
-    /// The name of a colour.
+    /// A colour name.
     Color,
-    /// The name of a sprite type.
+    /// A sprite type name.
     Sprite,
     /// The names of sprite types.
     Sprites,
-    /// A text without meaning for the rules.
+    /// Text without meaning for the rules.
     Text,
-    /// A value that the class fixes, so that any other value is an error.
+    /// A value fixed by the class, so that any other value is an error.
     Fixed,
 }
 
-/// Returns the kind of a sprite parameter, or `None` if there is no such parameter.
+/// Returns a sprite parameter's kind, or `None` if the parameter does not exist.
 pub fn sprite_parameter(key: &str) -> Option<ValueKind> {
     Some(match key {
         "cooldown" | "timeToLive" | "cons" | "age" | "limit" | "total" => ValueKind::Ticks,
@@ -70,14 +70,14 @@ pub fn sprite_parameter(key: &str) -> Option<ValueKind> {
     })
 }
 
-/// Returns a whole number. One number in eight is extreme.
+/// Returns an integer. One result in eight is extreme.
 pub fn int(choices: &mut Choices<'_>) -> i32 {
     const TAME: [i32; 12] = [0, 1, 2, 3, 4, 5, 6, 8, 10, -1, -2, 20];
     const WILD: [i32; 6] = [i32::MAX, i32::MIN, i32::MAX - 1, -1000, 1_000_000, 1 << 16];
     if choices.once_in(8) { choices.pick(&WILD) } else { choices.pick(&TAME) }
 }
 
-/// Returns a number of ticks, which may be too large to matter in a short episode.
+/// Returns a number of ticks, possibly too large to matter in a short episode.
 pub fn ticks(choices: &mut Choices<'_>) -> i32 {
     if choices.once_in(8) { int(choices) } else { choices.below(8) as i32 + 1 }
 }
@@ -89,7 +89,7 @@ pub fn number(choices: &mut Choices<'_>) -> &'static str {
     if choices.once_in(8) { choices.pick(&WILD) } else { choices.pick(&TAME) }
 }
 
-/// Returns a probability, which is rarely invalid.
+/// Returns a probability, rarely an invalid one.
 pub fn probability(choices: &mut Choices<'_>) -> &'static str {
     choices.pick(&["1", "0.5", "0.1", "0.9", "0", "1.0", "0.3", "2"])
 }

@@ -1,7 +1,7 @@
-//! The budget of a validation: a number of forward-model calls, divided among the criteria.
+//! A validation budget: a number of forward-model calls, divided among the criteria.
 //!
 //! Minting does not need such a budget, because its recipe limits each criterion separately. A designer sets one
-//! number and wants an answer after about that much work, whatever the game.
+//! number and expects an answer after about that much work, regardless of the game.
 
 use crate::measures::LadderConfig;
 use crate::thresholds::CheckedCriteria;
@@ -9,20 +9,20 @@ use agents::PortfolioConfig;
 use base::Seed;
 use engine::{Action, Game, Level, Meeting, Watch};
 
-/// The maximum work of a tick, in the units of `engine`, at which a call still counts as one call.
+/// The maximum work per tick, in the units of `engine`, at which a call still counts as one call.
 const USUAL_WORK: u64 = 4096;
-/// The number of ticks that are played to estimate the work per tick of a level.
+/// The number of ticks to play when estimating a level's work per tick.
 const SAMPLED_TICKS: u64 = 16;
 
-/// The forward-model calls for each level, and for the game over all its levels, to divide among the criteria.
+/// The forward-model calls to divide among the criteria, for each level and for the game as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Allowance {
     calls: u64,
-    /// The number of calls that one call counts as. It is more than one if ticks are unusually heavy.
+    /// The number of calls counted per call. More than one if ticks are unusually expensive.
     weight: u64,
 }
 
-/// A counter that adds up the work of ticks.
+/// A counter that sums the work of ticks.
 struct WorkCounter(u64);
 
 impl Watch for WorkCounter {
@@ -36,8 +36,8 @@ impl Watch for WorkCounter {
 }
 
 impl Allowance {
-    /// Returns the allowance for the given levels. The allowance is smaller if the ticks of one of them are unusually
-    /// heavy. Cost: some ticks of each level.
+    /// Returns the allowance for the given levels. The allowance is smaller if the ticks on any level are unusually
+    /// expensive. Costs a few ticks on each level.
     pub(crate) fn of<'a>(calls: u64, game: &Game, levels: impl IntoIterator<Item = &'a Level>) -> Allowance {
         let weight_of = |level: &Level| {
             let mut state = game.start(level, Seed::from_text("weigh"));
@@ -60,32 +60,32 @@ impl Allowance {
     }
 }
 
-/// The effort of a panel.
+/// A panel's effort.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// All episodes and searches of the criteria. Reports use this effort.
+    /// All of the criteria's episodes and searches. Used for reports.
     Full,
-    /// Like [`Effort::Full`], except that players of `skill` stop as soon as the answer is practically certain.
-    /// Minting uses this effort, because it has many candidates.
+    /// Like [`Effort::Full`], except that `skill` stops its players as soon as the answer is practically certain. Used
+    /// for minting, which judges many candidates.
     Sequential,
-    /// A number of forward-model calls for each level, and for the game over all its levels, divided among all
-    /// criteria. All criteria together take up to about eight times this number, and at least the minimum for an
-    /// answer. Work that does not fit is stopped, and its answer is unknown. A tick with unusually much work counts as
-    /// several calls.
+    /// A number of forward-model calls for each level, and for the game as a whole, divided among all criteria. All
+    /// criteria together take up to about eight times this number, and at least the minimum for an answer. Work beyond
+    /// the limit is stopped, and its answer is unknown. An unusually expensive tick counts as several calls.
     Calls(u64),
 }
 
-/// The criteria, and the budgets of their judges for some levels.
+/// The criteria, and their judges' budgets for some levels.
 #[derive(Clone, Copy)]
 pub(crate) struct Setting<'a> {
-    /// The criteria. For numbers that the allowance limits, use the methods instead of this field.
+    /// The criteria. For numbers limited by the allowance, use the methods instead of this field.
     pub(crate) criteria: &'a CheckedCriteria,
     allowance: Option<Allowance>,
     is_sequential: bool,
 }
 
 impl<'a> Setting<'a> {
-    /// Returns the setting for judging the given levels. Cost: some ticks of each level if the calls are limited.
+    /// Returns the setting for judging the given levels. Costs a few ticks on each level if the number of calls is
+    /// limited.
     pub(crate) fn new(
         criteria: &'a CheckedCriteria,
         effort: Effort,
@@ -104,33 +104,33 @@ impl<'a> Setting<'a> {
         self.allowance.map_or(full, |allowance| allowance.share(times, of, 1).min(full))
     }
 
-    /// Returns the number of ticks of one episode in which the player does nothing.
+    /// Returns the number of ticks per idle episode.
     pub(crate) fn idle_ticks(&self) -> usize {
         self.allowance.map_or(usize::MAX, |allowance| allowance.share(1, 16, 500) as usize)
     }
 
-    /// Returns the number of ticks of one episode of random actions.
+    /// Returns the number of ticks per episode of random actions.
     pub(crate) fn random_ticks(&self) -> usize {
         self.allowance.map_or(usize::MAX, |allowance| allowance.share(1, 80, 250) as usize)
     }
 
-    /// Returns the number of forward-model calls to survive the first ticks, for each random seed.
+    /// Returns the number of forward-model calls to spend on surviving the first ticks, per random seed.
     pub(crate) fn early_calls(&self) -> u64 {
         let seeds = u64::from(self.criteria.early_seeds);
         self.bounded(self.criteria.early_calls, [1, 2 * seeds])
     }
 
-    /// Returns the configuration of the search for a win.
+    /// Returns the configuration of the win search.
     pub(crate) fn search(&self) -> PortfolioConfig {
         PortfolioConfig { budget: self.bounded(self.criteria.budget, [1, 1]), ..self.criteria.search() }
     }
 
-    /// Returns the players of the ladder.
+    /// Returns the ladder's players.
     pub(crate) fn players(&self) -> LadderConfig {
         LadderConfig { calls: self.bounded(self.criteria.ladder_calls, [5, 3]), ..self.criteria.players() }
     }
 
-    /// Returns the number of forward-model calls of one episode of the ladder.
+    /// Returns the number of forward-model calls per ladder episode.
     pub(crate) fn ladder_play_calls(&self) -> u64 {
         self.bounded(u64::MAX, [2, self.criteria.players().round_plays()])
     }
@@ -140,12 +140,12 @@ impl<'a> Setting<'a> {
         self.is_sequential
     }
 
-    /// Returns the number of ticks per level of the random walks that look for rules that were never executed.
+    /// Returns the number of ticks per level for random walks that look for rules that were never executed.
     pub(crate) fn exploration(&self) -> u64 {
         self.bounded(u64::MAX, [1, 3])
     }
 
-    /// Returns the total number of forward-model calls for the ablation of all rules, if limited.
+    /// Returns the total number of forward-model calls for ablating all rules, if limited.
     pub(crate) fn ablation_calls(&self) -> Option<u64> {
         self.allowance.map(|allowance| allowance.share(4, 1, 1))
     }

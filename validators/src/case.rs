@@ -3,10 +3,10 @@
 use base::SeedPath;
 use engine::{Analysis, Episode, Game, Level};
 
-/// A level to judge, with the seed to use.
+/// A level to judge, with the seed.
 #[derive(Clone, Copy)]
 pub struct Case<'a> {
-    /// The game of the level.
+    /// The level's game.
     pub game: &'a Game,
     /// The level to judge.
     pub level: &'a Level,

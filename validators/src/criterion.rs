@@ -1,4 +1,4 @@
-//! The names of criteria, and sets of them.
+//! The names of criteria, and criterion sets.
 
 use base::SeedPath;
 use serde::de::Error;
@@ -6,8 +6,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::str::FromStr;
 
-/// Calls the macro `$with` with the table of all criteria, in the order of checking. A row has the variant of
-/// [`Criterion`], its name, its [`Stage`] or its subject ([`About`]), its [`Cost`], and the module of its judge.
+/// Calls the macro `$with` with the table of all criteria, in checking order. A row lists the variant of [`Criterion`],
+/// its name, its [`Stage`] or its subject ([`About`]), its [`Cost`], and the module of its judge.
 macro_rules! every_criterion {
     ($with:ident) => {
         $with! {
@@ -41,7 +41,7 @@ macro_rules! every_criterion {
 }
 pub(crate) use every_criterion;
 
-/// The assumptions of a criterion of levels.
+/// A level criterion's assumptions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
     /// The criterion does not depend on play, or its failure is the reason for skipping other criteria.
@@ -52,32 +52,31 @@ pub(crate) enum Stage {
     Search,
     /// The criterion examines the win.
     Win,
-    /// The criterion lets a ladder of players play, which may win although no search did. It is skipped on a level that
-    /// nobody can win.
+    /// The criterion uses a player ladder, which may win although no search did. Skipped on unwinnable levels.
     Ladder,
 }
 
-/// The subject of a criterion of games.
+/// The subject of a game criterion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum About {
     /// The players.
     Players,
-    /// Winning play. Levels without a known win are left out.
+    /// Winning play. Levels without a known win are skipped.
     Play,
-    /// The rules. Doubts about the rules may be due to a level that nobody can win.
+    /// The rules. Doubts about the rules may be due to an unwinnable level.
     Rules,
 }
 
-/// The cost of an answer, from lowest to highest.
+/// The cost of a verdict, from lowest to highest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cost {
     /// An inspection of the rules, the level or a known win.
     Reading,
-    /// Episodes of players that do not look ahead.
+    /// Episodes by players that do not look ahead.
     Plays,
-    /// Searches through the states of the game.
+    /// Searches through the game's states.
     Search,
-    /// Episodes of a ladder of players.
+    /// Episodes by a ladder of players.
     Ladder,
 }
 
@@ -88,7 +87,7 @@ macro_rules! define {
         games { $($game:ident = $game_name:literal, $about:ident, $game_cost:ident, $game_module:ident;)* }
         gates { $($gate:ident = $gate_name:literal, $gate_cost:ident, $gate_module:ident;)* }
     ) => {
-        /// A criterion of a level, or of a game over all its levels. Criteria are ordered as they are checked.
+        /// A criterion for a level, or for a game as a whole. Criteria are in checking order.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Criterion {
             $(#[doc = concat!("`", $level_name, "`, of a level.")] $level,)*
@@ -97,16 +96,16 @@ macro_rules! define {
         }
 
         impl CriterionSet {
-            /// The criteria of a level.
+            /// The level criteria.
             pub const LEVEL: CriterionSet = CriterionSet::of(&[$(Criterion::$level),*]);
-            /// The criteria of a game over all its levels, except gates.
+            /// The game criteria, except gates.
             pub const GAME: CriterionSet = CriterionSet::of(&[$(Criterion::$game),*]);
-            /// The gates: criteria of a game that measure what people observe in play.
+            /// The gates: game criteria that measure what people observe in play.
             pub const GATES: CriterionSet = CriterionSet::of(&[$(Criterion::$gate),*]);
         }
 
         impl Criterion {
-            /// All criteria, in the order of checking.
+            /// All criteria, in checking order.
             pub const ALL: &[Criterion] =
                 &[$(Criterion::$level,)* $(Criterion::$game,)* $(Criterion::$gate,)*];
 
@@ -119,7 +118,7 @@ macro_rules! define {
                 }
             }
 
-            /// Returns the cost of an answer.
+            /// Returns a verdict's cost.
             pub fn cost(self) -> Cost {
                 match self {
                     $(Criterion::$level => Cost::$level_cost,)*
@@ -134,17 +133,17 @@ macro_rules! define {
 every_criterion!(define);
 
 impl Criterion {
-    /// Returns the seed for the judge of this criterion of a level, given the seed of the panel.
+    /// Returns the seed for this level criterion's judge, given the panel's seed.
     pub fn seed(self, panel: &SeedPath) -> SeedPath {
         panel.child(self.name(), 0)
     }
 
-    /// Returns `true` for a criterion of a level.
+    /// Returns `true` for a level criterion.
     pub fn of_level(self) -> bool {
         CriterionSet::LEVEL.contains(self)
     }
 
-    /// Returns `true` for a criterion of a game over all its levels, gates included.
+    /// Returns `true` for a game criterion, including gates.
     pub fn of_game(self) -> bool {
         !self.of_level()
     }
@@ -195,12 +194,12 @@ impl<'de> Deserialize<'de> for Criterion {
     }
 }
 
-/// A set of criteria, in the order of checking.
+/// A set of criteria, in checking order.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct CriterionSet(u32);
 
 impl CriterionSet {
-    /// Returns the set of the given criteria.
+    /// Returns the set with the given criteria.
     pub const fn of(criteria: &[Criterion]) -> CriterionSet {
         let (mut bits, mut at) = (0, 0);
         while at < criteria.len() {
@@ -225,7 +224,7 @@ impl CriterionSet {
         self.0 == 0
     }
 
-    /// Returns the set with all criteria of `others` added.
+    /// Returns the set with all criteria in `others` added.
     #[must_use]
     pub const fn with(self, others: CriterionSet) -> CriterionSet {
         CriterionSet(self.0 | others.0)
@@ -237,13 +236,13 @@ impl CriterionSet {
         CriterionSet(self.0 & others.0)
     }
 
-    /// Returns the set without the criteria of `others`.
+    /// Returns the set without the criteria in `others`.
     #[must_use]
     pub const fn without(self, others: CriterionSet) -> CriterionSet {
         CriterionSet(self.0 & !others.0)
     }
 
-    /// Returns the criteria, in the order of checking.
+    /// Returns the criteria, in checking order.
     pub fn iter(self) -> impl Iterator<Item = Criterion> {
         Criterion::ALL.iter().copied().filter(move |&criterion| self.contains(criterion))
     }

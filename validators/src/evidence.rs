@@ -1,4 +1,4 @@
-//! The observations of a validator: a sentence with its tick, cell, line and board, and advice.
+//! A validator's observations. Each is a sentence with optional advice and its tick, cell, line and board.
 
 use crate::explain::board::Board;
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine};
@@ -6,21 +6,21 @@ use engine::{Game, Span};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// One observation of a validator.
+/// One observation by a validator.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
-    /// The observation in words.
+    /// The observation, as text.
     pub text: String,
     /// The tick of the observation. The first tick is 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tick: Option<usize>,
-    /// The cell as column and row, counted from 1 at the upper left.
+    /// The cell, as column and row, counted from 1 at the upper left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cell: Option<(usize, usize)>,
-    /// The line of the game file that the observation refers to.
+    /// The line of the game file to which the observation refers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<Line>,
-    /// The board at that moment.
+    /// The board at the time of the observation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub board: Option<Board>,
     /// Advice to the designer.
@@ -34,13 +34,13 @@ impl Evidence {
         Evidence { text: text.into(), ..Evidence::default() }
     }
 
-    /// Adds the line that the observation refers to.
+    /// Adds the line to which the observation refers.
     #[must_use]
     pub fn of_rule(self, rule: Line) -> Evidence {
         Evidence { rule: Some(rule), ..self }
     }
 
-    /// Adds advice to the evidence.
+    /// Adds advice.
     #[must_use]
     pub fn advise(self, advice: impl Into<String>) -> Evidence {
         Evidence { advice: Some(advice.into()), ..self }
@@ -50,12 +50,12 @@ impl Evidence {
 /// A line of a game file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Line {
-    /// The text of the line, in canonical spelling.
+    /// The line's text, in canonical spelling.
     pub text: String,
-    /// The line's position in the source text. It is empty for games that were built instead of parsed.
+    /// The line's position in the source text; empty for games that were built rather than parsed.
     #[serde(skip)]
     pub span: Span,
-    /// The number of the line in the source text, counted from 1. A caller that has the text fills in this field.
+    /// The line number in the source text, counted from 1. To be filled in by callers that have the source text.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
 }
@@ -81,7 +81,7 @@ impl Line {
         Line::new(with_params(class.text.clone(), params), class.span)
     }
 
-    /// Returns the line of the SpriteSet that declares a type; `None` for a type that exists without a declaration.
+    /// Returns the SpriteSet line that declares a type; `None` for types that exist without a declaration.
     pub fn sprite(game: &Game, name: &str) -> Option<Line> {
         let lines = game.description().sprite_lines();
         let (_, line) = lines.into_iter().find(|(_, line)| line.name.text == name)?;
@@ -90,7 +90,7 @@ impl Line {
         Some(Line::new(with_params(format!("{} >{class}", name.text), params), name.span))
     }
 
-    /// Returns the line of the LevelMapping for a character; `None` for a character that is mapped by default.
+    /// Returns the LevelMapping line for a character; `None` for characters mapped by default.
     pub fn mapping(game: &Game, symbol: char) -> Option<Line> {
         let line = game.description().mapping.iter().find(|line| line.symbol == symbol)?;
         let names: Vec<&str> = line.names.iter().map(|name| name.text.as_str()).collect();

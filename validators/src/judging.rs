@@ -1,4 +1,4 @@
-//! The requests to a panel.
+//! Requests to a panel.
 
 use crate::report::{Judgement, Report};
 use agents::Stopped;
@@ -9,28 +9,28 @@ use engine::{Episode, Game, Level};
 pub struct Judging<'a, S> {
     /// The subject to judge.
     pub subject: S,
-    /// The source of all randomness of the judges.
+    /// The source of all of the judges' randomness.
     pub seed: SeedPath,
-    /// `true` to stop after the first unmet criterion and to explain no failures. Minting uses this setting, because
-    /// it has many candidates.
+    /// `true` to stop after the first unmet criterion, without explaining failures. Used for minting, which judges
+    /// many candidates.
     pub stop_at_first: bool,
-    /// The receiver of each judgement on the level, or on the game over all its levels.
+    /// The receiver of each judgement on the level, or on the game as a whole.
     pub observer: Option<Observer<'a>>,
 }
 
 /// A receiver of judgements that can cancel the judging.
 pub struct Observer<'a> {
-    /// Receives each judgement when it is made, and again if it changes later. The judging ends if the receiver
+    /// Receives each judgement as soon as it is made, and again if it changes later. The judging ends if the receiver
     /// returns `false`.
     pub hear: &'a mut (dyn FnMut(&Judgement) -> bool + 'a),
-    /// Cancels the judging. Once it returns `true`, the judging ends soon. The last judgement is then meaningless, and
-    /// is not passed to `hear`.
+    /// Cancels the judging: once this function returns `true`, the judging ends soon. The last judgement is then
+    /// meaningless, and is not passed to `hear`.
     pub stopped: Stopped<'a>,
 }
 
 /// A level to judge.
 pub struct LevelSubject<'a> {
-    /// The game of the level.
+    /// The level's game.
     pub game: &'a Game,
     /// The level to judge.
     pub level: &'a Level,
@@ -46,18 +46,18 @@ pub struct GameSubject<'a> {
     pub levels: &'a [Level],
 }
 
-/// A game over all its levels, each of which has been judged alone.
+/// A game to be judged as a whole, after each level has been judged alone.
 pub struct TogetherSubject<'a> {
     /// The game to judge.
     pub game: &'a Game,
     /// The game's levels, in order.
     pub levels: &'a [Level],
-    /// The findings on each level.
+    /// The findings about each level.
     pub reports: &'a [Report],
 }
 
 impl<'a> Judging<'_, LevelSubject<'a>> {
-    /// Creates the request to judge a level by the criteria for levels.
+    /// Creates a request to judge a level by the level criteria.
     pub fn level(game: &'a Game, level: &'a Level, seed: impl Into<SeedPath>) -> Self {
         Judging::of(LevelSubject { game, level, witness: None }, seed)
     }
@@ -71,14 +71,14 @@ impl<'a> Judging<'_, LevelSubject<'a>> {
 }
 
 impl<'a> Judging<'_, GameSubject<'a>> {
-    /// Creates the request to judge each level by the criteria for levels, and the game by the criteria for games.
+    /// Creates a request to judge each level by the level criteria, and the game by the game criteria.
     pub fn game(game: &'a Game, levels: &'a [Level], seed: impl Into<SeedPath>) -> Self {
         Judging::of(GameSubject { game, levels }, seed)
     }
 }
 
 impl<'a> Judging<'_, TogetherSubject<'a>> {
-    /// Creates the request to judge a game over all its levels by the criteria for games. Each level has its report.
+    /// Creates a request to judge a game as a whole by the game criteria. Each level has its report.
     pub fn together(
         game: &'a Game,
         levels: &'a [Level],
@@ -94,7 +94,7 @@ impl<'a, S> Judging<'a, S> {
         Judging { subject, seed: seed.into(), stop_at_first: false, observer: None }
     }
 
-    /// Makes the judging stop after the first unmet criterion.
+    /// Makes the judging stop at the first unmet criterion.
     #[must_use]
     pub fn until_failure(self) -> Self {
         Judging { stop_at_first: true, ..self }

@@ -18,16 +18,16 @@ use agents::Stopped;
 use engine::{Analysis, Episode, Level};
 use rayon::prelude::*;
 
-/// The judges of a set of criteria, which check the criteria from cheapest to most expensive.
+/// The judges for a set of criteria. The criteria are checked from cheapest to most expensive.
 #[derive(Clone, Debug)]
 pub struct Panel {
     criteria: CheckedCriteria,
     effort: Effort,
 }
 
-/// The message for criteria that are skipped on an unwinnable level.
+/// The message for criteria skipped on an unwinnable level.
 const UNWINNABLE: &str = "skipped: the level cannot be won";
-/// The message for criteria that are skipped because the game stops in its first tick.
+/// The message for criteria skipped because the game stops in its first tick.
 const STOPPED: &str = "skipped: the game stops in its first tick";
 
 impl Panel {
@@ -36,7 +36,7 @@ impl Panel {
         Panel { criteria, effort }
     }
 
-    /// Judges a level, a game with its levels, or a game over levels that have already been judged.
+    /// Judges a level, a game with its levels, or a game as a whole whose levels have already been judged.
     pub fn judge<S: Subject>(&self, judging: Judging<'_, S>) -> S::Findings {
         S::judged_by(self, judging)
     }
@@ -195,7 +195,7 @@ impl Panel {
     }
 }
 
-/// A subject of a [`Panel`].
+/// A subject for a [`Panel`].
 pub trait Subject: Sized + sealed::Sealed {
     /// The findings about the subject.
     type Findings;
@@ -235,14 +235,14 @@ impl Subject for TogetherSubject<'_> {
     }
 }
 
-/// Returns the finding for a criterion that is skipped for a reason.
+/// Returns the finding for a criterion skipped for the given reason.
 fn skipped(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
-/// Returns the reason why a verdict on the rules should not count; `None` if it should. The verdict may be only a
-/// consequence of levels that cannot be won or are over in their first tick. It is meaningless if all levels are like
-/// that.
+/// Returns the reason why a verdict on the rules should not count, if any. The verdict may merely be a consequence of
+/// levels that are unwinnable or over in their first tick. The verdict is meaningless if all levels are unwinnable or
+/// over.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());

@@ -1,45 +1,45 @@
-//! The interactions that the recorded episodes of a game execute, and the types that occur in them.
+//! The interactions executed in a game's recorded episodes, and the types that occur in them.
 
 use crate::report::Report;
 use base::Seed;
 use engine::{Action, Episode, Game, Level, Meeting, Outcome, Watch};
 use rayon::prelude::*;
 
-/// A level with the episodes that its validators played, from most to least informative.
+/// A level with the episodes played by its validators, from most to least informative.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded<'a> {
-    /// The level of the recording.
+    /// The recorded level.
     pub level: &'a Level,
     /// The recorded episodes.
     pub episodes: &'a [Episode],
 }
 
-/// An execution of an interaction in a recording.
+/// An execution of an interaction within a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Use {
     pub(crate) level: usize,
     pub(crate) episode: usize,
-    /// The tick of the episode in which the line is first executed, counted from 0.
+    /// The tick in the episode in which the line is first executed, counted from 0.
     pub(crate) tick: usize,
 }
 
-/// The interactions and types that a recording shows.
+/// The interactions and types that occur in a recording.
 #[derive(Clone, Debug)]
 pub(crate) struct Usage {
     /// For each interaction line, the first executions in some episodes, alternating between levels.
     pub(crate) lines: Vec<Vec<Use>>,
-    /// For each type, `true` if a sprite of the type was present or held.
+    /// For each type, `true` if a sprite of the type was present, or the type was held as a resource.
     pub(crate) types: Vec<bool>,
-    /// `true` if at least one episode of every level is won.
+    /// `true` if at least one episode is won on every level.
     pub(crate) won: bool,
     /// The number of episodes replayed, followed by their total ticks.
     pub(crate) episodes: usize,
     pub(crate) ticks: u64,
 }
 
-/// The maximum number of episodes to keep per interaction.
+/// The maximum number of episodes to store per interaction.
 const USES: usize = 24;
-/// The maximum number of ticks of a level's episodes to replay. The most informative episodes come first.
+/// The maximum number of ticks to replay from a level's episodes. The most informative episodes come first.
 const TICKS: u64 = 100_000;
 
 struct MeetingRecorder<'a> {
@@ -73,13 +73,13 @@ impl Usage {
         Usage { lines, types: vec![false; game.sprite_types().count()], won: true, episodes: 0, ticks: 0 }
     }
 
-    /// Replays the recording. Cost: that of the episodes, at most 100,000 ticks per level.
+    /// Replays the recording. Costs the episodes, at most 100,000 ticks per level.
     pub(crate) fn of(game: &Game, recording: &[Recorded<'_>]) -> Usage {
         Usage::within(game, recording, TICKS)
     }
 
     /// Replays the recording like [`Usage::of`], with about `most` ticks per level. The episode that exceeds the limit
-    /// is the last one replayed.
+    /// is the last to be replayed.
     pub(crate) fn within(game: &Game, recording: &[Recorded<'_>], most: u64) -> Usage {
         let most = most.min(TICKS);
         let numbered: Vec<(usize, &Recorded<'_>)> = recording.iter().enumerate().collect();
@@ -135,22 +135,22 @@ impl Usage {
     }
 }
 
-/// Returns, for each interaction line, the level and the episode of up to 24 recorded executions, each in a different
-/// episode. The effect of a rule can be looked for in these episodes. Cost: that of the episodes, with at most 100,000
-/// ticks per level.
+/// Returns, for each interaction line, the level and episode of up to 24 recorded executions, each in a different
+/// episode. A rule's effect can be examined in these episodes. Costs the episodes, with at most 100,000 ticks per
+/// level.
 pub fn executions(game: &Game, recording: &[Recorded<'_>]) -> Vec<Vec<[usize; 2]>> {
     let places = |uses: Vec<Use>| uses.iter().map(|at| [at.level, at.episode]).collect();
     Usage::of(game, recording).lines.into_iter().map(places).collect()
 }
 
-/// The maximum number of random walks on each level, if some rule was never executed.
+/// The maximum number of random walks per level, if any rule was never executed.
 const MAX_WALKS: u64 = 400;
-/// The number of random actions of a walk.
+/// The number of random actions per walk.
 const WALK_TICKS: usize = 40;
 
-/// Looks for executions of interactions that a recording does not show, by random walks from random moments of the
-/// episodes of each level. Each level takes up to `most` ticks and one more walk. Returns, for each level, the ordinary
-/// episodes that show new executions.
+/// Searches for executions of interactions missing from a recording, by random walks from random moments in each
+/// level's episodes. Uses up to `most` ticks and one more walk per level. Returns, for each level, new ordinary
+/// episodes with these executions.
 pub(crate) fn explore(
     game: &Game,
     recording: &[Recorded<'_>],
@@ -175,7 +175,7 @@ pub(crate) fn explore(
     numbered.par_iter().map(of_level).collect()
 }
 
-/// Takes a random walk and marks the new interactions that the walk shows. Returns the episode up to the last new
+/// Takes a random walk and marks the new interactions executed in it. Returns the episode up to the last new
 /// interaction.
 fn random_walk(
     game: &Game,
@@ -227,8 +227,7 @@ fn random_walk(
     Some(episode)
 }
 
-/// Returns the episodes of each level, and random walks of at most `most` ticks per level if some rule was never
-/// executed.
+/// Returns each level's episodes, plus random walks of at most `most` ticks per level if any rule was never executed.
 pub(crate) fn record(
     game: &Game,
     levels: &[Level],

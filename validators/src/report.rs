@@ -1,4 +1,4 @@
-//! The findings of a panel.
+//! A panel's findings.
 
 use crate::criterion::Criterion;
 use crate::measures::Ladder;
@@ -6,14 +6,14 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use serde::Serialize;
 
-/// The message for criteria that are skipped because the game is won or lost in its first tick, regardless of the
-/// player's actions.
+/// The message for criteria skipped because the game is won or lost in its first tick, regardless of the player's
+/// actions.
 pub(crate) const OVER: &str = "skipped: the game is over in its first tick";
 
-/// The finding of one validator.
+/// One validator's finding.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judgement {
-    /// The criterion that was judged.
+    /// The judged criterion.
     pub criterion: Criterion,
     /// The finding of the criterion's validator.
     #[serde(flatten)]
@@ -23,7 +23,7 @@ pub struct Judgement {
 /// The findings of all validators on a level.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
-    /// The judgements in the order of checking.
+    /// The judgements, in checking order.
     pub judgements: Vec<Judgement>,
     /// The shortest win found.
     #[serde(skip)]
@@ -41,18 +41,18 @@ impl Report {
         self.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass())
     }
 
-    /// Returns the finding of a criterion; `None` if the criterion was not checked.
+    /// Returns the finding for a criterion; `None` if the criterion was not checked.
     pub fn finding(&self, criterion: Criterion) -> Option<&Finding> {
         let judgement = self.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
         Some(&judgement.finding)
     }
 
-    /// Returns the results of the ladder; `None` if no ladder was played.
+    /// Returns the ladder's results; `None` if no ladder was played.
     pub fn ladder(&self) -> Option<&Ladder> {
         self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
     }
 
-    /// Returns `true` if it is proved that the level cannot be won.
+    /// Returns `true` if the level is proved unwinnable.
     pub(crate) fn is_unwinnable(&self) -> bool {
         self.finding(Criterion::Winnable)
             .is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
@@ -71,7 +71,7 @@ impl Report {
         first.any(|seen| seen.text == OVER)
     }
 
-    /// Takes over the witness of a judgement. If the search found no win, a win by a different player serves as well.
+    /// Adopts a judgement's witness. If the search found no win, uses another player's win instead.
     pub(crate) fn accept(&mut self, judgement: &mut Judgement) {
         if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
             judgement.finding.verdict = Verdict::Pass { witness: Some(won) };
@@ -87,8 +87,8 @@ impl Report {
         won.min_by_key(|episode| episode.actions.len()).cloned()
     }
 
-    /// Returns all episodes that the validators played, from most to least informative. The witness comes first, then
-    /// the episodes of the last validators.
+    /// Returns all episodes played by the validators, from most to least informative: first the witness, and then the
+    /// episodes of the last validators.
     pub fn episodes(&self) -> Vec<Episode> {
         let played = self.judgements.iter().rev().flat_map(|judgement| {
             let shown = match &judgement.finding.verdict {
@@ -101,12 +101,12 @@ impl Report {
     }
 }
 
-/// The findings of all validators on a game: on each level, and on all levels together.
+/// The findings of all validators on a game: on each level, and on the game as a whole.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GameReport {
-    /// The reports in the order of the levels.
+    /// The reports, in level order.
     pub levels: Vec<Report>,
-    /// The judgements in the order of checking.
+    /// The judgements, in checking order.
     pub judgements: Vec<Judgement>,
 }
 
@@ -116,7 +116,7 @@ impl GameReport {
         self.levels.iter().all(Report::passes) && self.game_passes()
     }
 
-    /// Returns `true` if the game meets the criteria on all levels together.
+    /// Returns `true` if the game as a whole meets the criteria.
     pub fn game_passes(&self) -> bool {
         self.judgements.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }

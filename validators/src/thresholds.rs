@@ -87,13 +87,13 @@ fn names(names: &[&str]) -> Vec<String> {
     names.iter().map(|&name| name.to_owned()).collect()
 }
 
-/// A problem with the values of a set of criteria.
+/// A problem with the values in a set of criteria.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{key}` {message}")]
 pub struct CriteriaError {
-    /// The key of the value.
+    /// The value's key.
     pub key: &'static str,
-    /// The requirement that the value does not meet.
+    /// The unmet requirement.
     pub message: String,
 }
 
@@ -103,14 +103,14 @@ fn wrong<T>(key: &'static str, message: impl Into<String>) -> Result<T, Criteria
 }
 
 impl Criteria {
-    /// Returns the criteria for a single game, including those that minting leaves out. `skill-overall` is not
-    /// included, because it may fail a good game only because the game is too hard.
+    /// Returns the criteria for a single game, including criteria not used by minting. `skill-overall` is not included,
+    /// because it may fail a good game merely for being too hard.
     pub fn full() -> Criteria {
         let all = Criteria::of_generated_games();
         Criteria { ask: all.ask.without(CriterionSet::of(&[Criterion::SkillOverall])), ..all }
     }
 
-    /// Returns the configuration of the search for a win.
+    /// Returns the configuration of the win search.
     pub fn search(&self) -> PortfolioConfig {
         PortfolioConfig {
             budget: self.budget,
@@ -122,7 +122,7 @@ impl Criteria {
         }
     }
 
-    /// Returns all criteria for the levels and games of generators, which have many candidates.
+    /// Returns all criteria for generated levels and games, of which there are many candidates.
     pub fn of_generated_games() -> Criteria {
         Criteria { ask: CriterionSet::LEVEL.with(CriterionSet::GAME), ..Criteria::default() }
     }
@@ -219,13 +219,13 @@ impl Deref for CheckedCriteria {
 }
 
 impl CheckedCriteria {
-    /// Returns the criteria that are in the set.
+    /// Returns the criteria in the set.
     #[must_use]
     pub fn only(&self, set: CriterionSet) -> CheckedCriteria {
         self.asking(self.ask.only(set))
     }
 
-    /// Returns the criteria that are not in the set.
+    /// Returns the criteria not in the set.
     #[must_use]
     pub fn without(&self, set: CriterionSet) -> CheckedCriteria {
         self.asking(self.ask.without(set))
@@ -251,7 +251,7 @@ impl CheckedCriteria {
         CheckedCriteria { criteria: Criteria { gates, ..self.criteria.clone() }, ..self.clone() }
     }
 
-    /// Returns the players of the ladder.
+    /// Returns the ladder's players.
     pub fn players(&self) -> LadderConfig {
         LadderConfig {
             rungs: self.rungs.clone(),

@@ -1,4 +1,4 @@
-//! The traits of judges.
+//! The judge traits.
 
 use crate::case::Case;
 use crate::criterion::{About, Criterion, Stage};
@@ -10,9 +10,9 @@ use agents::Stopped;
 use base::Seed;
 use engine::{Analysis, Game};
 
-/// The judge of a criterion of levels.
+/// The judge for a level criterion.
 pub trait Validator: Sync {
-    /// Judges the case. The same case gives the same answer on any number of threads.
+    /// Judges the case. The same case gives the same result on any number of threads.
     fn validate(&self, case: Case<'_>) -> Finding;
 
     /// Judges the case like [`Validator::validate`], but can be cancelled. Once `stopped` returns `true`, the call
@@ -30,27 +30,27 @@ pub(crate) struct GameCase<'a> {
     pub(crate) game: &'a Game,
     /// The analysis of the game's rules.
     pub(crate) analysis: &'a Analysis,
-    /// The game's levels with the episodes that their validators played.
+    /// The game's levels, with the episodes played by their validators.
     pub(crate) recording: &'a [Recorded<'a>],
-    /// The ladder results of each level; `None` for a level without a played ladder.
+    /// Each level's ladder results; `None` for a level without a played ladder.
     pub(crate) ladders: &'a [Option<&'a Ladder>],
-    /// The rules and types that the recorded episodes show.
+    /// The rules and types that occur in the recorded episodes.
     pub(crate) usage: &'a Usage,
-    /// The episodes of careless players, which the gates share.
+    /// The careless players' episodes, shared by the gates.
     pub(crate) careless: &'a CarelessPlays<'a>,
     /// The source of the validator's own randomness.
     pub(crate) seed: Seed,
 }
 
-/// The judge of a criterion of a game over all its levels.
+/// The judge for a game criterion.
 pub(crate) trait GameValidator: Sync {
-    /// Returns `true` if the judge needs to know which rules the recording executes. If no judge needs this, the
-    /// recording is not replayed, and no random walks look for executions of the other rules.
+    /// Returns `true` if the judge needs to know which rules the recording executes. If no judge does, the recording
+    /// is not replayed, and no random walks search for executions of the remaining rules.
     fn asks_for_usage(&self) -> bool {
         false
     }
 
-    /// Judges the case. The same case gives the same answer on any number of threads.
+    /// Judges the case. The same case gives the same result on any number of threads.
     fn validate(&self, case: GameCase<'_>) -> Finding;
 
     /// Judges the case like [`GameValidator::validate`], but can be cancelled. Once `stopped` returns `true`, the call
@@ -61,14 +61,14 @@ pub(crate) trait GameValidator: Sync {
     }
 }
 
-/// A criterion of levels with its judge.
+/// A level criterion with its judge.
 pub(crate) struct LevelJudge {
     pub(crate) criterion: Criterion,
     pub(crate) stage: Stage,
     pub(crate) validator: Box<dyn Validator + Send>,
 }
 
-/// A criterion of games with its judge.
+/// A game criterion with its judge.
 pub(crate) struct GameJudge {
     pub(crate) criterion: Criterion,
     pub(crate) about: About,

@@ -1,38 +1,38 @@
-//! The result of a validator.
+//! A validator's result.
 
 use crate::evidence::Evidence;
 use crate::measures::ladder::{Ladder, Rate};
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// A verdict, with the observations and measurements behind it.
+/// A verdict, and the observations and measurements behind it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// The verdict of the validator.
+    /// The validator's verdict.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// The win rate of the measured players; `None` if no player was measured.
+    /// The measured players' win rate; `None` if no player was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<Rate>,
-    /// The number of forward-model calls of a search, in addition to the calls of the measured episodes.
+    /// The number of forward-model calls made by a search, in addition to the measured episodes' calls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub searched: Option<u64>,
-    /// The number of ticks of the shortest win, if it is proved to be the shortest.
+    /// The number of ticks in the shortest win, if the win is proved to be the shortest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub optimal: Option<usize>,
-    /// The figure that a gate measures, for tables.
+    /// The figure measured by a gate, for tables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub figure: Option<f64>,
-    /// The names of the placed types that winning does not depend on, if `necessity` was checked.
+    /// The names of the placed types that are not needed to win, if `necessity` was checked.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub idle_types: Vec<String>,
-    /// The observations, in the order of the report.
+    /// The observations, in report order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub evidence: Vec<Evidence>,
-    /// The results of a ladder of players, if one was played.
+    /// A ladder's results, if a ladder was played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// The episodes played, which show the rules that are used.
+    /// The episodes played, which show the used rules.
     #[serde(skip)]
     pub episodes: Vec<Episode>,
 }
@@ -54,8 +54,8 @@ impl From<Verdict> for Finding {
 }
 
 impl Finding {
-    /// Returns the total number of forward-model calls of measured episodes, of searches, and of the players of a
-    /// ladder.
+    /// Returns the total number of forward-model calls in measured episodes, in searches, and by a ladder's
+    /// players.
     pub fn calls(&self) -> u64 {
         let ladder = self.ladder.iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out));
         let ladder: u64 = ladder.map(|result| result.rate.calls).sum();
@@ -68,14 +68,14 @@ impl Finding {
         Finding { measured: Some(rate), ..self }
     }
 
-    /// Adds evidence to the finding.
+    /// Adds evidence.
     #[must_use]
     pub fn seen(mut self, evidence: impl IntoIterator<Item = Evidence>) -> Finding {
         self.evidence.extend(evidence);
         self
     }
 
-    /// Adds episodes to the finding.
+    /// Adds episodes.
     #[must_use]
     pub fn played(mut self, episodes: impl IntoIterator<Item = Episode>) -> Finding {
         self.episodes.extend(episodes);
@@ -83,7 +83,7 @@ impl Finding {
     }
 }
 
-/// The answer of a validator.
+/// A validator's answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "verdict", rename_all = "lowercase")]
 pub enum Verdict {
@@ -119,7 +119,7 @@ impl Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: None }
     }
 
-    /// Returns a failure with an episode that demonstrates it.
+    /// Returns a failure with an episode that demonstrates the failure.
     pub fn fail_with(reason: impl Into<String>, witness: Episode) -> Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: Some(witness) }
     }
@@ -130,7 +130,7 @@ impl Verdict {
     }
 }
 
-/// The reason for a failure, in words that a designer can act on.
+/// The reason for a failure, worded so that a designer can act on it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Reason(pub String);

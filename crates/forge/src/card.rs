@@ -1,11 +1,11 @@
-//! `card.json`: the description of a game in a release, its origin, and the results of its judges.
+//! `card.json`: a released game's description, its origin, and its judges' results.
 
 use base::Digest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use validators::{Demand, Ladder, Rate, Tier};
 
-/// The origin of a game.
+/// A game's origin.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "from", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Origin {
@@ -16,7 +16,7 @@ pub enum Origin {
     },
     /// A game made by a rule generator.
     Generated {
-        /// The name of the generator.
+        /// The generator's name.
         generator: String,
         /// The kernel, its variants and the scene, each with its kind: `kernel/one-spark`.
         patterns: Vec<String>,
@@ -34,26 +34,26 @@ impl Origin {
         }
     }
 
-    /// Returns the kernel of a generated game.
+    /// Returns a generated game's kernel.
     pub fn kernel(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("kernel/"))
     }
 
-    /// Returns the form of the kernel of a generated game; `None` for the kernel itself.
+    /// Returns the form of a generated game's kernel; `None` for the kernel itself.
     pub fn form(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("form/"))
     }
 
-    /// Returns the scene of a generated game.
+    /// Returns a generated game's scene.
     pub fn scene(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))
     }
 
     /// Returns the kernel and variants of a generated game, without duplicates. For games of earlier generations,
-    /// returns the patterns except the theme or scene and the edits of search and shrinking.
+    /// returns all patterns except the theme or scene and the edits from search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
         let kept =
@@ -62,7 +62,7 @@ impl Origin {
     }
 }
 
-/// A level and the results of its judges.
+/// A level and its judges' results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelCard {
@@ -76,21 +76,21 @@ pub struct LevelCard {
     pub rows: usize,
     /// The name of the generator that made the level.
     pub generator: String,
-    /// The level's question to the player as one sentence, if it is a level of a course.
+    /// The level's question to the player as one sentence, if the level belongs to a course.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub asks: Option<String>,
-    /// The difficulty that was requested, from 0 to 1.
+    /// The requested difficulty, from 0 to 1.
     pub difficulty: f64,
     /// The index of the candidate among the candidates for the level's position in the game, from 0.
     pub candidate: u32,
     /// The number of ticks of the witness.
     pub witness_ticks: usize,
-    /// The score of the witness.
+    /// The witness's score.
     pub witness_score: f64,
     /// The number of ticks of the shortest win, if it is proved to be the shortest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub optimal_ticks: Option<usize>,
-    /// The number of forward-model calls of the search for the witness.
+    /// The number of forward-model calls spent on searching for the witness.
     #[serde(default)]
     pub search_calls: u64,
     /// The win rate of plain Monte Carlo tree search.
@@ -99,11 +99,10 @@ pub struct LevelCard {
     pub random: Rate,
     /// The win rate of players that do nothing.
     pub idle: Rate,
-    /// The results of the players of a ladder, and the difficulty derived from these results, if the recipe requests
-    /// `skill`.
+    /// The results of a ladder's players and the difficulty derived from them, if the recipe requests `skill`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// The demands that a win makes on a player, if the recipe requests tiers.
+    /// A win's demands on a player, if the recipe requests tiers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<Demand>,
     /// The tier derived from the demand.
@@ -115,28 +114,28 @@ pub struct LevelCard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Card {
-    /// The release's canary. Text that contains the canary should not be used for training.
+    /// The release's canary. Text that contains the canary should be excluded from training data.
     pub canary: String,
     /// The game's folder in `games/`.
     pub id: String,
-    /// The title in the game's own theme.
+    /// The title in the game's theme.
     pub title: String,
     /// A description for players.
     pub description: String,
-    /// The goal in words, for players.
+    /// The goal in plain English, for players.
     pub goal: String,
     /// The kind of game.
     pub kind: String,
-    /// `true` if anything moves even while the player does nothing.
+    /// `true` if sprites move even while the player does nothing.
     pub real_time: bool,
     /// `true` if the game has no randomness.
     pub deterministic: bool,
     /// The digest of the game's canonical text without comments.
     pub digest: Digest,
-    /// The origin of the game.
+    /// The game's origin.
     pub origin: Origin,
     /// The rules in plain English.
     pub rules: String,
-    /// The levels, ordered by the requested difficulty from easiest to hardest.
+    /// The levels, ordered by requested difficulty, from easiest to hardest.
     pub levels: Vec<LevelCard>,
 }

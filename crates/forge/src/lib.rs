@@ -1,10 +1,10 @@
-//! Games and levels on request, which are made as candidates and then judged.
+//! Games and levels on request, generated as candidates and then judged.
 //!
 //! `generators` proposes candidates and `validators` judges them. In this crate, a search requests candidates and
-//! learns from verdicts until an order is filled. [`levels::make_levels`] makes levels for one game, and
-//! [`games::make_games`] makes whole games. A release is minted from the same parts. The reports describe sets of
-//! levels or games, and a [`survey`] judges levels and games from anywhere. The [`well`] measures how many games a
-//! chain of months can invent.
+//! learns from verdicts until an order is filled. [`levels::make_levels`] generates levels for one game, and
+//! [`games::make_games`] generates whole games. Releases are minted from the same parts. The reports describe sets
+//! of levels or games, and a [`survey`] judges levels and games from anywhere. The [`well`] measures how many
+//! games a chain of months can invent.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 pub mod boards;

@@ -1,18 +1,19 @@
-//! The progress of making levels or games.
+//! The progress of generating levels or games.
 
 use crate::games::Kept;
 
-/// A receiver of progress, which can also return the results of an interrupted run. Several threads call it.
+/// A receiver of progress events, which can also return the results of an interrupted run. Must support
+/// calls from several threads.
 pub trait Progress: Sync {
-    /// Called when a candidate was looked at or judged.
+    /// Called after a candidate is evaluated or judged.
     fn looked(&self) {}
-    /// Called when a candidate was accepted: a game with this title, or the level with this number.
+    /// Called after a candidate is accepted: a game with this title, or the level with this number.
     fn made(&self, _what: &str) {}
-    /// Returns the result of an attempt from an interrupted run for the same games.
+    /// Returns an attempt's result from an interrupted run for the same games.
     fn kept(&self, _attempt: &str) -> Option<Kept> {
         None
     }
-    /// Stores the result of an attempt.
+    /// Stores an attempt's result.
     fn keep(&self, _attempt: &str, _result: &Kept) {}
 }
 

@@ -1,4 +1,4 @@
-//! The figures that reports on levels and on games share.
+//! The figures shared by the reports on levels and on games.
 
 use report::{Section, Share};
 use serde::Serialize;
@@ -25,7 +25,7 @@ pub(crate) fn obstacles<'a>(first: impl Iterator<Item = &'a Judgement>) -> BTree
     counted(first.map(|judgement| judgement.criterion.name()))
 }
 
-/// Counts how often each name occurs.
+/// Counts the occurrences of each name.
 pub(crate) fn counted<'a>(names: impl Iterator<Item = &'a str>) -> BTreeMap<String, u64> {
     let mut counts = BTreeMap::new();
     names.for_each(|name| *counts.entry(name.to_owned()).or_default() += 1);
@@ -41,7 +41,7 @@ pub(crate) struct PlayerRate {
 }
 
 impl PlayerRate {
-    /// Adds the players of some ladders to a section: the ladder players from weakest to strongest, then the
+    /// Adds the players of several ladders to a section: the ladder players from weakest to strongest, then the
     /// held-out players.
     pub(crate) fn add_all<'a>(section: Section, ladders: impl IntoIterator<Item = &'a Ladder>) -> Section {
         let mut players: Vec<PlayerRate> = Vec::new();
@@ -64,7 +64,8 @@ impl PlayerRate {
 }
 
 /// Returns Spearman's rank correlation between a player's position in the ladder and its result, by wins first and
-/// then by score. The correlation is 1 if every stronger player does better; `None` if all players do equally well.
+/// then by score. The correlation is 1 if every stronger player does better. Returns `None` if all players do
+/// equally well.
 pub(crate) fn in_order(fares: &[(f64, f64)]) -> Option<f64> {
     let worse = |own: &(f64, f64)| fares.iter().filter(|other| *other < own).count() as f64;
     let pairs: Vec<(f64, f64)> = fares.iter().enumerate().map(|(at, own)| (at as f64, worse(own))).collect();

@@ -1,14 +1,14 @@
-//! The common parts of the searches for levels and for games. The searches evaluate candidates on all threads, keep the
-//! best, and pick candidates that lie far apart in an archive.
+//! The common parts of the searches for levels and for games. Such a search evaluates candidates on all threads, stores
+//! the best, and picks candidates that are far apart in an archive.
 
 use base::Digest;
 use generators::{Archive, Evaluated, Evaluation, Search};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Runs a search for a number of candidates, `batch` at a time. The candidates are evaluated on all threads, and
-/// `evaluation_of` derives the evaluation that is reported to the search from each result. Returns `false` if the
-/// search runs out of proposals early.
+/// Runs a search for a number of candidates, `batch` at a time, and evaluates the candidates on all threads.
+/// `evaluation_of` derives the evaluation to report to the search from each result. Returns `false` if the search runs
+/// out of proposals early.
 pub(crate) fn run_search<S: Search<Candidate: Sync>, L: Send>(
     search: &mut S,
     (looks, batch): (usize, usize),
@@ -32,10 +32,10 @@ pub(crate) fn run_search<S: Search<Candidate: Sync>, L: Send>(
     true
 }
 
-/// The maximum number of candidates that are passed to the final judges after a search.
+/// The maximum number of candidates to pass to the final judges after a search.
 const FINALISTS: usize = 3;
 
-/// The best feasible candidates of a search, from best to worst.
+/// The best feasible candidates from a search, from best to worst.
 pub(crate) struct Finalists<C> {
     best: Vec<(C, Digest, f64)>,
 }
@@ -62,13 +62,13 @@ impl<C: Clone> Finalists<C> {
     }
 }
 
-/// An elite of an archive, with its cell and the cell's bins.
+/// An archive's elite, with its cell and the cell's bins.
 type Elite<'a, C> = (usize, Vec<usize>, &'a Evaluated<C>);
 
-/// Picks candidates of an archive that were not shown before, with their cells, spread as far apart as possible. Each
-/// step picks the candidate farthest from all cells that are taken or picked. Ties go to the better candidate, so the
-/// first pick is the best candidate if no cells are taken. Candidates near a taken or picked candidate are skipped, and
-/// may be picked later.
+/// Picks candidates from an archive that were not shown before, with their cells, spread as far apart as possible. Each
+/// step picks the candidate farthest from all taken or picked cells. Ties go to the better candidate, so the first pick
+/// is the best candidate if no cells are taken. Candidates near a taken or picked candidate are skipped, and may be
+/// picked later.
 pub(crate) fn spread<C: Clone>(
     archive: &Archive<C>,
     wanted: usize,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::Judgement;
 
-/// The candidates tried for one position or for a whole release, and the reasons why some of them failed.
+/// The candidates tried for one position or for a whole release, and the reasons for failures.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tally {
@@ -15,11 +15,12 @@ pub struct Tally {
     pub games_accepted: u64,
     /// The number of levels tried.
     pub levels_tried: u64,
-    /// The number of levels accepted, including those of games that failed later.
+    /// The number of levels accepted, including levels of games that failed later.
     pub levels_accepted: u64,
-    /// The number of forward-model calls of all judges.
+    /// The number of forward-model calls made by all judges.
     pub calls: u64,
-    /// The number of levels that met all criteria except the requested difficulty, but that no ladder player wins.
+    /// The number of levels that met all criteria except the requested difficulty, but were not won by any ladder
+    /// player.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub unbeaten: u64,
     /// The number of rejections by each criterion or generator.
@@ -29,7 +30,7 @@ pub struct Tally {
     pub judges: BTreeMap<String, JudgeCost>,
 }
 
-/// The cost of levels on request, for documents. Time is not included, because it differs from run to run.
+/// The cost of requested levels, for documents. Time is not included, because it differs from run to run.
 #[derive(Serialize)]
 struct LevelCost<'a> {
     looks: u64,
@@ -40,7 +41,7 @@ struct LevelCost<'a> {
     unbeaten: u64,
 }
 
-/// Returns `true` if the count is 0 and need not be written to a document.
+/// Returns `true` if the count is 0, and can be omitted from a document.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
 fn is_zero(count: &u64) -> bool {
     *count == 0
@@ -51,15 +52,15 @@ fn is_zero(count: &u64) -> bool {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JudgeCost {
-    /// The number of candidates that the judge judged.
+    /// The number of judged candidates.
     pub asked: u64,
-    /// The number of candidates that the judge rejected.
+    /// The number of rejected candidates.
     pub refused: u64,
-    /// The forward-model calls spent on levels and games that were accepted.
+    /// The forward-model calls spent on accepted levels and games.
     pub calls_accepted: u64,
-    /// The forward-model calls spent on candidates that this judge or a later judge rejected.
+    /// The forward-model calls spent on candidates rejected by this judge or a later one.
     pub calls_refused: u64,
-    /// The forward-model calls spent on accepted levels of games that were rejected.
+    /// The forward-model calls spent on accepted levels of rejected games.
     pub calls_lost: u64,
 }
 
@@ -82,13 +83,13 @@ impl JudgeCost {
 const LOOK: &str = "look";
 
 impl Tally {
-    /// Counts a game that passed.
+    /// Counts an accepted game.
     pub fn game_accepted(&mut self) {
         self.games_tried += 1;
         self.games_accepted += 1;
     }
 
-    /// Counts a game that failed, under its reason up to the first colon.
+    /// Counts a rejected game, under its reason up to the first colon.
     pub fn game_rejected(&mut self, why: &str) {
         self.games_tried += 1;
         // The text after the colon differs with every seed.
@@ -96,7 +97,7 @@ impl Tally {
         self.reject(kind);
     }
 
-    /// Counts a level that was judged.
+    /// Counts a judged level.
     pub(crate) fn level(&mut self, judgements: &[Judgement], obstacle: Option<&str>) {
         self.levels_tried += 1;
         self.judgements(judgements);
@@ -106,28 +107,28 @@ impl Tally {
         }
     }
 
-    /// Counts the reason for a rejection.
+    /// Counts a rejection under its reason.
     pub(crate) fn reject(&mut self, why: &str) {
         *self.rejections.entry(why.to_owned()).or_default() += 1;
     }
 
-    /// Counts a look of a search.
+    /// Counts a quick look made by a search.
     pub(crate) fn look(&mut self, is_feasible: bool, calls: u64) {
         self.judge(LOOK, is_feasible, calls);
     }
 
-    /// Returns the number of candidates that searches looked at.
+    /// Returns the number of candidates that searches evaluated.
     pub fn looks(&self) -> u64 {
         self.judges.get(LOOK).map_or(0, |look| look.asked)
     }
 
-    /// Returns the document on the cost of levels on request.
+    /// Returns the document on the cost of requested levels.
     pub fn level_cost(&self) -> impl Serialize + '_ {
         let Tally { levels_tried: judged, calls, unbeaten, ref rejections, .. } = *self;
         LevelCost { looks: self.looks(), judged, calls, rejections, unbeaten }
     }
 
-    /// Counts a level that could not be made.
+    /// Counts a level that could not be generated.
     pub(crate) fn no_level(&mut self, why: &str) {
         self.level(&[], Some(why));
     }
@@ -140,7 +141,7 @@ impl Tally {
         }
     }
 
-    /// Counts the cost of one answer of a judge.
+    /// Counts the cost of one verdict.
     pub(crate) fn judge(&mut self, judge: &str, is_met: bool, calls: u64) {
         self.calls += calls;
         let cost = self.judges.entry(judge.to_owned()).or_default();
@@ -149,7 +150,8 @@ impl Tally {
         cost.calls_accepted += calls;
     }
 
-    /// Adds the cost of `judge`. If `judge` accepts nothing, `refused` converts the cost before the addition.
+    /// Adds the cost of `judge`. If `judge` does not accept anything, `refused` converts the cost before the
+    /// addition.
     pub(crate) fn spend<T>(
         &mut self,
         refused: fn(Tally) -> Tally,
@@ -161,7 +163,7 @@ impl Tally {
         let_in
     }
 
-    /// Converts the counts to those of a level that was finally rejected.
+    /// Converts the counts for a level that was rejected in the end.
     #[must_use]
     pub(crate) fn of_refused(mut self) -> Tally {
         for cost in self.judges.values_mut() {
@@ -170,7 +172,7 @@ impl Tally {
         self
     }
 
-    /// Converts the counts to those of a game that was finally rejected.
+    /// Converts the counts for a game that was rejected in the end.
     #[must_use]
     pub(crate) fn of_lost(mut self) -> Tally {
         for cost in self.judges.values_mut() {
@@ -179,13 +181,13 @@ impl Tally {
         self
     }
 
-    /// Counts an accepted level as rejected.
+    /// Reclassifies an accepted level as rejected.
     pub(crate) fn level_taken_back(&mut self, why: &str) {
         self.levels_accepted -= 1;
         self.reject(why);
     }
 
-    /// Counts an accepted game as rejected.
+    /// Reclassifies an accepted game as rejected.
     pub(crate) fn taken_back(&mut self, why: &str) {
         self.games_accepted -= 1;
         self.reject(why);
@@ -207,7 +209,7 @@ impl Tally {
         }
     }
 
-    /// Returns the cost of the judges per one of the `made` games, from most to least expensive.
+    /// Returns the judges' cost per game, for `made` games, from most to least expensive.
     pub fn judges_table(&self, made: u64) -> Table {
         let columns = [
             "judge",
@@ -241,13 +243,13 @@ impl Tally {
         table
     }
 
-    /// Returns the rejections in words, from most to least frequent.
+    /// Returns the rejections as text, from most to least frequent.
     pub fn reasons(&self) -> String {
         reasons(&self.rejections)
     }
 }
 
-/// Returns the words for a reason. Records store a reason as the name of a criterion or as a few words.
+/// Returns the text for a reason. Records store a reason as a criterion name or as a short phrase.
 fn words(why: &str) -> String {
     match why {
         "less than an earlier level" => "easier than the level before".to_owned(),
@@ -260,7 +262,7 @@ fn words(why: &str) -> String {
     }
 }
 
-/// Returns rejections in words, from most to least frequent: `29 easier than the level before, 4 failed the re-check`.
+/// Returns rejections as text, from most to least frequent: `29 easier than the level before, 4 failed the re-check`.
 pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
     let mut told: BTreeMap<String, u64> = BTreeMap::new();
     for (why, count) in rejections {
@@ -276,7 +278,7 @@ pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
 mod tests {
     use super::*;
 
-    /// A number before the name of a criterion, such as `96 winnable`, would read as praise.
+    /// A number before a criterion name, such as `96 winnable`, would read as praise.
     #[test]
     fn rejections_are_sentences() {
         let counts = [

@@ -1,4 +1,4 @@
-//! The error type of the crate. Errors concern operations, never a VGDL file.
+//! The crate's error type. Errors concern operations, and never a VGDL file.
 
 use base::MessagePath;
 use std::io;
@@ -17,9 +17,9 @@ pub enum SnapshotError {
     Io {
         /// The failed operation as a verb, as in "cannot read".
         action: &'static str,
-        /// The path of the failed operation.
+        /// The path on which the operation failed.
         path: PathBuf,
-        /// The error of the operating system.
+        /// The operating system's error.
         source: io::Error,
     },
     /// The output path is occupied.
@@ -28,10 +28,10 @@ pub enum SnapshotError {
     /// A parent folder of the output path is a file.
     #[error("`{}` cannot be created: a folder above it is a file; choose another --out", .0.in_message())]
     BelowFile(PathBuf),
-    /// A folder that ends with `.partial` was not left by a killed run.
+    /// A folder ending with `.partial` was not left by a killed run.
     #[error("`{}` was not made by arcade: choose another --out or move it away", .0.in_message())]
     Foreign(PathBuf),
-    /// The output path holds the work of an interrupted run.
+    /// The output path contains the work of an interrupted run.
     #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove it to start over", .0.in_message())]
     Interrupted(PathBuf),
     /// The finished jobs belong to a different mint.
@@ -47,12 +47,12 @@ pub enum SnapshotError {
     /// A file of a shard differs from the shard's list.
     #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.in_message())]
     Altered(PathBuf),
-    /// A file that should hold the secret of a sealed release does not.
+    /// A file that should contain a sealed release's secret does not.
     #[error("`{}` is not the secret of a sealed release: {source}", .path.in_message())]
     NotASecret {
-        /// The file that holds no secret.
+        /// The file without a secret.
         path: PathBuf,
-        /// The error of parsing the secret.
+        /// The error from parsing the secret.
         source: serde_json::Error,
     },
     /// The secret was not drawn by arcade.
@@ -62,30 +62,30 @@ pub enum SnapshotError {
     WeakSecret {
         /// The file with the invalid secret.
         path: PathBuf,
-        /// The fault of the secret.
+        /// The problem with the secret.
         what: String,
     },
-    /// Another process is writing to the output path.
+    /// A different process is writing to the output path.
     #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.in_message())]
     Busy(PathBuf),
     /// The output path ends in `..` or `.` or is the root of the file system.
     #[error("`{}` does not end in a folder name: specify the folder to create, as in --out releases/new", .0.in_message())]
     Nameless(PathBuf),
-    /// A release may not contain this relative path.
+    /// The relative path is not allowed in a release.
     #[error("`{}` cannot be in a snapshot: {problem}; rename it", path.escape_debug())]
     Path {
         /// The path as stated.
         path: String,
-        /// The rule that it violates.
+        /// The rule that the path violates.
         problem: PathProblem,
     },
-    /// A symbolic link. A release has only files and folders.
+    /// A symbolic link. Releases contain only files and folders.
     #[error("`{}` is a symbolic link, and links are not followed: replace it with the file", .0.in_message())]
     Link(PathBuf),
     /// A folder, pipe or device where a file should be, or a file where a folder should be.
     #[error("`{}` is not a {expected}: fetch the snapshot again", .path.in_message())]
     ReleaseKind {
-        /// The path of the entry.
+        /// The entry's path.
         path: PathBuf,
         /// The expected kind of entry: "file" or "folder".
         expected: &'static str,
@@ -93,7 +93,7 @@ pub enum SnapshotError {
     /// A file exceeds the size limit.
     #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.in_message())]
     TooLarge {
-        /// The file that is too large.
+        /// The oversized file.
         path: PathBuf,
         /// The limit, in bytes.
         limit: u64,
@@ -101,7 +101,7 @@ pub enum SnapshotError {
     /// The folder has no manifest, or the file is not an archive.
     #[error("`{}` has no MANIFEST.json: pass a snapshot folder or its .tar.zst", .0.in_message())]
     NotASnapshot(PathBuf),
-    /// A file was given, but a folder is needed.
+    /// A file was given, but a folder is required.
     #[error("`{}` is not a folder: pass the snapshot's folder; unpack an archive first, for example with tar \
              -xf", .0.in_message())]
     NotAFolder(PathBuf),
@@ -111,18 +111,18 @@ pub enum SnapshotError {
         .0.in_message(), finished(.0)
     )]
     Unfinished(PathBuf),
-    /// The manifest's format is newer than every format that this binary knows.
+    /// The manifest's format is newer than every format supported by this binary.
     #[error("snapshot format {found} is newer than this arcade understands ({known}): use a newer arcade")]
     Format {
-        /// The format that the manifest states.
+        /// The format stated in the manifest.
         found: u64,
-        /// The newest format that this binary reads.
+        /// The newest format supported by this binary.
         known: u32,
     },
-    /// The manifest is not JSON, or not JSON of this shape.
+    /// The manifest is not JSON, or is not JSON with the expected structure.
     #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.in_message())]
     Syntax {
-        /// The path of the manifest.
+        /// The manifest's path.
         path: PathBuf,
         /// The position of the error, and the expected content.
         source: serde_json::Error,
@@ -130,12 +130,12 @@ pub enum SnapshotError {
     /// The manifest contradicts itself or its limits.
     #[error("`{}` is not a valid manifest: {message}", .path.in_message())]
     Manifest {
-        /// The path of the manifest.
+        /// The manifest's path.
         path: PathBuf,
-        /// The fault, with the name of the item.
+        /// The problem, with the item's name.
         message: String,
     },
-    /// A folder that is searched for releases contains too many entries.
+    /// A folder being searched for releases contains too many entries.
     #[error("`{}` contains more than {limit} files and folders: pass the releases one by one", .path.in_message())]
     Crowded {
         /// The folder with too many entries.
@@ -143,28 +143,28 @@ pub enum SnapshotError {
         /// The maximum number of entries.
         limit: usize,
     },
-    /// A folder that is searched for releases contains none.
+    /// A folder being searched for releases does not contain a release.
     #[error("`{}` contains no release: pass a snapshot folder, its .tar.zst, or a folder that contains these", .0.in_message())]
     NoRelease(PathBuf),
-    /// An archive that is damaged before its manifest can be read.
+    /// An archive is damaged so early that its manifest cannot be read.
     #[error("`{}` is not a valid archive: {message}", .path.in_message())]
     Archive {
         /// The path of the damaged archive.
         path: PathBuf,
-        /// The fault of the archive.
+        /// The problem with the archive.
         message: String,
     },
-    /// A file to be written exists.
+    /// A file to be written already exists.
     #[error("`{}` exists: choose another --out", .0.in_message())]
     Taken(PathBuf),
-    /// A release does not hold what its manifest says, but a sound one is required.
+    /// A sound release is required, but a release does not match its manifest.
     #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.in_message())]
     Unsound {
         /// The path of the unsound release.
         path: PathBuf,
         /// The release's first problem.
         first: String,
-        /// The number of further problems.
+        /// The number of additional problems.
         more: usize,
     },
     /// A file changed between two accesses.
@@ -181,8 +181,8 @@ pub enum SnapshotError {
     DuplicatePath(#[from] DuplicatePath),
 }
 
-/// Returns the final name of an unfinished folder, or of the unfinished folder that contains the path, for
-/// messages.
+/// Returns, for messages, the final name of an unfinished folder: the path itself or the unfinished folder that
+/// contains it.
 fn finished(unfinished: &Path) -> String {
     let draft = unfinished.ancestors().find(|folder| folder.extension().is_some_and(|end| end == "partial"));
     draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").in_message().to_string())
@@ -194,7 +194,7 @@ impl SnapshotError {
         move |source| SnapshotError::Io { action, path: path.to_path_buf(), source }
     }
 
-    /// Returns the same error with `place` as the path of the manifest, because a manifest is parsed from bytes
+    /// Returns the same error with `place` as the path of the manifest, because manifests are parsed from bytes
     /// without a path.
     pub(crate) fn in_manifest(self, place: &Path) -> SnapshotError {
         let path = place.to_path_buf();

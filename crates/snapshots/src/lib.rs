@@ -1,10 +1,11 @@
-//! Releases: minted from a recipe, frozen into a folder, read without trust, and reproduced from their seed.
+//! Releases: minted from a recipe, frozen into a folder, read without trusting them, and reproduced from their seed.
 //!
-//! A release folder holds files and one `MANIFEST.json`. The [`Manifest`] lists every file with its size and
+//! A release folder contains files and one `MANIFEST.json`. The [`Manifest`] lists every file with its size and
 //! [`Digest`], and states the root of a [`merkle`] tree over the files. A single file can therefore be proved without
 //! the rest, and each release can state the root of its predecessor. A [`Draft`] writes a folder that is either
-//! complete or absent. [`check_integrity`] reads a folder and reports every [`Problem`] at once. [`archive`] packs it
-//! into one file, [`proof`] proves a file or a game of it, and [`chain`] follows the roots from release to release.
+//! complete or absent. [`check_integrity`] reads a folder and reports every [`Problem`] together. [`archive`] packs a
+//! release into one file, [`proof`] proves one of its files or games, and [`chain`] follows the roots from release to
+//! release.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -1,4 +1,4 @@
-//! The parsed games of a verified release, which exports and comparisons take as input.
+//! The parsed games of a verified release: the input for exports and comparisons.
 
 use crate::Digest;
 use crate::check::{Verification, verify};
@@ -18,50 +18,50 @@ use std::path::Path;
 /// A verified release, with its games parsed.
 #[derive(Clone, Debug)]
 pub struct Released {
-    /// The manifest of the release.
+    /// The release's manifest.
     pub manifest: Manifest,
-    /// The games, sorted by the bytes of their folders' names.
+    /// The games, sorted by the bytes of their folder names.
     pub games: Vec<ReleasedGame>,
-    /// The reference results, if the release has any that are not withheld and whose format is known.
+    /// The reference results, if the release contains them in a known format and they are not withheld.
     pub marks: Option<Marks>,
 }
 
-/// A game of a release.
+/// A game in a release.
 #[derive(Clone, Debug)]
 pub struct ReleasedGame {
-    /// The card, which holds the game's description and the results of its judges.
+    /// The card, with the game's description and its judges' results.
     pub card: Card,
-    /// The text as released.
+    /// The text, as released.
     pub source: String,
-    /// The compiled game of the released text.
+    /// The game compiled from the released text.
     pub game: Game,
-    /// The levels, in the order of the card.
+    /// The levels, in card order.
     pub levels: Vec<ReleasedLevel>,
-    /// The sibling that a coin withheld, if it exists and was revealed.
+    /// The sibling withheld by a coin, if it exists and was revealed.
     pub sibling: Option<ReleasedSibling>,
 }
 
-/// The sibling of a game, which has the same rules and levels under different names.
+/// A game's sibling: the same rules and levels under different names.
 #[derive(Clone, Debug)]
 pub struct ReleasedSibling {
-    /// The text as released.
+    /// The text, as released.
     pub source: String,
-    /// The compiled game of the sibling's text.
+    /// The game compiled from the sibling's text.
     pub game: Game,
     /// The levels, with their texts as released.
     pub levels: Vec<(String, Level)>,
 }
 
-/// A level of a release.
+/// A level in a release.
 #[derive(Clone, Debug)]
 pub struct ReleasedLevel {
-    /// The text as released.
+    /// The text, as released.
     pub text: String,
     /// The level, parsed from its text.
     pub level: Level,
-    /// An episode that wins the level, if the release holds one.
+    /// A winning episode, if the release contains one.
     pub witness: Option<Episode>,
-    /// The win that a coin withheld, if it exists and was revealed.
+    /// The win withheld by a coin, if it exists and was revealed.
     pub second: Option<Episode>,
 }
 
@@ -82,7 +82,7 @@ pub enum ReleasedError {
     /// The path is not a release, or cannot be read.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
-    /// The release does not verify.
+    /// The release failed verification.
     #[error("{} does not verify: {}", .0.name, .0.problems.first().map_or("", String::as_str))]
     Unsound(Box<Verification>),
     /// A file changed between verification and reading.
@@ -93,7 +93,7 @@ pub enum ReleasedError {
 impl Released {
     /// Verifies the release at `root`, a folder or an archive, and reads it.
     ///
-    /// Cost: that of [`verify()`], plus a second pass over the files.
+    /// Cost: one [`verify()`], plus a second pass over the files.
     ///
     /// # Errors
     /// Returns an error if the release does not verify or cannot be read.

@@ -3,19 +3,19 @@
 use super::idiom::Idiom;
 use engine::SpriteType;
 
-/// The demand of the last slot of a course.
+/// The demand of a course's last slot.
 pub(crate) const MAX_DEMAND: u8 = 4;
 
 /// The request for a board: its demand on the player, and its contents.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BoardBrief {
-    /// The slot of the course, from 0 to 4: introduce, confirm, combine, twist, exam. The slot determines the size of
-    /// the board and the numbers of things.
+    /// The slot in the course, from 0 to 4: introduce, confirm, combine, twist, exam. The slot determines the board
+    /// size and the numbers of sprites.
     pub demand: u8,
     /// The minimum and maximum numbers of sprites of some types. All other numbers follow from the rules and the
     /// demand.
     pub counts: Vec<(SpriteType, (usize, usize))>,
-    /// The idioms of types for which the caller has better information than [`Idiom::of`].
+    /// The idioms of types about which the caller has better information than [`Idiom::of`].
     pub idioms: Vec<(SpriteType, Idiom)>,
     /// The types that the board must not contain.
     pub without: Vec<SpriteType>,
@@ -24,7 +24,7 @@ pub struct BoardBrief {
 }
 
 impl BoardBrief {
-    /// Creates a request with the usual contents for a slot from 0 to 4.
+    /// Creates a request with the default contents for a slot from 0 to 4.
     pub fn of_demand(demand: u8) -> BoardBrief {
         BoardBrief { demand: demand.min(MAX_DEMAND), ..BoardBrief::default() }
     }

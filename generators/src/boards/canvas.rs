@@ -1,65 +1,65 @@
-//! The walls of a board while its plan is drawn.
+//! A board's walls while its plan is being drawn.
 
 use crate::levels::grid::{FAR, Grid};
 use base::Sampler;
 
-/// A line that divides a board, and the gaps in the line. Neither consists of walls yet.
+/// A line that divides a board, and the gaps in the line. The line does not consist of walls yet.
 #[derive(Clone, Debug)]
 pub(crate) struct Divider {
-    /// The cells of the line in order, including gaps.
+    /// The line's cells in order, including gaps.
     pub(crate) line: Vec<usize>,
     pub(crate) gaps: Vec<Vec<usize>>,
 }
 
-/// The walls of a board while its plan is drawn.
+/// A board's walls while its plan is being drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Canvas {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
     pub(crate) dividers: Vec<Divider>,
-    /// The floor in or around the landmark, for the most important things.
+    /// The floor in or around the landmark, for the most important sprites.
     pub(crate) marks: Vec<usize>,
 }
 
 impl Canvas {
-    /// Creates a canvas with open floor within a ring of walls.
+    /// Creates a canvas with open floor inside a ring of walls.
     pub(crate) fn new(columns: usize, rows: usize) -> Canvas {
         let grid = Grid { columns, rows };
         let wall = (0..grid.len()).map(|cell| grid.on_border(cell)).collect();
         Canvas { grid, wall, dividers: Vec::new(), marks: Vec::new() }
     }
 
-    /// Returns the width of the floor. The floor has the columns from 1 to this width.
+    /// Returns the width of the floor. The floor covers the columns from 1 to this width.
     pub(crate) fn width(&self) -> usize {
         self.grid.columns - 2
     }
 
-    /// Returns the height of the floor. The floor has the rows from 1 to this height.
+    /// Returns the height of the floor. The floor covers the rows from 1 to this height.
     pub(crate) fn height(&self) -> usize {
         self.grid.rows - 2
     }
 
-    /// Turns the part of a rectangle that lies on the board into walls.
+    /// Turns the on-board part of a rectangle into walls.
     pub(crate) fn fill(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = true;
         }
     }
 
-    /// Turns the part of a rectangle that lies within the border into floor.
+    /// Turns the part of a rectangle inside the border into floor.
     pub(crate) fn clear(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = self.grid.on_border(cell);
         }
     }
 
-    /// Marks the floor of a rectangle as part of the landmark.
+    /// Marks a rectangle's floor as part of the landmark.
     pub(crate) fn mark(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         let cells = self.cells((x, y), size);
         self.marks.extend(cells.into_iter().filter(|&cell| !self.grid.on_border(cell)));
     }
 
-    /// Returns the cells of a rectangle that lie on the board, row by row.
+    /// Returns a rectangle's on-board cells, row by row.
     pub(crate) fn cells(&self, (x, y): (usize, usize), size: (usize, usize)) -> Vec<usize> {
         if x >= self.grid.columns || y >= self.grid.rows {
             return Vec::new();
@@ -89,7 +89,8 @@ impl Canvas {
         cells
     }
 
-    /// Adds a divider with `gaps` gaps, each one or two cells wide, on straight stretches and apart from each other.
+    /// Adds a divider with `gaps` gaps, each one or two cells wide, on straight stretches and separated from each
+    /// other.
     pub(crate) fn divide(&mut self, line: Vec<usize>, gaps: usize, sampler: &mut Sampler) {
         let is_straight = |at: usize| {
             at > 0
@@ -108,8 +109,8 @@ impl Canvas {
         self.dividers.push(Divider { line, gaps });
     }
 
-    /// Returns the image under a symmetry: bit 0 mirrors left and right, bit 1 mirrors up and down, bit 2 swaps columns
-    /// and rows.
+    /// Returns the canvas transformed by a symmetry: bit 0 mirrors left and right, bit 1 mirrors up and down, bit 2
+    /// swaps columns and rows.
     pub(crate) fn turned(self, symmetry: usize) -> Canvas {
         let grid = self.grid;
         let image = match symmetry & 4 {
@@ -155,7 +156,7 @@ impl Canvas {
         }
     }
 
-    /// Removes walls that touch no other wall, and fills floor that is cut off. Dividers count as floor. Returns
+    /// Removes walls that do not touch another wall, and fills disconnected floor. Dividers count as floor. Returns
     /// `false` if little floor is left, or if much of the floor is narrow.
     pub(crate) fn settle(&mut self) -> bool {
         for cell in 0..self.grid.len() {
@@ -181,8 +182,8 @@ impl Canvas {
     }
 }
 
-/// Returns the fraction of the floor that is not in any square of two by two floor cells. Such floor forms corridors,
-/// doorways and alcoves.
+/// Returns the fraction of floor outside every 2×2 square of floor cells. Such floor forms corridors, doorways and
+/// alcoves.
 pub(crate) fn narrow(grid: Grid, is_floor: impl Fn(usize) -> bool) -> f64 {
     let mut wide = vec![false; grid.len()];
     for cell in 0..grid.len() {

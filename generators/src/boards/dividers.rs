@@ -6,10 +6,10 @@ use super::idiom::Idiom;
 use super::kit::{Kit, Piece};
 use base::Sampler;
 
-/// Pieces that must still be placed, with their numbers.
+/// Pieces still to be placed, with their numbers.
 pub(crate) type Stock = Vec<(Piece, usize)>;
 
-/// Lays the walls of a plan and its dividers. A gap holds a barrier or stays open. A river has at most one gap.
+/// Places a plan's walls and dividers. A gap contains a barrier or stays open. A river has at most one gap.
 pub(crate) fn lay<'k>(
     kit: &'k Kit<'k>,
     canvas: &Canvas,
@@ -41,7 +41,7 @@ pub(crate) fn lay<'k>(
     draft
 }
 
-/// Turns some blocks that stand apart from the border into ponds, if the game has a type to fill them with.
+/// Turns some blocks away from the border into ponds, if the game has a suitable type.
 fn lay_ponds(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     let Some((piece, _)) = stock.iter().find(|(piece, _)| piece.idiom == Idiom::Obstacle) else { return };
     let blocks = draft.grid.regions(|cell| draft.is_wall(cell));
@@ -52,7 +52,7 @@ fn lay_ponds(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     }
 }
 
-/// Draws the index of the piece that forms a divider; `None` for a wall.
+/// Draws the index of the piece that forms a divider; `None` for walls.
 fn material(divider: &Divider, stock: &Stock, has_row: bool, sampler: &mut Sampler) -> Option<usize> {
     let weight = |(piece, _): &(Piece, usize)| {
         let long = divider.line.len();
@@ -70,7 +70,7 @@ fn material(divider: &Divider, stock: &Stock, has_row: bool, sampler: &mut Sampl
     sampler.weighted(&weights).filter(|&at| at < stock.len())
 }
 
-/// Lays a divider as a row of pieces.
+/// Places a divider as a row of pieces.
 fn lay_row(
     draft: &mut Draft<'_>,
     divider: &Divider,
@@ -87,7 +87,7 @@ fn lay_row(
     }
 }
 
-/// Lays a divider as a wall, with barriers in some of its gaps.
+/// Places a divider as a wall, with barriers in some of its gaps.
 fn lay_wall(draft: &mut Draft<'_>, divider: &Divider, wall: u8, stock: &mut Stock, sampler: &mut Sampler) {
     let in_gap = |cell: &usize| divider.gaps.iter().any(|gap| gap.contains(cell));
     for cell in divider.line.iter().filter(|cell| !in_gap(cell)) {

@@ -8,9 +8,9 @@ use crate::levels::palette::holds_avatar;
 use engine::Level;
 use engine::analysis::Motion;
 
-/// The number of free cells that a patrol needs in its direction.
+/// The number of free cells that a patrol needs in its direction of movement.
 const LANE: usize = 5;
-/// The minimum number of steps between the hero and hunters or sources.
+/// The minimum distance in steps between the hero and hunters or sources.
 const AWAY: usize = 6;
 /// The maximum fraction of a board's floor that may be narrow.
 const MAX_NARROW: f64 = 0.36;
@@ -79,7 +79,8 @@ impl<'k> Draft<'k> {
         self.cells[cell] = self.kit.palette.base;
     }
 
-    /// Returns, for each side of a cell, `true` if there is a wall or the edge of the board, in the order of [`WAYS`].
+    /// Returns, for each side of a cell in the order of [`WAYS`], `true` if the side borders on a wall or the board
+    /// edge.
     pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
         WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_solid(next)))
     }
@@ -89,7 +90,7 @@ impl<'k> Draft<'k> {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
 
-    /// Returns the number of consecutive free cells through a cell, along its column or its row.
+    /// Returns the number of consecutive free cells that include a cell, along its column or its row.
     fn lane(&self, cell: usize, is_vertical: bool) -> usize {
         let ways = if is_vertical { [(0, -1), (0, 1)] } else { [(-1, 0), (1, 0)] };
         let along = |way: (i32, i32)| {
@@ -102,8 +103,7 @@ impl<'k> Draft<'k> {
         1 + ways.into_iter().map(along).sum::<usize>()
     }
 
-    /// Returns the weight of a cell for a piece. The weight is 0 if the piece must not be there. The cell counts as
-    /// free.
+    /// Returns a cell's weight for a piece; 0 if the piece must not be in the cell. The cell itself counts as free.
     pub(crate) fn fit(&self, piece: &Piece, cell: usize) -> u32 {
         let [up, left, down, right] = self.walls_beside(cell);
         let walls = [up, left, down, right].into_iter().filter(|&wall| wall).count();
@@ -143,8 +143,7 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// Returns the weight of a cell that is not a gap, for a piece that belongs in gaps. Such a piece may extend a gap
-    /// or a wall.
+    /// Returns a non-gap cell's weight for a piece that belongs in gaps. Such a piece may extend a gap or a wall.
     fn fit_of_barrier(&self, piece: &Piece, cell: usize) -> u32 {
         let own = |next: usize| self.cells[next] == piece.symbol;
         let barred = |next: usize| self.is_solid(next) && !self.grid.on_border(next);
@@ -155,7 +154,7 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// Returns the weight of a cell for a piece that moves straight ahead, whose lane must be long.
+    /// Returns a cell's weight for a piece that moves straight ahead and therefore needs a long lane.
     fn fit_of_patrol(&self, piece: &Piece, cell: usize) -> u32 {
         let Motion::Straight(direction) = self.kit.analysis.facts(piece.stype).motion else { return 1 };
         let lane = match (direction.x != 0.0, direction.y != 0.0) {
@@ -238,7 +237,7 @@ impl<'k> Draft<'k> {
         self.fragments() <= fragments && self.emptiness() <= empty
     }
 
-    /// Returns the number of wall blocks with nothing solid around them.
+    /// Returns the number of wall blocks without solid neighbours.
     pub(crate) fn lone_blocks(&self) -> usize {
         let is_lone = |&cell: &usize| {
             let mut around = self.grid.around(cell).into_iter();

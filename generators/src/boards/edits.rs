@@ -1,11 +1,11 @@
-//! Edits: small changes to a board that are meaningful in its game.
+//! Edits: small changes to a board that are meaningful for its game.
 
 use super::draft::Draft;
 use super::idiom::Idiom;
 use crate::levels::grid::WAYS;
 use base::Sampler;
 
-/// An edit of a board.
+/// A board edit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edit {
     /// Moves a piece to a cell that fits it.
@@ -16,9 +16,9 @@ pub(crate) enum Edit {
     MoveGroup,
     /// Moves a straight segment of wall sideways.
     ShiftWall,
-    /// Extends a wall by a cell or two.
+    /// Extends a wall by one or two cells.
     Extend,
-    /// Shortens a wall by a cell or two at an end.
+    /// Shortens a wall by one or two cells at one end.
     Shorten,
     /// Moves a gap, with its contents, along its wall.
     MoveGap,
@@ -52,7 +52,8 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Makes an edit. Returns `None` if the board has nothing to edit in that way. The result may be unsound.
+    /// Applies an edit. Returns `None` if the board contains nothing suitable for the edit. The result may be
+    /// unsound.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::MovePiece => self.move_piece(sampler),
@@ -129,7 +130,7 @@ impl Draft<'_> {
         (0..self.grid.len()).filter(|&cell| self.is_wall(cell) && !self.grid.on_border(cell)).collect()
     }
 
-    /// Returns the straight segment of inner walls through a cell, extended by up to three cells to either side.
+    /// Returns the straight segment of inner walls through a cell, extended by up to three cells on both sides.
     fn segment(&self, cell: usize, is_vertical: bool) -> Vec<usize> {
         let ways = if is_vertical { [(0, -1), (0, 1)] } else { [(-1, 0), (1, 0)] };
         let mut segment = vec![cell];

@@ -11,9 +11,9 @@ const DRAWS: usize = 24;
 enum Formation {
     /// A row whose members are separated by this offset.
     Row(i32, i32),
-    /// Pairs side by side, row after row.
+    /// Pairs arranged side by side, row after row.
     Block,
-    /// A zigzag along a column if `true`, otherwise along a row.
+    /// A zigzag: along a column if `true`, otherwise along a row.
     Zigzag(bool),
     /// A ring around a cell: first the four sides, then the corners.
     Ring,
@@ -57,8 +57,8 @@ impl Formation {
     }
 }
 
-/// Draws cells for a group of `count` members. The weights determine where a member may be, and how well each cell
-/// suits it. Returns fewer cells if there is no room for all members.
+/// Draws cells for a group of `count` members. The weights determine where members may be, and how suitable each
+/// cell is. Returns fewer cells if there is no room for all members.
 pub(crate) fn arrange(grid: Grid, count: usize, weights: &[u32], sampler: &mut Sampler) -> Vec<usize> {
     let formation = Formation::draw(sampler);
     if formation == Formation::Spread || count < 2 {
@@ -109,7 +109,7 @@ fn spread(grid: Grid, count: usize, weights: &[u32], sampler: &mut Sampler) -> V
     cells
 }
 
-/// Draws a patch of up to `count` connected cells, or a straight band of them from wall to wall.
+/// Draws a patch of up to `count` connected cells, or a straight band of cells from wall to wall.
 pub(crate) fn patch(
     grid: Grid,
     count: usize,

@@ -1,4 +1,4 @@
-//! Furnishing: every piece is placed according to its idiom.
+//! Furnishing: places every piece according to its idiom.
 
 use super::canvas::{Canvas, far_from};
 use super::dividers::{Stock, lay};
@@ -10,7 +10,7 @@ use super::plans::draw_plan;
 use crate::levels::grid::{FAR, WAYS};
 use base::{Sampler, Seed};
 
-/// The order in which pieces are placed, from the pieces that need the least room to those that need the most.
+/// The order in which pieces are placed, from the pieces that need the least room to the pieces that need the most.
 const ORDER: [Idiom; 13] = [
     Idiom::Crossing,
     Idiom::Exit,
@@ -29,11 +29,11 @@ const ORDER: [Idiom; 13] = [
 
 /// The maximum size of an empty rectangle in a composition, as a fraction of the area within the border.
 const EMPTY: f64 = 0.32;
-/// The maximum number of fragments of a composition; see [`Draft::fragments`].
+/// The maximum number of fragments in a composition; see [`Draft::fragments`].
 const FRAGMENTS: usize = 3;
 
 /// Composes a board: a plan, the material of its dividers, the hero, and all pieces. Returns `None` if there is no room
-/// for all of them.
+/// for everything.
 pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     let sampler = &mut seed.child("board", 0).sampler();
     let size = kit.brief.size.unwrap_or_else(|| size(kit.brief.demand, sampler));
@@ -51,7 +51,7 @@ pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     Some(draft).filter(|draft| is_composed && draft.is_sound())
 }
 
-/// Draws the numbers of columns and rows for a demand. Later boards are larger.
+/// Draws the numbers of columns and rows for a demand. Boards with higher demands are larger.
 fn size(demand: u8, sampler: &mut Sampler) -> (usize, usize) {
     let more = usize::from(demand) / 2;
     (sampler.between(10 + more, 13 + more), sampler.between(8, 9 + more))
@@ -114,8 +114,8 @@ fn place(
     }
 }
 
-/// Returns the weights of all cells for a piece, which depend on its idiom, on the side of the dividers where it
-/// belongs, and on the landmark.
+/// Returns all cells' weights for a piece. The weights depend on the piece's idiom, on the side of the dividers to
+/// which the piece belongs, and on the landmark.
 fn weights(draft: &Draft<'_>, canvas: &Canvas, hero: usize, piece: &Piece) -> Vec<u32> {
     let near = draft.near();
     let far = far_from(draft.grid, hero, |cell| !draft.is_solid(cell));
@@ -146,7 +146,7 @@ fn weights(draft: &Draft<'_>, canvas: &Canvas, hero: usize, piece: &Piece) -> Ve
     (0..draft.grid.len()).map(weight).collect()
 }
 
-/// Returns 0 if a pushed piece would be next to its target, so that one push is enough. Otherwise returns 1.
+/// Returns 0 if a pushed piece would be next to its target, so that a single push would suffice. Otherwise returns 1.
 fn beside_rival(draft: &Draft<'_>, piece: &Piece, cell: usize) -> u32 {
     let is_pair = |one: Idiom, other: Idiom| {
         matches!((one, other), (Idiom::Heavy, Idiom::Spot | Idiom::Heavy) | (Idiom::Spot, Idiom::Heavy))
@@ -175,7 +175,7 @@ fn place_patches(draft: &mut Draft<'_>, piece: &Piece, count: usize, sampler: &m
     }
 }
 
-/// Places more of the pieces that are still below their minimum numbers.
+/// Places more of the pieces whose number is still below the minimum.
 fn top_up(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     for (piece, _) in stock {
         while draft.count(piece.symbol) < piece.counts.0 {

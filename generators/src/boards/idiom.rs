@@ -3,50 +3,48 @@
 use engine::analysis::{EffectSummary, Encounter, Harm, Motion, Role, Side};
 use engine::{Analysis, SpriteType};
 
-/// The kind of position that suits the sprites of a type, derived from the rules.
+/// The kind of position that suits a type's sprites, derived from the rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Idiom {
-    /// A type that stops or kills the player until a rule opens, removes or disarms its sprites. Its sprites belong in
+    /// A type that stops or kills the player until a rule opens, removes or disarms its sprites. The sprites belong in
     /// gaps, and in rows that divide a board.
     Barrier,
-    /// A type that stops or kills the player until a pushed or thrown thing fills it. Its sprites form a river across
+    /// A type that stops or kills the player until a pushed or thrown object fills it. The sprites form a river across
     /// the board.
     Crossing,
-    /// A type that stands still and works together with its neighbours, such as soil, fuel, ice or planks. Its sprites
-    /// form rows and patches.
+    /// A type that stands still and interacts with its neighbours, such as soil, fuel, ice or planks. The sprites form
+    /// rows and patches.
     Ground,
-    /// A type that breaks under the player, or changes into an obstacle. Its sprites belong in gaps, as the road
-    /// across.
+    /// A type that breaks under the player, or changes into an obstacle. The sprites belong in gaps, as a road across.
     Road,
-    /// A type that permanently stops the player like a wall, but is not a wall. Its sprites form gulfs, ponds, and
-    /// lines with roads across.
+    /// A type that permanently stops the player like a wall, without being a wall. The sprites form gulfs, ponds, and
+    /// lines crossed by roads.
     Obstacle,
-    /// A type that permanently kills the player. Its sprites form pools beside the path.
+    /// A type that permanently kills the player. The sprites form pools beside the path.
     Hazard,
-    /// A type that is collected, touched or guarded. Its sprites belong in groups.
+    /// A type that is collected, touched or guarded. The sprites belong in groups.
     Thing,
-    /// A type that is pushed. Its sprites belong on open floor, away from walls.
+    /// A type that is pushed. The sprites belong on open floor, away from walls.
     Heavy,
-    /// A type onto which a thing is pushed or brought. Its sprites belong where they can be reached from opposite
+    /// A type onto which an object is pushed or carried. The sprites belong in cells that can be reached from opposite
     /// sides.
     Spot,
-    /// A type that moves straight ahead. Its sprites belong on long free lanes.
+    /// A type that moves straight ahead. The sprites belong on long free lanes.
     Patrol,
-    /// A type that follows other sprites. Its sprites belong at a distance from the player.
+    /// A type that follows other sprites. The sprites belong at a distance from the player.
     Hunter,
-    /// A type that flees or wanders. Its sprites belong on open floor.
+    /// A type that flees or wanders. The sprites belong on open floor.
     Stray,
-    /// A type that creates other sprites. Its sprites belong next to walls, far from the player.
+    /// A type that creates other sprites. The sprites belong next to walls, far from the player.
     Source,
-    /// A type that ends the level when touched, or leads to a different location. Its sprites belong next to walls, far
+    /// A type that ends the level when touched, or leads to a different location. The sprites belong next to walls, far
     /// from the player.
     Exit,
 }
 
 impl Idiom {
-    /// Returns the idiom of a type for the avatar that levels start with. Returns `None` if boards are not furnished
-    /// with the type: for the avatar, floor, shots, and types that take no part in play. Cost: O(encounters ×
-    /// relatives).
+    /// Returns a type's idiom with respect to the initial avatar. Returns `None` for types that boards are not
+    /// furnished with: the avatar, floor, shots, and types without a part in play. Cost: O(encounters × relatives).
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Option<Idiom> {
         let start = analysis.start_avatar()?.stype;
         let facts = analysis.facts(stype);
@@ -119,20 +117,20 @@ impl Idiom {
         takes_part.then_some(if is_ended(analysis, stype) { Idiom::Ground } else { Idiom::Spot })
     }
 
-    /// Returns `true` if sprites with the idiom move by themselves.
+    /// Returns `true` if sprites with this idiom move by themselves.
     pub fn moves(self) -> bool {
         matches!(self, Idiom::Patrol | Idiom::Hunter | Idiom::Stray)
     }
 }
 
-/// Returns `true` if an avatar can push something onto the type so that one of the two is removed or changed. `wanted`
-/// decides whether this must fill the type.
+/// Returns `true` if an avatar can push a sprite onto the type so that either is removed or changed. `wanted` decides
+/// whether the push must fill the type.
 fn is_partner(analysis: &Analysis, stype: SpriteType, wanted: impl Fn(bool) -> bool) -> bool {
     let sinks = analysis.pushables().iter().flat_map(|pushable| &pushable.sinks);
     sinks.into_iter().any(|sink| sink.partner == stype && wanted(sink.fills))
 }
 
-/// Returns the interactions that have the type on either side, each with that side.
+/// Returns the interactions with the type on either side, each with the type's side.
 fn with(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encounter, Side)> {
     let first = move |met: &&Encounter| met.second.is_some() && analysis.applies(met.first, stype);
     let second = move |met: &&Encounter| met.second.is_some_and(|written| analysis.applies(written, stype));
@@ -144,7 +142,7 @@ fn with(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encoun
         .chain(encounters.filter(second).map(|met| (met, Side::Second)))
 }
 
-/// Returns `true` if some interaction removes or changes all sprites of the type, wherever they are.
+/// Returns `true` if an interaction removes or changes all sprites of the type, wherever they are.
 fn is_ended(analysis: &Analysis, stype: SpriteType) -> bool {
     let afar = |effect: &EffectSummary| match effect {
         EffectSummary::KillAll(other) | EffectSummary::BecomeAll(other, _) => analysis.applies(*other, stype),
@@ -154,7 +152,7 @@ fn is_ended(analysis: &Analysis, stype: SpriteType) -> bool {
         || with(analysis, stype).any(|(met, side)| met.ends(side))
 }
 
-/// Returns `true` if a type takes part in some interaction that does more than stop a sprite. Such an interaction
+/// Returns `true` if a type takes part in an interaction that does more than stop a sprite. Such an interaction
 /// creates, opens, gives, ends or transports something.
 fn acts(analysis: &Analysis, stype: SpriteType) -> bool {
     let stops = |effect: &EffectSummary| {
@@ -167,7 +165,7 @@ fn acts(analysis: &Analysis, stype: SpriteType) -> bool {
         .any(|(met, side)| met.does(|effect| !stops(effect)) && !(side == Side::Second && ends_mover(met)))
 }
 
-/// Returns `true` if the type turns into something that spreads or creates other sprites, like fuel.
+/// Returns `true` if the type turns into a type that spreads or creates other sprites, as fuel does.
 fn is_fuel(analysis: &Analysis, stype: SpriteType) -> bool {
     let spreads = |to: SpriteType| {
         analysis.game().class(to) == Some(engine::SpriteClass::Spreader)
@@ -177,7 +175,7 @@ fn is_fuel(analysis: &Analysis, stype: SpriteType) -> bool {
     !facts.is_resource && facts.makes.is_empty() && analysis.turns(stype).iter().any(|&(to, _)| spreads(to))
 }
 
-/// Returns `true` if a win requires the removal of the type, or if the end of the type loses the game.
+/// Returns `true` if a win requires removing the type, or if removing all of its sprites loses the game.
 fn is_at_stake(analysis: &Analysis, stype: SpriteType) -> bool {
     let aims = analysis.aims();
     aims.remove.contains(&stype)
@@ -185,7 +183,7 @@ fn is_at_stake(analysis: &Analysis, stype: SpriteType) -> bool {
         || analysis.turns(stype).iter().any(|(to, _)| aims.prevent.contains(to))
 }
 
-/// Returns `true` if the type lets the avatar pass until some interaction turns all sprites of the type into obstacles.
+/// Returns `true` if the type lets the avatar pass until an interaction turns all sprites of the type into obstacles.
 fn shuts(analysis: &Analysis, stype: SpriteType) -> bool {
     let Some(start) = analysis.start_avatar() else { return false };
     let bars = |to: SpriteType| analysis.touch(start.stype, to).blocks;
@@ -193,7 +191,7 @@ fn shuts(analysis: &Analysis, stype: SpriteType) -> bool {
     !bars(stype) && analysis.encounters().iter().any(|met| met.does(closes))
 }
 
-/// Returns `true` if an avatar can pass over the type once, and it then becomes an obstacle.
+/// Returns `true` if an avatar can pass over the type once, after which it becomes an obstacle.
 fn is_road(analysis: &Analysis, stype: SpriteType) -> bool {
     let Some(start) = analysis.start_avatar() else { return false };
     let bars = |to: SpriteType| {
@@ -206,7 +204,7 @@ fn is_road(analysis: &Analysis, stype: SpriteType) -> bool {
     !bars(stype) && turns.any(|(to, by)| by_avatar(by) && bars(to))
 }
 
-/// Returns `true` if the type stops something that moves or is pushed.
+/// Returns `true` if the type stops moving or pushed sprites.
 fn holds_up(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.game().sprite_types().any(|mover| {
         let facts = analysis.facts(mover);

@@ -1,4 +1,4 @@
-//! The pieces for boards of a game, with their numbers.
+//! The pieces for a game's boards, with their numbers.
 
 use super::brief::BoardBrief;
 use super::idiom::Idiom;
@@ -7,7 +7,7 @@ use base::Sampler;
 use engine::analysis::{Condition, Harm, Reason};
 use engine::{Analysis, SpriteType};
 
-/// The maximum number of kinds of pieces on a board.
+/// The maximum number of piece kinds per board.
 const MAX_KINDS: usize = 8;
 
 /// A kind of piece.
@@ -16,15 +16,15 @@ pub(crate) struct Piece {
     pub(crate) stype: SpriteType,
     pub(crate) symbol: u8,
     pub(crate) idiom: Idiom,
-    /// `true` if the piece harms the player or creates something harmful.
+    /// `true` if the piece harms the player or creates harmful sprites.
     pub(crate) harmful: bool,
     /// `true` if the brief specified the number of pieces.
     pub(crate) asked: bool,
-    /// The minimum and maximum number of pieces on a board.
+    /// The minimum and maximum number of pieces per board.
     pub(crate) counts: (usize, usize),
 }
 
-/// The pieces, hero, walls and floor for boards of a game.
+/// The pieces, hero, walls and floor for a game's boards.
 #[derive(Clone, Debug)]
 pub(crate) struct Kit<'a> {
     pub(crate) analysis: &'a Analysis,
@@ -35,7 +35,7 @@ pub(crate) struct Kit<'a> {
 }
 
 impl<'a> Kit<'a> {
-    /// Creates the kit for a game and a brief; `None` if no character places exactly one avatar.
+    /// Creates the kit for a game and a brief; `None` if no level character places exactly one avatar.
     pub(crate) fn of(analysis: &'a Analysis, brief: &BoardBrief) -> Option<Kit<'a>> {
         let palette = Palette::of(analysis)?;
         let start = palette.avatars[0].0;
@@ -62,7 +62,7 @@ impl<'a> Kit<'a> {
         Some(kit)
     }
 
-    /// Returns the piece of a character.
+    /// Returns the piece for a character.
     pub(crate) fn piece(&self, symbol: u8) -> Option<&Piece> {
         self.pieces.iter().find(|piece| piece.symbol == symbol)
     }
@@ -76,7 +76,7 @@ impl<'a> Kit<'a> {
                     .is_none_or(|piece| matches!(piece.idiom, Idiom::Hazard | Idiom::Obstacle)))
     }
 
-    /// Returns `true` if the avatar can stand in a cell with the character when the level starts.
+    /// Returns `true` if the avatar can stand in a cell with the character at the start of a level.
     pub(crate) fn is_open(&self, symbol: u8) -> bool {
         if self.piece(symbol).is_some_and(|piece| piece.idiom.moves()) {
             return true;
@@ -84,7 +84,7 @@ impl<'a> Kit<'a> {
         matches!(self.palette.walk(symbol), Walk::Open | Walk::Pushed)
     }
 
-    /// Returns `true` if a piece opens, fills or disarms something, so that the piece must be on the hero's side.
+    /// Returns `true` if a piece opens, fills or disarms other sprites and must therefore be on the hero's side.
     pub(crate) fn is_opener(&self, stype: SpriteType) -> bool {
         let gives = self
             .analysis
@@ -100,13 +100,14 @@ impl<'a> Kit<'a> {
         gives || fills || ammo
     }
 
-    /// Returns `true` if a win requires that sprites of the type are removed or protected.
+    /// Returns `true` if winning requires removing or protecting sprites of the type.
     pub(crate) fn is_aim(&self, stype: SpriteType) -> bool {
         let aims = self.analysis.aims();
         aims.remove.contains(&stype) || aims.protect.contains(&stype)
     }
 
-    /// Draws the pieces of one board with their numbers. A game with many types has only some of them on each board.
+    /// Draws the pieces for one board with their numbers. For a game with many types, each board contains only some
+    /// of them.
     pub(crate) fn draw(&self, sampler: &mut Sampler) -> Vec<(Piece, usize)> {
         let mut pieces: Vec<&Piece> = self.pieces.iter().collect();
         while pieces.len() > MAX_KINDS {
@@ -127,7 +128,7 @@ impl<'a> Kit<'a> {
         drawn
     }
 
-    /// Returns `true` if a win needs the type, or needs something that requires the type.
+    /// Returns `true` if a win needs the type, or needs another type that requires it.
     fn is_required(&self, stype: SpriteType) -> bool {
         let asked = |reason: Reason| match reason {
             Reason::Avatar | Reason::Portal(_) => false,
@@ -156,7 +157,7 @@ impl<'a> Kit<'a> {
         }
     }
 
-    /// Raises the numbers of pushed types and their targets to the numbers that a win needs.
+    /// Raises the numbers of pushed types and their targets to the numbers needed for a win.
     fn match_pushed(&self, drawn: &mut [(Piece, usize)]) {
         let remove = &self.analysis.aims().remove;
         let number = |drawn: &[(Piece, usize)], stype: SpriteType| {
@@ -179,7 +180,7 @@ impl<'a> Kit<'a> {
     }
 }
 
-/// Returns the usual numbers of a type on a board, within the limits of the terminations.
+/// Returns the default numbers of a type on a board, within the limits set by the terminations.
 fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (usize, usize) {
     let demand = usize::from(demand);
     let is_aim = analysis.aims().remove.contains(&stype);

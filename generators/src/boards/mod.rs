@@ -1,8 +1,8 @@
-//! A generator of boards for any game. A board is composed of a plan with a landmark, and furnished according to the
-//! idiom of each type.
+//! A board generator for any game. A board is composed from a plan with a landmark, and furnished according to each
+//! type's idiom.
 //!
 //! The idioms are derived from the rules, so nothing in this module depends on names. A [`BoardVariation`] creates
-//! and edits boards. Only players can show whether a board is good.
+//! and edits boards. Only playing can show whether a board is good.
 
 mod brief;
 mod canvas;

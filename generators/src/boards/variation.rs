@@ -1,4 +1,4 @@
-//! Boards as candidates of a search.
+//! Boards as search candidates.
 
 use super::brief::BoardBrief;
 use super::draft::Draft;
@@ -9,24 +9,24 @@ use crate::{GenerateError, Variation};
 use base::{Sampler, Seed};
 use engine::{Action, Analysis, Level, Outcome};
 
-/// The number of compositions to try for one board.
+/// The number of compositions to try per board.
 const COMPOSITIONS: u64 = 40;
-/// The number of draws of edits, after which the board stays as it is.
+/// The number of edits to draw before the board is left as it is.
 const DRAWS: usize = 40;
-/// The number of mutations to try until a player survives the first ticks.
+/// The number of mutations to try in search of a board on which the player survives the first ticks.
 const MUTATIONS: usize = 6;
 /// The number of ticks that a player who does nothing should survive.
 const GRACE: usize = 10;
-/// The number of fragments that a board may always have; see [`Draft::fragments`].
+/// The number of fragments always allowed on a board; see [`Draft::fragments`].
 const FRAGMENTS: usize = 2;
-/// The size of the largest empty rectangle that a board may always have, as a fraction of the area within the border.
+/// The size of the largest empty rectangle always allowed on a board, as a fraction of the area within the border.
 const EMPTY: f64 = 0.25;
 
-/// Boards of any game as candidates of a search. The boards are composed of plans and idioms, and changed by edits.
+/// Boards for any game, as search candidates. The boards are composed from plans and idioms, and changed by edits.
 ///
 /// All boards have one hero, connected ground that is mostly wide, and the numbers requested by the brief. Nothing
-/// harmful is next to the hero, who survives a few ticks of doing nothing. The boards are not tested for whether they
-/// can be won. Cost: about a millisecond per board, and some tens of microseconds per edit.
+/// harmful is next to the hero, who survives a few ticks of doing nothing. The boards are not tested for winnability.
+/// Cost: about a millisecond per board, and tens of microseconds per edit.
 #[derive(Clone, Debug)]
 pub struct BoardVariation<'a> {
     kit: Kit<'a>,
@@ -36,7 +36,7 @@ impl<'a> BoardVariation<'a> {
     /// Creates a variation for a game and a brief.
     ///
     /// # Errors
-    /// Returns an error if no character of the game places exactly one avatar.
+    /// Returns an error if no level character in the game places exactly one avatar.
     pub fn new(analysis: &'a Analysis, brief: &BoardBrief) -> Result<BoardVariation<'a>, GenerateError> {
         let kit = Kit::of(analysis, brief);
         let kit = kit
@@ -44,8 +44,8 @@ impl<'a> BoardVariation<'a> {
         Ok(BoardVariation { kit })
     }
 
-    /// Returns variants of a board that each lack one small thing. A search uses them to find things that do not
-    /// matter.
+    /// Returns variants of a board that each lack one small part. A search uses the variants to find parts that do
+    /// not matter.
     pub fn tidied(&self, level: &Level) -> Vec<Level> {
         Draft::of(&self.kit, level).tidied().iter().filter_map(Draft::level).collect()
     }
@@ -56,7 +56,7 @@ impl<'a> BoardVariation<'a> {
         Draft::of(&self.kit, level).emptiness()
     }
 
-    /// Returns `true` if a player who does nothing survives the first ticks in one future.
+    /// Returns `true` if a player who does nothing survives the first ticks in one random future.
     fn is_safe(&self, level: &Level) -> bool {
         let game = self.kit.analysis.game();
         let mut state = game.start(level, Seed::from_text("first ticks"));
@@ -106,8 +106,8 @@ impl Variation for BoardVariation<'_> {
         made.unwrap_or_else(|| parent.clone())
     }
 
-    /// Returns the first board with a part of the second board, if both have the same size and the result is sound.
-    /// Otherwise returns an edit of the first board.
+    /// Returns the first board with a part of the second, if both have the same size and the result is sound.
+    /// Otherwise returns an edited first board.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (mut child, other) = (Draft::of(&self.kit, one), Draft::of(&self.kit, two));
         let cut = sampler.between(3, child.grid.columns.max(7) - 4);

@@ -1,4 +1,4 @@
-//! The texts about a rethemed game, made from its rules and its scene: the title, the summary and the goal.
+//! The texts about a rethemed game, derived from its rules and its scene: the title, the summary and the goal.
 
 use super::casting;
 use super::english::{capital, headline, one, plural, series, spaced};
@@ -12,10 +12,10 @@ use itertools::Itertools;
 
 /// The maximum number of names in a clause of a summary.
 const MAX_NAMES: usize = 4;
-/// The number of titles to draw before a plain one is used.
+/// The number of titles to draw before falling back to a plain title.
 const MAX_TITLES: usize = 32;
 
-/// Returns the name of the player's character.
+/// Returns the name of the player character.
 pub(crate) fn hero(analysis: &Analysis) -> String {
     let avatar = analysis.start_avatar().or(analysis.avatars().first());
     avatar.map_or_else(|| "stranger".to_owned(), |avatar| spaced(analysis.game().name(avatar.stype)))
@@ -95,7 +95,7 @@ pub(crate) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) ->
     if clauses.is_empty() { format!("{start}.") } else { format!("{start} has to {}.", clauses.join("; ")) }
 }
 
-/// Returns the winning conditions in the words of the guide, with names as in English prose.
+/// Returns the winning conditions in the guide's wording, with names written as in English prose.
 pub(crate) fn goal(analysis: &Analysis) -> String {
     let names: Vec<&str> = analysis.game().sprite_types().map(|stype| analysis.game().name(stype)).collect();
     let word = |word: &str| {

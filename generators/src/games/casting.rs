@@ -1,4 +1,4 @@
-//! The roles of scenes that the sprite types of a game can play, according to its rules.
+//! The scene roles that a game's sprite types can play, according to its rules.
 
 use engine::analysis::{Analysis, Harm, Motion, Removal, Role as Use};
 use engine::{Direction, SpriteType};
@@ -45,8 +45,8 @@ pub(super) fn roles(analysis: &Analysis, stype: SpriteType) -> &'static [&'stati
     }
 }
 
-/// Returns words for a group of types, one of which has this use. These words are more general than those of any
-/// scene.
+/// Returns words for a group of types, one of which has the given use. The words are more general than any
+/// scene's words.
 pub(super) fn group(role: Use) -> &'static [&'static str] {
     match role {
         Use::Avatar => &["figure", "actor"],

@@ -1,9 +1,9 @@
-//! Conversion of sprite names to English: `seaGlass` becomes "sea glass", "a sea glass" or "sea glasses".
+//! Converts sprite names to English: `seaGlass` becomes "sea glass", "a sea glass" or "sea glasses".
 
 pub(crate) use engine::describe::plural;
 use itertools::Itertools;
 
-/// Replaces each capital letter with a space and its small letter.
+/// Replaces each capital letter with a space and the lower-case letter.
 pub(crate) fn spaced(name: &str) -> String {
     let mut text = String::new();
     for letter in name.chars() {

@@ -3,7 +3,7 @@
 use base::Sampler;
 use serde::{Deserialize, Serialize};
 
-/// Declares each kind once: its variant, its name in configurations, and its words for titles.
+/// Declares each kind once: its variant, its configuration name, and its title words.
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $kind:ident $name:literal $title_words:literal;)*) => {
         /// A kind of game.
@@ -12,7 +12,7 @@ macro_rules! kinds {
         pub enum Kind { $($(#[doc = $doc])+ $kind),* }
 
         impl Kind {
-            /// All kinds, in a fixed order that draws depend on.
+            /// All kinds, in a fixed order. Random draws depend on this order.
             pub const ALL: &[Kind] = &[$(Kind::$kind),*];
 
             /// Returns the name used in configurations and cards.
@@ -32,13 +32,13 @@ kinds! {
     Escape "escape" "Escape Flight Exit";
     /// Games in which the player crosses lanes of traffic.
     Crossing "crossing" "Crossing Passage Traverse";
-    /// Games in which the player collects things among dangers.
+    /// Games in which the player collects items among dangers.
     CollectAndAvoid "collect-and-avoid" "Harvest Hoard Gathering";
     /// Games in which the player finds a key and opens the lock.
     KeyAndDoor "key-and-door" "Secret Lock Key";
     /// Games in which the player shoots or strikes all foes.
     Shooter "shooter" "Hunt Stand Battle";
-    /// Games in which the player pushes things onto their targets.
+    /// Games in which the player pushes objects onto their targets.
     BoxPuzzle "box-puzzle" "Puzzle Labour Shift";
     /// Games in which the player saves friends from danger.
     Rescue "rescue" "Rescue Errand Vigil";
@@ -54,9 +54,9 @@ kinds! {
     Defence "defence" "Guard Watch Defence";
     /// Games in which the player leads pursuers into traps.
     Lure "lure" "Trick Ruse Bait";
-    /// Games in which the player catches falling things.
+    /// Games in which the player catches falling objects.
     Catching "catching" "Catch Juggle Windfall";
-    /// Games in which the player blows things up.
+    /// Games in which the player causes explosions.
     Demolition "demolition" "Demolition Blast Clearance";
 }
 

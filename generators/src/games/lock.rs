@@ -4,14 +4,14 @@
 use engine::Game;
 use std::fmt::Write;
 
-/// The rules of a lock puzzle.
+/// A lock puzzle's rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LockRules {
-    /// The number of kinds of keys, each with its own doors: up to [`LockRules::KINDS`].
+    /// The number of key kinds, each with its own doors: up to [`LockRules::KINDS`].
     kinds: usize,
-    /// `true` if there are planks, which are floor that carries the avatar only once.
+    /// `true` if there are planks: floor that carries the avatar only once.
     has_planks: bool,
-    /// `true` if the player wins by collecting all gems, and `false` if the player wins by reaching the exit.
+    /// `true` if the player wins by collecting all gems; `false` if the player wins by reaching the exit.
     has_gems: bool,
 }
 
@@ -20,36 +20,36 @@ const fn rules(kinds: usize, has_planks: bool, has_gems: bool) -> LockRules {
 }
 
 impl LockRules {
-    /// The maximum number of kinds of keys.
+    /// The maximum number of key kinds.
     pub const KINDS: usize = 2;
 
-    /// All sets of rules, no two of which are near-duplicates.
+    /// All rule sets, without near-duplicates.
     pub const ALL: [LockRules; 3] = [rules(2, true, true), rules(2, false, false), rules(1, false, true)];
 
-    /// The characters of the game's levels.
+    /// The characters used in the game's levels.
     pub const SYMBOLS: &str = ".wpbgklde";
 
-    /// The character of floor in levels of [`LockRules::game`].
+    /// The floor character in levels of [`LockRules::game`].
     pub(crate) const FLOOR: char = '.';
-    /// The character of walls.
+    /// The wall character.
     pub(crate) const WALL: char = 'w';
-    /// The character of the avatar.
+    /// The avatar character.
     pub(crate) const AVATAR: char = 'p';
-    /// The character of planks.
+    /// The plank character.
     pub(crate) const PLANK: char = 'b';
-    /// The character of the goal, which is a gem or the exit.
+    /// The character of the goal: a gem or the exit.
     pub(crate) const GOAL: char = 'g';
-    /// The characters of keys, by kind.
+    /// The key characters, by kind.
     pub(crate) const KEYS: [char; LockRules::KINDS] = ['k', 'l'];
-    /// The characters of doors, by kind.
+    /// The door characters, by kind.
     pub(crate) const DOORS: [char; LockRules::KINDS] = ['d', 'e'];
 
-    /// Returns the number of kinds of keys.
+    /// Returns the number of key kinds.
     pub fn kinds(self) -> usize {
         self.kinds
     }
 
-    /// Returns `true` if there are planks, which are floor that carries the avatar only once.
+    /// Returns `true` if there are planks: floor that carries the avatar only once.
     pub fn has_planks(self) -> bool {
         self.has_planks
     }
@@ -59,7 +59,7 @@ impl LockRules {
         self.has_gems
     }
 
-    /// Returns a name, such as `locks-2-planks-gems`.
+    /// Returns the rule set's name, such as `locks-2-planks-gems`.
     pub fn name(self) -> String {
         let mut name = format!("locks-{}", self.kinds);
         if self.has_planks {
@@ -72,7 +72,7 @@ impl LockRules {
     /// Returns the game with plain names.
     ///
     /// # Panics
-    /// This function never panics, because all rules compile, as a test checks.
+    /// Never panics, because all rules compile, as a test verifies.
     pub fn game(self) -> Game {
         Game::from_source(&self.source()).expect("the rules compile")
     }

@@ -1,7 +1,7 @@
-//! The masked twin of a game, which has the same rules. Its names, characters, colours and comments reveal no meaning.
+//! A game's masked twin: the same rules, with names, characters, colours and comments that carry no meaning.
 //!
-//! A player who has read about games knows the purpose of a `key`. A player of the twin must find out the purpose. The
-//! names `wall` and `avatar` stay, because the engine depends on them.
+//! A player who has read about games knows the purpose of a `key`. A player of the twin must discover the purpose. The
+//! names `wall` and `avatar` are unchanged, because the engine depends on them.
 
 use super::surface::{self, Symbols};
 use base::{Sampler, Seed};
@@ -22,8 +22,8 @@ pub struct Masked {
 
 impl Masked {
     /// Creates the masked twin of any game that compiles. Sprite types are called `t1`, `t2` and so on in random order,
-    /// level characters are drawn, and the colours that the game uses are permuted. Images and comments are removed.
-    /// All lines keep their order, so both games play identically, including their state hashes.
+    /// level characters are drawn at random, and the game's colours are permuted. Images and comments are removed. All
+    /// lines keep their order, so both games play identically, including their state hashes.
     pub fn of(description: &Description, seed: Seed) -> Masked {
         let mut sampler = seed.child("masked", 0).sampler();
         let mask = Mask::draw(description, &mut sampler);
@@ -40,7 +40,7 @@ impl Masked {
         &self.description
     }
 
-    /// Translates a level of the original game for the twin. Characters without a meaning become spaces.
+    /// Translates a level of the original game for the twin. Unmapped characters become spaces.
     pub fn level(&self, text: &str) -> String {
         self.symbols.level(text)
     }

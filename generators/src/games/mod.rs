@@ -1,7 +1,7 @@
 //! Games as text: their kinds, English nouns, and twins with different names.
 //!
-//! Games themselves are composed of kernels ([`crate::kernels`]). A rethemed game takes its names from a scene, by the
-//! roles of its types (`casting.rs`). The names of a masked game have no meaning.
+//! Games themselves are composed from kernels ([`crate::kernels`]). A rethemed game takes its names from a scene,
+//! according to its types' roles (`casting.rs`). A masked game's names have no meaning.
 
 pub(crate) mod blurb;
 mod casting;
@@ -27,17 +27,17 @@ use engine::Game;
 /// A game with its description in prose.
 #[derive(Clone, Debug)]
 pub struct GeneratedGame {
-    /// The rules. They are compiled without warnings from their printed text, like the rules of frozen games.
+    /// The rules. The rules are compiled without warnings from their printed text, like the rules of frozen games.
     pub rules: Game,
     /// The title, in the terms of the game's scene.
     pub title: String,
     /// A summary of the game in a few sentences.
     pub summary: String,
-    /// The instructions for winning in one sentence.
+    /// The instructions for winning, in one sentence.
     pub goal: String,
     /// The kind of game.
     pub kind: Kind,
-    /// `true` if anything moves even while the player does nothing.
+    /// `true` if sprites move even while the player does nothing.
     pub real_time: bool,
     /// The kernel, its variants and the scene.
     pub patterns: Vec<String>,

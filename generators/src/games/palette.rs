@@ -1,19 +1,19 @@
-//! Level characters and colours, which are distinct within a game and consistent across games.
+//! Level characters and colours, distinct within a game and consistent across games.
 
 use crate::kernels::words::scene::Scene;
 
 /// The characters for types whose letters are all in use.
 const SPARE: &str = "123456789*+=%&@?!^~$";
 
-/// Returns a level character for a type: the first free letter of its name, in lower or upper case, or else a free
-/// sign.
+/// Returns a level character for a type: the first free letter in its name, in lower or upper case, or otherwise a
+/// free symbol.
 ///
 /// `.`, `w` and `A` are for floor, wall and hero in every game.
 pub(crate) fn symbol(name: &str, taken: &[char]) -> char {
     free_symbol(name, taken).expect("a game has fewer types than there are characters")
 }
 
-/// Returns a level character like [`symbol`], but returns `None` if no letter of the name and no sign is free.
+/// Returns a level character like [`symbol`], or `None` if no letter in the name and no symbol is free.
 pub(crate) fn free_symbol(name: &str, taken: &[char]) -> Option<char> {
     let small = name.chars().map(|letter| letter.to_ascii_lowercase());
     let large = name.chars().map(|letter| letter.to_ascii_uppercase());
@@ -48,8 +48,8 @@ pub(crate) const COLORS: [&str; 20] = [
     "DARKGRAY",
 ];
 
-/// Returns a colour for a type. Floors and walls get the scene's colour. Other types get a free colour that suits
-/// their role, or else the first free colour.
+/// Returns a colour for a type. Floors and walls use the scene's colour. Other types use a free colour that suits
+/// their role, or otherwise the first free colour.
 pub(crate) fn color(role: &str, scene: &'static Scene, taken: &[&'static str]) -> &'static str {
     match role {
         "floor" => return &scene.floor_color,

@@ -1,31 +1,31 @@
-//! Rules of puzzles that are won only by pushing: kinds of things, each with its own destination.
+//! Rules of puzzles that are won only by pushing: kinds of objects, each with its own destination.
 
 use crate::levels::FuseSymbols;
 use engine::Game;
 use std::fmt::Write;
 
-/// The destination of a kind of things.
+/// The destination for a kind of pushed object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
-    /// A drain: the thing disappears, and the drain stays.
+    /// A drain: the object disappears, and the drain remains.
     Drain,
-    /// A pit: the thing and the pit disappear. The avatar cannot cross the pit before that.
+    /// A pit: the object and the pit disappear. Until then, the avatar cannot cross the pit.
     Pit,
-    /// A mat: the thing stays on the mat, and can be pushed off the mat again.
+    /// A mat: the object stays on the mat, and can be pushed off the mat again.
     Mat,
 }
 
-/// The rules of a push puzzle.
+/// A push puzzle's rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PushRules {
-    /// The destination of each kind of things.
+    /// The destination for each kind of object.
     ends: [Option<End>; 2],
-    /// `true` if things of one kind cannot be pushed over the drains of the other kind. They can never be pushed over
-    /// the pits and mats of the other kind.
+    /// `true` if objects of one kind cannot be pushed over the other kind's drains. Objects can never be pushed over
+    /// the other kind's pits and mats.
     exclusive: bool,
-    /// `true` if there are sills, which are cells that the avatar can enter and things cannot.
+    /// `true` if there are sills: cells that the avatar can enter and objects cannot.
     has_sills: bool,
-    /// `true` if there are strays, which wander at random and kill the avatar.
+    /// `true` if there are strays: sprites that wander at random and kill the avatar.
     has_strays: bool,
 }
 
@@ -39,18 +39,18 @@ const fn among_strays(one: End, other: Option<End>, exclusive: bool, has_sills: 
     PushRules { has_strays: true, ..rules(one, other, exclusive, has_sills) }
 }
 
-/// Returns the name of a kind of things.
+/// Returns the name for a kind of object.
 fn name_of(kind: usize) -> &'static str {
     ["crate", "barrel"][kind]
 }
 
-/// Returns the name for things that lie on their mats.
+/// Returns the name for objects resting on their mats.
 fn settled(kind: usize) -> &'static str {
     ["settledCrate", "settledBarrel"][kind]
 }
 
 impl PushRules {
-    /// All sets of rules, no two of which are near-duplicates. Sets with two kinds of things come first.
+    /// All rule sets, without near-duplicates. Sets with two kinds of objects come first.
     pub const ALL: [PushRules; 15] = [
         rules(Drain, Some(Mat), false, true),
         rules(Drain, Some(Pit), true, true),
@@ -69,7 +69,7 @@ impl PushRules {
         rules(Drain, None, false, false),
     ];
 
-    /// All sets of rules with strays. No set is a near-duplicate of a different set here or in [`PushRules::ALL`].
+    /// All rule sets with strays. No set is a near-duplicate of another in this list or in [`PushRules::ALL`].
     pub const AMONG_STRAYS: [PushRules; 10] = [
         among_strays(Drain, Some(Mat), false, true),
         among_strays(Drain, Some(Pit), true, true),
@@ -83,30 +83,30 @@ impl PushRules {
         among_strays(Drain, None, false, false),
     ];
 
-    /// The characters of the game's levels.
+    /// The characters used in the game's levels.
     pub const SYMBOLS: &str = ".wAcbousyznk";
 
-    /// The number of ticks in which a stray moves one cell.
+    /// The number of ticks that a stray takes to move one cell.
     pub(crate) const COOLDOWN: usize = 3;
-    /// The number of ticks in which the spark burns one cell of fuse.
+    /// The number of ticks that the spark takes to burn one cell of fuse.
     pub(crate) const BURN: usize = 25;
 
-    /// The character of floor in levels of [`PushRules::game`].
+    /// The floor character in levels of [`PushRules::game`].
     pub const FLOOR: char = '.';
-    /// The character of a stray.
+    /// The stray character.
     pub const STRAY: char = 'y';
     /// The characters of the spark, the fuse and the keg, which occur only together with strays.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 'z', fuse: 'n', keg: 'k', wall: PushRules::WALL };
-    /// The character of walls.
+    /// The wall character.
     pub(crate) const WALL: char = 'w';
-    /// The character of the avatar.
+    /// The avatar character.
     pub(crate) const AVATAR: char = 'A';
-    /// The character of sills.
+    /// The sill character.
     pub(crate) const SILL: char = 's';
-    /// The characters of things, by kind.
+    /// The characters of pushable objects, by kind.
     pub(crate) const THINGS: [char; 2] = ['c', 'b'];
-    /// The characters of the things' targets, by kind.
+    /// The characters of the objects' targets, by kind.
     pub(crate) const TARGETS: [char; 2] = ['o', 'u'];
 
     /// Returns `true` if there are strays, which makes the game stochastic.
@@ -119,17 +119,17 @@ impl PushRules {
         PushRules { has_strays: false, ..self }
     }
 
-    /// Returns `true` if sprites of the type with this name are pushed.
+    /// Returns `true` if sprites of the named type are pushed.
     pub(crate) fn is_pushed(name: &str) -> bool {
         (0..2).any(|kind| [name_of(kind), settled(kind)].contains(&name))
     }
 
-    /// Returns `true` if sprites of the type with this name block the avatar and cannot be pushed.
+    /// Returns `true` if sprites of the named type block the avatar and cannot be pushed.
     pub(crate) fn is_barrier(name: &str) -> bool {
         name == "wall" || (0..2).any(|kind| name.strip_prefix(name_of(kind)) == Some("pit"))
     }
 
-    /// Returns a name, such as `drain-pit-sills`.
+    /// Returns the rule set's name, such as `drain-pit-sills`.
     pub fn name(self) -> String {
         let mut words: Vec<&str> = Vec::new();
         for end in self.ends.into_iter().flatten() {
@@ -148,7 +148,7 @@ impl PushRules {
     /// Returns the game with plain names.
     ///
     /// # Panics
-    /// This function never panics, because all rules compile, as a test checks.
+    /// Never panics, because all rules compile, as a test verifies.
     pub fn game(self) -> Game {
         Game::from_source(&self.source()).expect("the rules compile")
     }

@@ -1,7 +1,8 @@
 //! Rethemed games: the same rules under new names, characters, colours and texts.
 //!
-//! A player who knows a game by heart knows the purpose of its `conch`, but must read the rethemed game again. The
-//! names of its types depend on their use in the rules (`casting.rs`), and on a scene and words drawn at random.
+//! A player who knows a game by heart knows the purpose of its `conch`, but must read the rethemed game afresh. The
+//! names of the rethemed game's types depend on their use in the rules (`casting.rs`), and on a scene and words drawn
+//! at random.
 
 use super::blurb;
 use super::casting;
@@ -16,37 +17,37 @@ use engine::syntax::{MappingLine, SpriteLine};
 use engine::{Description, Game, SpriteType};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The directions at the end of the names of types that differ only in direction.
+/// The directions that end the names of types that differ only in direction.
 const DIRECTIONS: [&str; 4] = ["Up", "Left", "Down", "Right"];
-/// The prefix in the name of a type that another type turns into at its destination.
+/// The name prefix of a type that another type turns into at its destination.
 const SETTLED: &str = "settled";
-/// Adjectives that distinguish types if a scene has no more words for their role.
+/// Adjectives that distinguish types if a scene runs out of words for their role.
 const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
 
-/// A game in a new scene, with the characters of its levels.
+/// A game in a new scene, with its level characters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rethemed {
     /// The rules. All lines keep their order, so both games play identically, including their state hashes.
     pub description: Description,
     /// The title in the new scene.
     pub title: String,
-    /// A sentence about the player's character, the tasks and the dangers.
+    /// A sentence about the player character, the tasks and the dangers.
     pub summary: String,
     /// The instructions for winning, in one sentence.
     pub goal: String,
-    /// The name of the scene, such as `harbour`.
+    /// The scene's name, such as `harbour`.
     pub scene: &'static str,
     symbols: Symbols,
 }
 
 impl Rethemed {
-    /// Rethemes a game. Sprite types get words of one scene according to their use. Level characters, colours, the
-    /// title and the texts follow from the scene. No name of the game is reused except `wall` and `avatar`, because the
-    /// engine depends on these two. Images and comments are removed. Cost: about that of analysing the game twice.
+    /// Rethemes a game. Sprite types are named with words from one scene, according to their use. Level characters,
+    /// colours, the title and the texts follow from the scene. None of the game's names is reused except `wall` and
+    /// `avatar`, on which the engine depends. Images and comments are removed. Costs about two analyses of the game.
     ///
     /// # Errors
-    /// Returns [`GenerateError::Unsuitable`], with any seed, in two cases. Either the game does not compile with other
-    /// names, because it was loaded with the reference's recovery from faults, or it uses up all characters.
+    /// Returns [`GenerateError::Unsuitable`], regardless of the seed, in two cases. Either the game does not compile
+    /// with other names, because it was loaded with the reference's error recovery, or it uses up all characters.
     pub fn of(game: &Game, seed: Seed) -> Result<Rethemed, GenerateError> {
         Rethemed::retell(game, seed, false)
     }
@@ -89,12 +90,12 @@ impl Rethemed {
         Ok(Rethemed { goal, title, summary, scene: &scene.name, symbols, description })
     }
 
-    /// Returns the names of the scenes that have words for any game.
+    /// Returns the names of the scenes with words for any game.
     pub fn scenes() -> impl Iterator<Item = &'static str> {
         Scene::of_any_game().map(|(scene, _)| scene.name.as_str())
     }
 
-    /// Translates a level of the original game to the new characters. Characters without a meaning become spaces.
+    /// Translates a level of the original game to the new characters. Unmapped characters become spaces.
     pub fn level(&self, text: &str) -> String {
         self.symbols.level(text)
     }
@@ -115,7 +116,7 @@ impl OldNames {
         words(text).any(|word| self.0.contains(&word)) || self.0.contains(&stem(text))
     }
 
-    /// Draws a scene, with a preference for scenes that share few words with the old names.
+    /// Draws a scene, preferring scenes that share few words with the old names.
     fn scene(&self, sampler: &mut Sampler) -> (&'static Scene, &'static Retelling) {
         let weight = |(scene, retelling): &(&Scene, &Retelling)| {
             let shared = scene.all_nouns().filter(|noun| self.mentions_old_name(noun)).count();
@@ -146,22 +147,22 @@ fn stem(word: &str) -> String {
     word.strip_suffix('s').filter(|stem| stem.len() > 2).unwrap_or(&word).to_owned()
 }
 
-/// The new name and role of a type.
+/// A type's new name and role.
 struct Assignment {
     word: String,
     role: &'static str,
 }
 
-/// Assigns a word to every type of a SpriteSet.
+/// Assigns a word to every type in a SpriteSet.
 struct Assigner<'a> {
     analysis: &'a Analysis,
     scene: &'static Scene,
     old: &'a OldNames,
     sampler: Sampler,
-    /// The assignments by old name.
+    /// The assignments, by old name.
     assigned: BTreeMap<String, Assignment>,
-    /// The new words of directional types, by their old names without the direction; `None` if compounds are named like
-    /// other types.
+    /// The new words for directional types, by old name without the direction; `None` if compounds are named like other
+    /// types.
     stems: Option<BTreeMap<String, String>>,
 }
 
@@ -196,7 +197,7 @@ impl Assigner<'_> {
         self.of_roles(roles)
     }
 
-    /// Returns the new name of a compound. A direction or a state stays, and the name of a type becomes that type's new
+    /// Returns the new name of a compound. A direction or a state is unchanged, and a type name becomes that type's new
     /// word.
     fn compound(&mut self, name: &str, roles: &[&'static str]) -> Option<String> {
         self.stems.as_ref()?;
@@ -268,7 +269,7 @@ fn names_back(names: &BTreeMap<String, String>) -> BTreeMap<&str, &str> {
     names.iter().map(|(old, new)| (new.as_str(), old.as_str())).collect()
 }
 
-/// Recolours the game with the colours of the scene for every role that the scene has a colour for.
+/// Recolours the game with the scene's colours, for every role that has a colour in the scene.
 fn recolor(
     lines: &mut [SpriteLine],
     scene: &'static Scene,
@@ -295,8 +296,8 @@ fn recolor(
     });
 }
 
-/// Assigns new level characters. As in generated games, `.`, `w` and `A` go to the first characters that place only
-/// floor, a wall, and an avatar. Every other character becomes a letter of the name of the type that it places.
+/// Assigns new level characters. As in generated games, `.`, `w` and `A` replace the first characters that place only
+/// floor, a wall, and an avatar. Every other character becomes a letter in the name of the type that it places.
 fn symbols(analysis: &Analysis, assigned: &BTreeMap<String, Assignment>) -> Result<Symbols, GenerateError> {
     let description = analysis.game().description();
     let lines = description.mapping.iter().map(|line: &MappingLine| {

@@ -1,12 +1,11 @@
-//! The surface of a game: names, level characters, images and comments. Changes to the surface do not change the
-//! rules.
+//! A game's surface: names, level characters, images and comments. Changing the surface does not change the rules.
 
 use engine::Description;
 use engine::syntax::{MappingLine, SpriteLine, Trivia};
 use std::collections::BTreeMap;
 
-/// Returns the same rules with sprite types renamed, without comments and images. All lines keep their order, so both
-/// games play identically, including their state hashes.
+/// Returns the same rules with sprite types renamed and without comments and images. All lines keep their order, so
+/// both games play identically, including their state hashes.
 pub(super) fn without_surface(description: &Description, names: &BTreeMap<String, String>) -> Description {
     let mut bare = description.renamed(names);
     bare.header.trivia = Trivia::default();
@@ -28,20 +27,20 @@ fn strip_lines(lines: &mut [SpriteLine]) {
     }
 }
 
-/// Returns the characters that the game's levels can use. The characters of the LevelMapping come first, in its order.
-/// The built-in characters follow whose type this game declares and which it does not map itself.
+/// Returns the characters that the game's levels can use. The LevelMapping's characters come first, in order. The
+/// unmapped built-in characters follow with a type declared in the game.
 pub(super) fn symbols(description: &Description) -> Vec<char> {
     let own = description.mapping.iter().map(|line| line.symbol);
     own.chain(['w', 'A'].into_iter().filter(|&symbol| builtin(symbol, description).is_some())).collect()
 }
 
-/// Returns the type that a built-in character places if the game has no line for the character.
+/// Returns the type placed by a built-in character if the game does not map the character.
 pub(super) fn builtin(symbol: char, description: &Description) -> Option<&'static str> {
     let name = unmapped(symbol, description)?;
     declares_sprites(&description.sprites, name, false).then_some(name)
 }
 
-/// Returns `true` if one of the lines declares the type, with its own class or a parent's.
+/// Returns `true` if a line declares the type with a class of its own or inherited from a parent.
 fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
     lines.iter().any(|line| {
         let class = above || line.class.is_some();
@@ -50,7 +49,7 @@ fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
 }
 
 /// Returns the built-in characters whose types the file neither maps nor declares with a class, each with its type.
-/// These characters stay as they are, because a line for them would add a rule.
+/// These characters remain unchanged, because a line for them would add a rule.
 pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item = (char, &'static str)> {
     let undeclared = |symbol: char| {
         let name = unmapped(symbol, description)?;
@@ -59,13 +58,13 @@ pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item
     ['w', 'A'].into_iter().filter_map(undeclared)
 }
 
-/// Returns the built-in characters that this game maps itself. A twin must map them too. Otherwise they would get a
-/// built-in meaning that they do not have in this game.
+/// Returns the built-in characters that this game maps itself. A twin must map these characters too. Otherwise they
+/// would acquire a built-in meaning that they do not have in this game.
 pub(super) fn mapped_builtins(description: &Description) -> impl Iterator<Item = char> {
     ['w', 'A'].into_iter().filter(|&symbol| unmapped(symbol, description).is_none())
 }
 
-/// Returns the built-in type of a character, unless the game maps the character itself.
+/// Returns a character's built-in type, unless the game itself maps the character.
 fn unmapped(symbol: char, description: &Description) -> Option<&'static str> {
     let name = match symbol {
         'w' => "wall",
@@ -80,7 +79,7 @@ fn unmapped(symbol: char, description: &Description) -> Option<&'static str> {
 pub(super) struct Symbols(pub(super) BTreeMap<char, char>);
 
 impl Symbols {
-    /// Translates a level to the new characters. Characters without a meaning become spaces.
+    /// Translates a level to the new characters. Unmapped characters become spaces.
     pub(super) fn level(&self, text: &str) -> String {
         let symbol = |c: char| match self.0.get(&c) {
             Some(&new) => new,

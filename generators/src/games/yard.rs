@@ -1,18 +1,18 @@
-//! Rules of yards. The avatar carries parcels to depots, one at a time, between carts that follow signs, before a fuse
-//! has burnt down.
+//! Rules of yards. The avatar carries parcels to depots one at a time, between carts that follow signs, before a fuse
+//! burns down.
 
 use crate::levels::FuseSymbols;
 use engine::Game;
 use std::fmt::Write;
 
-/// The rules of a game of yards.
+/// A yard game's rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct YardRules {
-    /// The number of kinds of parcels, each with its own depot: up to [`YardRules::KINDS`].
+    /// The number of parcel kinds, each with its own depot: up to [`YardRules::KINDS`].
     kinds: usize,
-    /// `true` if there are points, which are signs that reverse their direction whenever a cart has followed them.
+    /// `true` if there are points: signs that reverse their direction whenever a cart has followed them.
     has_points: bool,
-    /// `true` if there are wagons, which are carts that take two ticks per cell.
+    /// `true` if there are wagons: carts that take two ticks per cell.
     has_wagons: bool,
 }
 
@@ -21,43 +21,43 @@ const fn rules(kinds: usize, has_points: bool, has_wagons: bool) -> YardRules {
 }
 
 impl YardRules {
-    /// The maximum number of kinds of parcels.
+    /// The maximum number of parcel kinds.
     pub const KINDS: usize = 2;
 
-    /// All sets of rules, no two of which are near-duplicates.
+    /// All rule sets, without near-duplicates.
     pub const ALL: [YardRules; 2] = [rules(1, false, false), rules(2, true, true)];
 
-    /// The characters of the game's levels.
+    /// The characters used in the game's levels.
     pub const SYMBOLS: &str = ".wAuldrvhcgypqoxsnk";
 
-    /// The character of floor in levels of [`YardRules::game`].
+    /// The floor character in levels of [`YardRules::game`].
     pub(crate) const FLOOR: char = '.';
-    /// The character of walls.
+    /// The wall character.
     pub(crate) const WALL: char = 'w';
-    /// The character of the avatar.
+    /// The avatar character.
     pub(crate) const AVATAR: char = 'A';
-    /// The characters of signs, by direction: up, left, down and right.
+    /// The sign characters, by direction: up, left, down and right.
     pub(crate) const SIGNS: [char; 4] = ['u', 'l', 'd', 'r'];
-    /// The characters of points: one that sends carts up and down alternately, and one that sends them right and left.
+    /// The point characters: one that sends carts up and down alternately, and one that sends them right and left.
     pub(crate) const POINTS: [char; 2] = ['v', 'h'];
-    /// The characters of a cart and of a wagon, each on a sign to the right.
+    /// The cart and wagon characters, each on a sign to the right.
     pub(crate) const CARTS: [char; 2] = ['c', 'g'];
-    /// The character of a stray.
+    /// The stray character.
     pub(crate) const STRAY: char = 'y';
-    /// The characters of parcels, by kind.
+    /// The parcel characters, by kind.
     pub(crate) const PARCELS: [char; YardRules::KINDS] = ['p', 'q'];
-    /// The characters of depots, by kind.
+    /// The depot characters, by kind.
     pub(crate) const DEPOTS: [char; YardRules::KINDS] = ['o', 'x'];
     /// The characters of the spark, the fuse and the keg.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 's', fuse: 'n', keg: 'k', wall: YardRules::WALL };
-    /// The number of ticks in which the spark burns one cell of fuse.
+    /// The number of ticks that the spark takes to burn one cell of fuse.
     pub(crate) const BURN: usize = 14;
 
-    /// The number of ticks in which a stray moves one cell.
+    /// The number of ticks that a stray takes to move one cell.
     pub(crate) const COOLDOWN: usize = 2;
 
-    /// Returns the number of kinds of parcels.
+    /// Returns the number of parcel kinds.
     pub fn kinds(self) -> usize {
         self.kinds
     }
@@ -72,7 +72,7 @@ impl YardRules {
         self.has_wagons
     }
 
-    /// Returns a name, such as `yards-2-points`.
+    /// Returns the rule set's name, such as `yards-2-points`.
     pub fn name(self) -> String {
         let mut name = format!("yards-{}", self.kinds);
         name.push_str(if self.has_points { "-points" } else { "" });
@@ -83,7 +83,7 @@ impl YardRules {
     /// Returns the game with plain names.
     ///
     /// # Panics
-    /// This function never panics, because all rules compile, as a test checks.
+    /// Never panics, because all rules compile, as a test verifies.
     pub fn game(self) -> Game {
         Game::from_source(&self.source()).expect("the rules compile")
     }

@@ -1,4 +1,4 @@
-//! Drawing inventions, which is the constructive method.
+//! Draws inventions: the constructive method.
 
 use super::fiction::Noun;
 use super::genome::{Invention, apart};
@@ -9,17 +9,17 @@ use base::{Sampler, Seed};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// The number of partitions that are drawn for a choice of mechanics.
+/// The number of partitions to draw for each choice of mechanics.
 const PARTITIONS: usize = 24;
-/// The maximum number of choices of mechanics in a draw.
+/// The maximum number of choices of mechanics per draw.
 const CHOICES: u64 = 400;
-/// The maximum number of ports that one type fills.
+/// The maximum number of ports filled by one type.
 const MOST_PORTS: usize = 3;
-/// The number of sound draws among which the draw with the least used couplings is chosen.
+/// The number of sound draws from which the draw with the least-used couplings is selected.
 const PROPOSALS: usize = 3;
-/// The number that is added to the uses of mechanics, so that the first few uses change the weights little.
+/// The number added to each mechanic's uses, so that the first few uses hardly change the weights.
 const MECHANICS: u64 = 4;
-/// The number that is added to the uses of endings, so that the first few uses change the weights little.
+/// The number added to each ending's uses, so that the first few uses hardly change the weights.
 const ENDINGS: u64 = 12;
 
 /// The limits on the size of inventions.
@@ -27,7 +27,8 @@ const ENDINGS: u64 = 12;
 pub struct InventionConfig {
     /// The maximum number of mechanics besides the ending. The minimum is 2.
     pub mechanics: usize,
-    /// The name of a mechanic that every draw contains if a sound draw with it is found; see [`Census::lead`].
+    /// The name of a mechanic that every draw contains if a sound draw with this mechanic is found; see
+    /// [`Census::lead`].
     pub lead: Option<String>,
 }
 
@@ -39,15 +40,15 @@ impl Default for InventionConfig {
 
 /// The number of games in which each mechanic, ending and coupling was used.
 ///
-/// A draw prefers the least used mechanics, endings and couplings, so that people who play games of many months see all
-/// of them equally often.
+/// A draw prefers the least-used mechanics, endings and couplings, so that all of them occur equally often over many
+/// months.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Census {
     uses: BTreeMap<String, u32>,
 }
 
 impl Census {
-    /// Creates a census with the given counts by pattern.
+    /// Creates a census from the given counts per pattern.
     pub fn of(uses: &BTreeMap<String, u32>) -> Census {
         Census { uses: uses.clone() }
     }
@@ -65,12 +66,12 @@ impl Census {
         is_invented
     }
 
-    /// Returns all counts by pattern.
+    /// Returns all counts, by pattern.
     pub fn all(&self) -> impl Iterator<Item = (&str, u32)> {
         self.uses.iter().map(|(pattern, uses)| (pattern.as_str(), *uses))
     }
 
-    /// Returns the counts of a kind of pattern, such as `mechanic`, by name.
+    /// Returns the counts for one kind of pattern, such as `mechanic`, by name.
     pub fn of_kind<'a>(&'a self, kind: &'a str) -> impl Iterator<Item = (&'a str, u32)> + 'a {
         self.uses
             .iter()
@@ -78,8 +79,7 @@ impl Census {
     }
 
     /// Returns the name of the mechanic that leads the draws of a turn. All mechanics take turns, starting with the
-    /// least used, and ties are in the order of the seed. Games that are drawn independently of each other thus differ
-    /// if their turns do.
+    /// least used, and the seed breaks ties. Independently drawn games thus differ if their turns differ.
     pub fn lead(&self, seed: Seed, turn: usize) -> &'static str {
         let mut names: Vec<&'static str> =
             Mechanic::endings(false).map(|mechanic| mechanic.name.as_str()).collect();
@@ -92,12 +92,12 @@ impl Census {
         self.uses.get(&format!("{kind}/{name}")).copied().unwrap_or_default()
     }
 
-    /// Returns the total number of uses of all couplings of an invention. A lower total makes an invention look newer.
+    /// Returns the total number of uses of all couplings in an invention. A lower total makes an invention look newer.
     fn familiarity(&self, drawn: &Invention) -> u32 {
         drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
 
-    /// Draws a mechanic, or an ending, that is not in `others`. The least used mechanics and endings are preferred.
+    /// Draws a mechanic or ending that is not in `others`, preferring the least-used ones.
     pub(super) fn choose(
         &self,
         is_ending: bool,
@@ -107,8 +107,8 @@ impl Census {
         choose_one(is_ending, others, |mechanic| self.weight(mechanic), sampler)
     }
 
-    /// Returns the weight of a mechanic or ending in a draw. The weight falls with the square of the number of uses
-    /// relative to the mean, and compensates for mechanics that are seldom sound.
+    /// Returns the weight of a mechanic or ending in a draw. The weight decreases with the square of the number of uses
+    /// relative to the mean, and compensates for rarely sound mechanics.
     fn weight(&self, mechanic: &Mechanic) -> u32 {
         let (kind, prior) =
             if mechanic.ending.is_some() { ("ending", ENDINGS) } else { ("mechanic", MECHANICS) };
@@ -120,15 +120,15 @@ impl Census {
     }
 }
 
-/// The number of samples that measure how often each mechanic is part of a sound draw.
+/// The number of samples used to measure how often each mechanic is part of a sound draw.
 const SAMPLES: u64 = 6_000;
-/// The rarity of a mechanic that is sound as often as the average.
+/// The rarity of a mechanic that is sound with average frequency.
 const USUAL: u64 = 16;
 /// The maximum rarity of a mechanic.
 const RAREST: u64 = 64;
 
-/// Returns the factor by which a mechanic is drawn more often because it is seldom part of a sound draw. Cost: a third
-/// of a second the first time.
+/// Returns the factor by which a mechanic's weight is increased because it is rarely part of a sound draw. Takes a
+/// third of a second the first time.
 fn rarity(name: &str) -> u64 {
     static ALL: OnceLock<BTreeMap<&str, u64>> = OnceLock::new();
     let all = ALL.get_or_init(|| {
@@ -154,15 +154,15 @@ fn rarity(name: &str) -> u64 {
     all.get(name).copied().unwrap_or(USUAL)
 }
 
-/// Returns `true` if two games, given by their patterns, have two mechanics in common. Players would see the same game
-/// again.
+/// Returns `true` if two games, given by their patterns, share two mechanics. To players, they would seem to be the
+/// same game.
 pub fn share_idea(one: &[String], two: &[String]) -> bool {
     let shared = one.iter().filter(|pattern| pattern.starts_with("mechanic/") && two.contains(pattern));
     shared.count() > 1
 }
 
 impl Invention {
-    /// Draws an invention whose rules compile. Cost: some milliseconds.
+    /// Draws an invention whose rules compile. Cost: a few milliseconds.
     ///
     /// Returns `None` if none of several hundred draws is sound.
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
@@ -208,7 +208,7 @@ impl Invention {
     /// Draws once, for statistics.
     ///
     /// # Errors
-    /// Returns the condition that the draw does not meet.
+    /// Returns the unmet condition.
     pub fn sample(config: &InventionConfig, seed: Seed) -> Result<Invention, Unsound> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
@@ -218,7 +218,7 @@ impl Invention {
     }
 }
 
-/// Draws a mechanic, or an ending, that is not in `others`, by weight.
+/// Draws a mechanic or ending that is not in `others`, by weight.
 fn choose_one(
     is_ending: bool,
     others: &[&'static Mechanic],
@@ -251,7 +251,7 @@ fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<V
     completed(mechanics, apart(mechanics), sampler)
 }
 
-/// Completes a partition in which some ports are already merged, in the same way as [`partition`].
+/// Completes a partition with some ports already merged, in the same way as [`partition`].
 pub(super) fn completed(
     mechanics: &[&'static Mechanic],
     begun: Vec<u8>,
@@ -288,7 +288,7 @@ struct Draft {
 }
 
 impl Draft {
-    /// Returns `true` if the type of a port would be useless: a mover without motion, or a thing that nothing needs.
+    /// Returns `true` if a port's type would be useless: a mover without motion, or a type that nothing needs.
     fn is_needy(&self, port: usize) -> bool {
         let members = self.members(self.partition[port]);
         let Some(merged) = Merged::of(members) else { return false };
@@ -300,7 +300,7 @@ impl Draft {
         all.filter(|(_, other)| **other == class).map(|(port, _)| *port).collect()
     }
 
-    /// Returns a mechanic whose ports share no type with any other mechanic; `None` if there is no such mechanic.
+    /// Returns a mechanic whose ports do not share a type with any other mechanic; `None` if there is no such mechanic.
     fn lonely(&self, mechanics: usize) -> Option<usize> {
         let types: Vec<Merged> = (0..=u8::MAX)
             .map_while(|class| (usize::from(class) < self.ports.len()).then(|| self.members(class)))
@@ -315,7 +315,7 @@ impl Draft {
         })
     }
 
-    /// Merges the first wanted pair that can be merged; `None` if there is no such pair.
+    /// Merges the first mergeable wanted pair; `None` if there is no such pair.
     fn merge_one(
         &mut self,
         pairs: &[(usize, usize)],

@@ -1,4 +1,4 @@
-//! The genome of an invented game: mechanics, a partition of their ports, numbers and words.
+//! The genome of an invented game: mechanics, a partition of their ports, numbers and texts.
 
 use super::emit;
 use super::fiction::Fiction;
@@ -20,9 +20,9 @@ pub struct Invention {
     pub(super) mechanics: Vec<&'static Mechanic>,
     /// The type of each port, in the order of [`ports`].
     pub(super) partition: Vec<u8>,
-    /// The numbers of each mechanic.
+    /// Each mechanic's numbers.
     pub(super) values: Vec<Vec<u32>>,
-    /// The seed of the nouns, the title and the story.
+    /// The seed for the nouns, the title and the story.
     pub(super) fiction: Seed,
     /// The number of ticks after which the game is lost; `None` if there is no limit.
     pub(super) time: Option<u32>,
@@ -31,13 +31,13 @@ pub struct Invention {
 /// An invented game that compiles.
 #[derive(Clone, Debug)]
 pub struct Invented {
-    /// The game, with its words.
+    /// The game, with its texts.
     pub game: GeneratedGame,
     /// The types with opposed uses.
     pub joint: Vec<JointType>,
-    /// The idiom of each type that boards can place, by its name.
+    /// The idiom of each placeable type, by name.
     pub idioms: Vec<(String, Idiom)>,
-    /// For each mechanic except the ending, the types that no other mechanic has. Without these types, the game lacks
+    /// For each mechanic except the ending, the types used by no other mechanic. Without these types, the game lacks
     /// the mechanic.
     pub own_types: Vec<Vec<String>>,
 }
@@ -45,7 +45,7 @@ pub struct Invented {
 /// A type that fills ports of several mechanics.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JointType {
-    /// The name of the type.
+    /// The type's name.
     pub name: String,
     /// For each mechanic that does more than harm, its interactions that involve the type, by their indices in the
     /// rules.
@@ -54,14 +54,14 @@ pub struct JointType {
 
 /// The maximum number of rules that follow from bodies and never apply. Games with more such rules are rejected.
 const MOST_IDLE: usize = 8;
-/// The tick limit of an invention whose wins are not known yet.
+/// The tick limit of an invention whose wins are not yet known.
 const LONG: u32 = 399;
 
 impl Invention {
-    /// Builds an invention of some mechanics, the last of which is the ending.
+    /// Builds an invention from mechanics, the last of which is the ending.
     ///
     /// # Errors
-    /// Returns the condition that the invention does not meet.
+    /// Returns the unmet condition.
     pub(super) fn of(
         mechanics: Vec<&'static Mechanic>,
         partition: Vec<u8>,
@@ -78,14 +78,15 @@ impl Invention {
     /// Checks the static conditions.
     ///
     /// # Errors
-    /// Returns the first condition that the invention does not meet.
+    /// Returns the first unmet condition.
     pub(super) fn check(&self) -> Result<(), Unsound> {
         let types = self.types().ok_or(Unsound::Body)?;
         soundness::check(&self.mechanics, &types)?;
         if Fiction::can_name(&types, &self.mechanics) { Ok(()) } else { Err(Unsound::Noun) }
     }
 
-    /// Returns the types that result from merging ports; `None` if no body fits all ports of some type.
+    /// Returns the types that result from merging ports; `None` if there is a type without a body that fits all of
+    /// its ports.
     pub(super) fn types(&self) -> Option<Vec<Merged>> {
         merged(&self.mechanics, &self.partition)
     }
@@ -95,7 +96,7 @@ impl Invention {
         self.mechanics.iter().map(|mechanic| mechanic.name.as_str())
     }
 
-    /// Returns the merged pairs of ports, such as `feed.food+lock.key`, in the order of their names.
+    /// Returns the merged pairs of ports, such as `feed.food+lock.key`, sorted by name.
     pub fn couplings(&self) -> Vec<String> {
         let name = |((mechanic, port), _): &((usize, usize), _)| {
             let mechanic = self.mechanics[*mechanic];
@@ -109,7 +110,7 @@ impl Invention {
         pairs.sorted().collect()
     }
 
-    /// Returns the kind of game, which the ending determines.
+    /// Returns the kind of game, as determined by the ending.
     pub fn kind(&self) -> Kind {
         let ending = self.mechanics.last().and_then(|mechanic| mechanic.ending.as_ref());
         ending.map_or(Kind::CollectAndAvoid, |(_, kind)| *kind)
@@ -185,7 +186,7 @@ impl Invention {
         Ok(Invented { game, joint, idioms, own_types })
     }
 
-    /// Returns the digest of the rules without their words. Inventions with the same key have the same rules.
+    /// Returns the digest of the rules without their texts. Inventions with the same key have the same rules.
     pub fn key(&self) -> Digest {
         let names = self.mechanics().join(" ");
         Digest::of(format!("{names} {:?} {:?}", self.partition, self.values).as_bytes())
@@ -193,7 +194,7 @@ impl Invention {
 }
 
 /// Returns, for each mechanic whose port the type fills, the mechanic's interactions, except those that kill the
-/// player. Mechanics without any other interaction are left out, because they are only a threat.
+/// player. Mechanics without other interactions are omitted, because they are only threats.
 fn uses(merged: &Merged, written: &emit::Written) -> Vec<Vec<usize>> {
     let of_mechanic = |((mechanic, _), _): &(PortId, &Port)| -> Vec<usize> {
         let lines = written.description.interactions.iter().zip(&written.owners).enumerate();
@@ -206,7 +207,7 @@ fn uses(merged: &Merged, written: &emit::Written) -> Vec<Vec<usize>> {
     merged.ports.iter().map(of_mechanic).filter(|lines| !lines.is_empty()).collect()
 }
 
-/// Numbers the classes of a partition in the order of their first ports.
+/// Numbers a partition's classes in the order of their first ports.
 pub(super) fn normal(partition: &[u8]) -> Vec<u8> {
     let mut seen: Vec<u8> = Vec::new();
     let number = |class: &u8| {
@@ -219,7 +220,7 @@ pub(super) fn normal(partition: &[u8]) -> Vec<u8> {
     partition.iter().map(number).collect()
 }
 
-/// Returns the partition that merges nothing.
+/// Returns the partition that does not merge any ports.
 pub(super) fn apart(mechanics: &[&'static Mechanic]) -> Vec<u8> {
     (0..=u8::MAX).take(ports(mechanics).len()).collect()
 }

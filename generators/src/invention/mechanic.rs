@@ -1,4 +1,4 @@
-//! Mechanics, which are files of clauses about ports.
+//! Mechanics: files with clauses about ports.
 
 use super::fiction::Predicates;
 use crate::games::Kind;
@@ -11,20 +11,20 @@ use std::sync::OnceLock;
 
 static FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/mechanics");
 
-/// The physical nature of a type: the class of its sprites, and the rules that follow from this class.
+/// A type's physical nature: the class of its sprites, and the rules that follow from this class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Body {
-    /// A thing that the player picks up and holds.
+    /// An object that the player picks up and holds.
     Item,
-    /// A thing that the player pushes.
+    /// An object that the player pushes.
     Crate,
-    /// A thing that stops the player, movers and crates.
+    /// An object that stops the player, movers and crates.
     Solid,
-    /// Ground that stops nobody.
+    /// Ground that does not stop any sprite.
     Ground,
-    /// A thing that moves by itself.
+    /// An object that moves by itself.
     Mover,
-    /// A thing that exists for one tick.
+    /// An object that exists for one tick.
     Flash,
 }
 
@@ -47,29 +47,29 @@ impl FromStr for Body {
 /// The use of a port from the player's point of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Tag {
-    /// The player wants the thing for the mechanic.
+    /// The player needs the object for the mechanic.
     Tool,
-    /// The thing is used up.
+    /// The object is used up.
     Spent,
-    /// The mechanic produces the thing.
+    /// The mechanic produces the object.
     Made,
-    /// An act of the player removes the thing.
+    /// A player action removes the object.
     Removed,
-    /// Something other than the player removes the thing.
+    /// The object is removed, but not by the player.
     Lost,
-    /// The thing harms the player.
+    /// The object harms the player.
     Harm,
-    /// The thing is in the player's way.
+    /// The object is in the player's way.
     Bars,
-    /// The thing lets the player pass.
+    /// The object lets the player pass.
     Road,
-    /// The mechanic gives the thing its motion.
+    /// The mechanic moves the object.
     Moves,
-    /// The player decides where the thing goes.
+    /// The player controls where the object goes.
     Led,
-    /// The ending wants the thing.
+    /// The ending needs the object.
     Goal,
-    /// The thing acts on other things.
+    /// The object acts on other objects.
     Foe,
 }
 
@@ -99,10 +99,10 @@ impl FromStr for Tag {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Port {
     pub(crate) name: String,
-    /// The bodies that can fill the port, from best to worst.
+    /// The bodies that can fill the port, from most to least suitable.
     pub(crate) bodies: Vec<Body>,
     pub(crate) tags: BTreeSet<Tag>,
-    /// The properties that a noun needs so that the rules make sense.
+    /// The properties that a noun must have for the rules to make sense.
     pub(crate) predicates: Predicates,
 }
 
@@ -114,7 +114,7 @@ pub(crate) struct OwnType {
     pub(crate) origin: Origin,
 }
 
-/// The source of the noun of a mechanic's own type.
+/// The source of the noun for a mechanic's own type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Origin {
     /// A different state of the type that fills a port.
@@ -124,7 +124,7 @@ pub(crate) enum Origin {
         /// `true` if other mechanics' rules about the port also apply to the state.
         is_still: bool,
     },
-    /// A separate thing whose noun has these predicates.
+    /// A separate object whose noun has the given predicates.
     Thing(Predicates),
 }
 
@@ -142,7 +142,7 @@ pub(crate) struct Mechanic {
     pub(crate) heroes: Option<Template>,
     pub(crate) hero: Option<Template>,
     pub(crate) terminations: Template,
-    /// The goal in words and the kind of game; `None` if the mechanic is not an ending.
+    /// The goal as text, and the kind of game; `None` if the mechanic is not an ending.
     pub(crate) ending: Option<(String, Kind)>,
 }
 
@@ -170,7 +170,7 @@ struct File {
 }
 
 impl Mechanic {
-    /// Returns all mechanics, in the order of their names.
+    /// Returns all mechanics, sorted by name.
     pub(crate) fn all() -> &'static [Mechanic] {
         static ALL: OnceLock<Vec<Mechanic>> = OnceLock::new();
         ALL.get_or_init(|| {
@@ -189,20 +189,20 @@ impl Mechanic {
         })
     }
 
-    /// Returns the mechanics that are endings if `are` is `true`, and all other mechanics otherwise.
+    /// Returns the endings if `are` is `true`, and all other mechanics otherwise.
     pub(crate) fn endings(are: bool) -> impl Iterator<Item = &'static Mechanic> {
         Mechanic::all().iter().filter(move |mechanic| mechanic.ending.is_some() == are)
     }
 
-    /// Returns `true` if the mechanic needs its own avatar.
+    /// Returns `true` if the mechanic requires its own avatar.
     pub(crate) fn has_hero(&self) -> bool {
         self.hero.is_some() || self.heroes.is_some()
     }
 
-    /// Parses the file of a mechanic.
+    /// Parses a mechanic's file.
     ///
     /// # Errors
-    /// Returns the first fault as a sentence.
+    /// Returns the first problem as a sentence.
     pub(crate) fn read(name: &str, text: &str) -> Result<Mechanic, String> {
         let file: File = toml::from_str(text).map_err(|error| error.to_string())?;
         let mut numbers = Numbers::default();

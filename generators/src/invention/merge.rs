@@ -16,7 +16,7 @@ pub(crate) struct Merged {
 }
 
 impl Merged {
-    /// Merges ports. Returns `None` if no body can fill all of them, or if two of them belong to the same mechanic.
+    /// Merges ports. Returns `None` if no body can fill all ports, or if two ports belong to the same mechanic.
     pub(crate) fn of(ports: Vec<(PortId, &'static Port)>) -> Option<Merged> {
         let mechanics: BTreeSet<usize> = ports.iter().map(|((mechanic, _), _)| *mechanic).collect();
         let (first, others) = ports.split_first()?;
@@ -30,13 +30,13 @@ impl Merged {
         self.ports.iter().any(|(_, port)| port.tags.contains(&tag))
     }
 
-    /// Counts the type's ports that have the tag.
+    /// Counts the type's ports with the tag.
     pub(crate) fn count(&self, tag: Tag) -> usize {
         self.ports.iter().filter(|(_, port)| port.tags.contains(&tag)).count()
     }
 
-    /// Returns `true` if an ending wants the type kept until the player takes it, so that any other loss of the type
-    /// ends the game.
+    /// Returns `true` if an ending needs the type to exist until the player takes it, so that any other loss of the
+    /// type ends the game.
     pub(crate) fn is_kept_for(&self, ending: usize) -> bool {
         let is_taken = |((mechanic, _), port): &(PortId, &Port)| {
             *mechanic == ending && port.tags.contains(&Tag::Goal) && port.tags.contains(&Tag::Removed)
@@ -44,12 +44,12 @@ impl Merged {
         self.ports.iter().any(is_taken)
     }
 
-    /// Returns `true` if the mechanic of a port removes sprites of the type from the board.
+    /// Returns `true` if a port's mechanic removes sprites of the type from the board.
     pub(crate) fn loses(&self, port: &Port) -> bool {
         port.tags.contains(&Tag::Lost) || (port.tags.contains(&Tag::Spent) && self.body != Body::Item)
     }
 
-    /// Returns the predicates that the type's noun needs.
+    /// Returns the predicates required for the type's noun.
     pub(crate) fn predicates(&self) -> Predicates {
         self.ports.iter().fold(Predicates::default(), |all, (_, port)| all.with(port.predicates))
     }

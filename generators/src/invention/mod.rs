@@ -1,7 +1,7 @@
-//! Invention of rules from mechanics with merged ports, so that one type of thing has opposed uses.
+//! Invents rules from mechanics with merged ports, so that one sprite type has opposed uses.
 //!
-//! A [`Mechanic`](mechanic::Mechanic) is a few clauses of VGDL about roles that are still open, its *ports*. An
-//! [`Invention`] combines mechanics and an ending, and merges ports into types, which is a partition of the ports.
+//! A [`Mechanic`](mechanic::Mechanic) is a few VGDL clauses about open roles, its *ports*. An [`Invention`]
+//! combines mechanics and an ending, and partitions the ports: the ports in one class are merged into one type.
 //! `soundness.rs` rejects partitions by their tags before anything is compiled. `emit/` writes the rules of the
 //! remaining partitions, and `fiction/` finds nouns that fit everything a type does.
 

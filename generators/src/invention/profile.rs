@@ -1,4 +1,5 @@
-//! Characteristics of inventions that are known before any board exists. They are the axes of an archive.
+//! Characteristics of inventions, known before any board exists. An archive uses these characteristics as
+//! axes.
 
 use super::genome::Invention;
 use super::mechanic::{Body, Tag};
@@ -6,34 +7,34 @@ use super::merge::Merged;
 use super::soundness::is_opposed;
 
 base::named_enum! {
-    /// The most distinctive thing that the player does to the types of a game.
+    /// The player's most distinctive action on a game's types.
     pub enum Verb {
         /// The player changes shape, state or way of moving.
         Change = "change",
-        /// The player pushes things.
+        /// The player pushes objects.
         Push = "push",
-        /// The player uses up things that it carried.
+        /// The player uses up items that it carries.
         Spend = "spend",
         /// The player removes obstacles.
         Open = "open",
         /// The player decides where a mover goes.
         Lead = "lead",
-        /// The player only collects, catches or avoids things.
+        /// The player only collects, catches or avoids objects.
         Take = "take",
     }
 }
 
 impl Verb {
-    /// Returns the verb's position in the list of all verbs.
+    /// Returns the verb's index in the list of all verbs.
     pub fn number(self) -> usize {
         Verb::ALL.into_iter().position(|verb| verb == self).unwrap_or_default()
     }
 }
 
-/// The characteristics of an invention.
+/// An invention's characteristics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
-    /// The number of ports that types with opposed uses fill.
+    /// The number of ports filled by types with opposed uses.
     pub coupling: usize,
     /// The most distinctive verb.
     pub verb: Verb,

@@ -1,9 +1,9 @@
-//! Static conditions on merged ports. They reject partitions before rules are written.
+//! Static conditions on merged ports. Unsound partitions are rejected before rules are written.
 
 use super::mechanic::{Body, Mechanic, Tag};
 use super::merge::Merged;
 
-/// The maximum number of types that a player meets.
+/// The maximum number of types that a player encounters.
 const MOST_TYPES: usize = 8;
 
 /// The reason for rejecting a partition.
@@ -11,9 +11,9 @@ const MOST_TYPES: usize = 8;
 pub enum Unsound {
     /// No body fills all ports of a type.
     Body,
-    /// A mover has no motion, or more than one.
+    /// A mover has no motion, or has several.
     Motion,
-    /// A mechanic shares no type with the others.
+    /// A mechanic does not share a type with any other mechanic.
     Unconnected,
     /// A type is produced or carried, but nothing needs it.
     Idle,
@@ -21,7 +21,7 @@ pub enum Unsound {
     NoTension,
     /// The player cannot influence a mover.
     NoAgency,
-    /// The goal is met by losing things, or nothing removes the goal.
+    /// The goal is met by losing objects, or nothing removes the goal.
     Goal,
     /// Nothing is harmful, and nothing can be lost.
     Harmless,
@@ -55,7 +55,7 @@ impl Unsound {
 /// Checks a partition, except for its nouns.
 ///
 /// # Errors
-/// Returns the first condition that the partition does not meet.
+/// Returns the first unmet condition.
 pub(super) fn check(mechanics: &[&'static Mechanic], types: &[Merged]) -> Result<(), Unsound> {
     let conditions: [(Unsound, bool); 9] = [
         (Unsound::Avatar, mechanics.iter().filter(|mechanic| mechanic.has_hero()).count() <= 1),
@@ -88,8 +88,7 @@ pub(super) fn are_connected(mechanics: usize, types: &[Merged]) -> bool {
     group.iter().all(|at| *at == group[0])
 }
 
-/// Returns `true` if nothing needs the type and nothing is harmed by it, or if it is merely carried or blocks like a
-/// wall.
+/// Returns `true` if the type is not needed and does no harm, or if it is merely carried or blocks like a wall.
 pub(super) fn is_idle(merged: &Merged) -> bool {
     let matters = [Tag::Tool, Tag::Goal, Tag::Harm, Tag::Bars, Tag::Road, Tag::Foe];
     let wanted = matters.iter().any(|tag| merged.has(*tag));
@@ -100,8 +99,8 @@ pub(super) fn is_idle(merged: &Merged) -> bool {
     !wanted || is_only_carried || is_wall
 }
 
-/// Returns `true` if a goal can be achieved. Either the ending takes or requires the type, or a different mechanic
-/// removes it. A type that must be removed must exist from the beginning, and must not be produced.
+/// Returns `true` if a goal can be achieved. Either the ending takes or requires the goal's type, or a different
+/// mechanic removes it. A type to be removed must exist from the beginning, and must not be produced.
 fn has_honest_goal(merged: &Merged) -> bool {
     if merged.has(Tag::Goal) && merged.has(Tag::Made) && !merged.has(Tag::Tool) {
         return false;
@@ -126,7 +125,7 @@ pub(crate) fn is_opposed(merged: &Merged) -> bool {
         || across(Tag::Removed, Tag::Road)
 }
 
-/// Returns `true` if the player can influence a mover in some way other than keeping away from it.
+/// Returns `true` if the player can influence a mover other than by avoiding it.
 fn is_influenced(merged: &Merged) -> bool {
     merged.body != Body::Mover
         || merged.has(Tag::Led)
@@ -135,18 +134,18 @@ fn is_influenced(merged: &Merged) -> bool {
         || merged.has(Tag::Spent)
 }
 
-/// Returns `true` if events in a game can lose it.
+/// Returns `true` if a type can harm the player, so that the game can be lost.
 fn can_be_lost(types: &[Merged]) -> bool {
     types.iter().any(|merged| merged.has(Tag::Harm))
 }
 
-/// Counts the types that players see.
+/// Counts the types visible to players.
 fn visible(mechanics: &[&'static Mechanic], types: &[Merged]) -> usize {
     let own = mechanics.iter().flat_map(|mechanic| &mechanic.types);
     types.len() + own.filter(|own| own.body != Body::Flash).count()
 }
 
-/// Returns `true` if at most one type fills more than two ports, and no type fills more than three.
+/// Returns `true` if at most one type fills more than two ports, and none fills more than three.
 fn are_few_crowded(types: &[Merged]) -> bool {
     let crowded = types.iter().filter(|merged| merged.ports.len() > 2).count();
     crowded <= 1 && types.iter().all(|merged| merged.ports.len() <= 3)

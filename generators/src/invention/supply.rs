@@ -8,8 +8,8 @@ use base::Seed;
 /// The estimated number of rule sets that the inventor can draw.
 ///
 /// A rule set is a choice of mechanics and an ending. For each number of mechanics, the choices are counted, and the
-/// fraction for which a game can be built is estimated from uniformly drawn choices. The result is a lower bound on the
-/// number of rules, because most choices can be merged in several ways.
+/// buildable fraction is estimated from uniformly drawn choices. The result is a lower bound on the number of distinct
+/// rules, because most choices can be merged in several ways.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InventionSupply {
     strata: Vec<Stratum>,
@@ -40,7 +40,7 @@ impl InventionSupply {
         InventionSupply { strata: (2..=config.mechanics.max(2)).map(stratum).collect() }
     }
 
-    /// Returns the estimated number of sets.
+    /// Returns the estimated number of rule sets.
     pub fn sets(&self) -> f64 {
         let sets = |stratum: &Stratum| stratum.choices * stratum.sound as f64 / stratum.drawn.max(1) as f64;
         self.strata.iter().map(sets).sum()
@@ -59,7 +59,7 @@ impl InventionSupply {
     }
 }
 
-/// Returns the number of ways to choose `count` of `all` elements.
+/// Returns the number of combinations of `count` elements from `all`.
 fn combinations(all: f64, count: usize) -> f64 {
     (0..count).fold(1.0, |ways, at| ways * (all - at as f64).max(0.0) / (at + 1) as f64)
 }

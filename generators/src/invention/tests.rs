@@ -1,4 +1,4 @@
-//! Tests of all mechanics, and of properties of inventions.
+//! Tests for all mechanics, and for properties of inventions.
 
 use super::draw::{Census, InventionConfig, share_idea};
 use super::genome::{Invention, apart};
@@ -53,7 +53,7 @@ fn every_mechanic_can_be_read_and_says_its_rules() {
     }
 }
 
-/// The rules of a sound draw may still not compile.
+/// A sound draw's rules might still fail to compile.
 #[test]
 fn every_mechanic_is_part_of_some_sound_draw() {
     let config = InventionConfig::default();

@@ -1,4 +1,4 @@
-//! Variation of inventions, for searches.
+//! Varies inventions, for searches.
 
 use super::draw::{Census, InventionConfig, completed};
 use super::genome::{Invention, normal};
@@ -7,7 +7,7 @@ use super::merge::ports;
 use crate::Variation;
 use base::{Sampler, Seed};
 
-/// The number of attempts at a change before a parent is returned unchanged.
+/// The number of attempts at a change before the parent is returned unchanged.
 const ATTEMPTS: usize = 24;
 
 /// A kind of change.
@@ -17,18 +17,17 @@ enum Change {
     Number,
     /// Changes the type of a port.
     Merge,
-    /// Replaces a mechanic by a different one.
+    /// Replaces a mechanic with a different one.
     Mechanic,
 }
 
 /// The kinds of change with their weights.
 const CHANGES: [(Change, u32); 3] = [(Change::Mechanic, 4), (Change::Merge, 5), (Change::Number, 3)];
 
-/// Inventions as candidates of a search. They are drawn like constructive inventions, mutated by changing numbers, a
-/// merge or a mechanic, and crossed by combining mechanics of both parents.
+/// Inventions as search candidates. Candidates are drawn like constructive inventions, mutated by changing numbers, a
+/// merge or a mechanic, and crossed by combining both parents' mechanics.
 ///
-/// All candidates build, which means that their rules compile without errors or warnings. Cost: some milliseconds per
-/// mutation.
+/// All candidates build: their rules compile without errors or warnings. Cost: a few milliseconds per mutation.
 #[derive(Clone, Debug, Default)]
 pub struct InventionVariation {
     config: InventionConfig,
@@ -69,7 +68,7 @@ impl InventionVariation {
 }
 
 impl Invention {
-    /// Returns the same invention with a different mechanic at an index. The ports of that mechanic are merged anew.
+    /// Returns the same invention with a different mechanic at an index. That mechanic's ports are merged anew.
     fn replaced(&self, at: usize, mechanic: &'static Mechanic, sampler: &mut Sampler) -> Option<Invention> {
         let mut mechanics = self.mechanics.clone();
         if mechanics.iter().any(|other| other.name == mechanic.name) {
@@ -115,7 +114,7 @@ impl Variation for InventionVariation {
         parent.clone()
     }
 
-    /// Replaces a mechanic of one invention by a mechanic of the other invention.
+    /// Replaces a mechanic in one invention with a mechanic from the other.
     fn cross(&self, one: &Invention, two: &Invention, sampler: &mut Sampler) -> Invention {
         for _ in 0..ATTEMPTS {
             let at = sampler.below(one.mechanics.len());

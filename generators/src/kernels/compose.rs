@@ -1,4 +1,4 @@
-//! The composition of a game's rules and words from a kernel, the kernel's numbers and a scene.
+//! Composes a game's rules and texts from a kernel, the kernel's numbers and a scene.
 
 use super::course::{self, Board, Space, Traits};
 use super::habits::{Edge, Habits};
@@ -21,17 +21,17 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Debug)]
 pub(crate) struct Choices<'a> {
     pub(crate) kernel: &'static Kernel,
-    /// The indices of the variants that the game has.
+    /// The indices of the game's variants.
     pub(crate) variants: &'a [usize],
     pub(crate) values: &'a [u32],
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
     pub(crate) habits: Habits,
-    /// The number of ticks after which the game is lost; `None` if there is no limit, or if surviving is the goal.
+    /// The number of ticks after which the game is lost; `None` if there is no limit, or if survival is the goal.
     pub(crate) time: Option<u32>,
 }
 
-/// A game without levels: its rules, nouns and words, and the building blocks of its levels.
+/// A game without levels: its rules, nouns and texts, and the building blocks for its levels.
 #[derive(Clone, Debug)]
 pub(crate) struct Composed {
     pub(crate) description: Description,
@@ -41,7 +41,7 @@ pub(crate) struct Composed {
     pub(crate) course: Course,
 }
 
-/// The maps of the levels of a game, and the characters to write them with.
+/// The maps for a game's levels, and the level characters to use.
 #[derive(Clone, Debug)]
 pub struct Course {
     kernel: &'static Kernel,
@@ -50,14 +50,14 @@ pub struct Course {
     space: Space,
     edge: Edge,
     nouns: Nouns,
-    /// The characters of the types, by their names in the kernel.
+    /// The types' characters, by type name in the kernel.
     symbols: BTreeMap<String, char>,
 }
 
-/// A level of a course, before anybody has played it.
+/// A course level that nobody has played yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CourseLevel {
-    /// The level in the characters of the game.
+    /// The level, in the game's characters.
     pub text: String,
     /// The level's slot in the course.
     pub slot: Slot,
@@ -100,8 +100,8 @@ impl Choices<'_> {
     /// Composes the game from the choices.
     ///
     /// # Errors
-    /// Returns an error if the rules cannot be parsed with these numbers, or if the words contain unknown types. Both
-    /// are faults of a kernel or a scene.
+    /// Returns an error if the rules cannot be parsed with these numbers, or if the texts mention unknown types.
+    /// Either is a bug in a kernel or a scene.
     pub(crate) fn compose(&self) -> Result<Composed, GenerateError> {
         let (description, problems) = syntax::parse(&self.rules());
         if let Some(problem) = problems.first() {
@@ -154,7 +154,7 @@ impl Choices<'_> {
         })
     }
 
-    /// Fills the kernel's numbers into a text.
+    /// Inserts the kernel's numbers into a text.
     fn fill_numbers(&self, text: &str) -> String {
         template::filled(text, &self.kernel.numbers, self.values)
     }
@@ -178,7 +178,7 @@ impl Choices<'_> {
         self.kernel.roles.iter().chain(variants.flatten())
     }
 
-    /// Gives every type a noun that no other type has.
+    /// Assigns a unique noun to every type.
     fn cast(&self, sampler: &mut Sampler) -> Result<Nouns, GenerateError> {
         let mut nouns = Nouns::new();
         // The nouns of roles that no type has except in some state.
@@ -219,7 +219,7 @@ impl Choices<'_> {
         Ok(nouns)
     }
 
-    /// Gives every type a colour.
+    /// Assigns a colour to every type.
     fn color(&self, lines: &mut [SpriteLine], nouns: &Nouns) {
         let roles: BTreeMap<&str, &Casting> =
             self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
@@ -227,14 +227,14 @@ impl Choices<'_> {
         Palette::new(ground, nouns, self.habits.hero).color_all(lines, &roles);
     }
 
-    /// Sets an image for every type: `img=role/noun`, or `img=role/adjective/noun` for a thing in a different state.
+    /// Sets an image for every type: `img=role/noun`, or `img=role/adjective/noun` for an object in a different state.
     fn picture(&self, lines: &mut [SpriteLine], nouns: &Nouns) {
         let roles: BTreeMap<&str, &Casting> =
             self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
         picture_lines(lines, &roles, nouns);
     }
 
-    /// Writes the LevelMapping: floor, walls, the hero, then all other types that levels place.
+    /// Writes the LevelMapping: floor, walls, the hero, and then all other types placed by levels.
     fn map_symbols(
         &self,
         description: &mut Description,
@@ -287,8 +287,8 @@ impl Choices<'_> {
     }
 }
 
-/// Returns the same rules without groups of a single type, which a form can leave of larger groups. The type replaces
-/// the group. A group with a class or parameters stays.
+/// Returns the same rules without single-type groups, which result when a form removes types from larger groups. The
+/// type replaces the group. A group with a class or parameters is preserved.
 fn without_lone_groups(mut description: Description) -> Description {
     let lone = |line: &SpriteLine| line.class.is_none() && line.params.is_empty() && line.children.len() == 1;
     let groups: BTreeMap<String, String> = description
@@ -317,7 +317,7 @@ fn is_limit(line: &str) -> bool {
     line.contains("Timeout") && line.contains("win=False")
 }
 
-/// Reads the traits that level builders need from the rules.
+/// Extracts from the rules the traits that level builders need.
 fn traits(description: &Description) -> Traits {
     let mut traits = Traits::default();
     for (_, line) in description.sprite_lines() {

@@ -1,4 +1,4 @@
-//! Genomes of games: the choices from which a game of a kernel is made.
+//! Game genomes: the choices from which a kernel game is built.
 
 use super::compose::{Choices, Course};
 use super::habits::{Habits, STILL};
@@ -11,19 +11,19 @@ use base::{Sampler, Seed};
 use engine::{Description, Game, syntax};
 use std::collections::BTreeSet;
 
-/// The assumed length, in ticks, of a game whose levels nobody has played yet.
+/// The assumed length, in ticks, of a game whose levels are still unplayed.
 const LONG: u32 = 400;
 
-/// The weight of a different form relative to the kernel itself. It is greater than 1 because forms were written to
-/// vary the endings of similar kernels.
+/// The weight of a form relative to the kernel itself. The weight is greater than 1 because forms were written to vary
+/// the endings of similar kernels.
 const OTHER_FORM: u32 = 2;
 
-/// A game and the maps of its levels.
+/// A game and the maps for its levels.
 #[derive(Clone, Debug)]
 pub struct KernelGame {
-    /// The game, whose patterns are the kernel, the variants and the scene.
+    /// The game. Its patterns are the kernel, the variants and the scene.
     pub game: GeneratedGame,
-    /// The maps of the game's levels.
+    /// The maps for the game's levels.
     pub course: Course,
 }
 
@@ -33,9 +33,9 @@ pub struct KernelGame {
 #[derive(Clone, Debug)]
 pub struct KernelGenome {
     pub(crate) kernel: &'static Kernel,
-    /// The indices of the kernel's variants in the game, in order.
+    /// The indices of the kernel variants used in the game, in order.
     pub(crate) variants: Vec<usize>,
-    /// The values of the kernel's numbers.
+    /// The values for the kernel's numbers.
     pub(crate) values: Vec<u32>,
     pub(crate) scene: &'static Scene,
     pub(crate) nouns: Seed,
@@ -45,7 +45,7 @@ pub struct KernelGenome {
 }
 
 impl KernelGenome {
-    /// Draws a kernel of one of the given kinds, its numbers and a scene.
+    /// Draws a kernel of one of the given kinds, with its numbers and a scene.
     ///
     /// # Errors
     /// Returns an error if no kernel of these kinds has a scene.
@@ -56,9 +56,9 @@ impl KernelGenome {
         Ok(KernelGenome::of(kernel, &mut seed.child("genome", 0).sampler()))
     }
 
-    /// Draws a game of the kernel called `name`, in a form that `is_open` accepts and in a scene that is not in
-    /// `taken`. If all fitting scenes are taken, one of them is used again. Returns `None` if there is no such kernel,
-    /// or if no form is open.
+    /// Draws a game from the kernel `name`, in a form accepted by `is_open` and a scene that is not in `taken`. If all
+    /// fitting scenes are taken, one is used again. Returns `None` if the kernel does not exist, or if no form is
+    /// open.
     pub fn of_kernel(
         name: &str,
         is_open: impl Fn(Option<&str>) -> bool,
@@ -74,8 +74,8 @@ impl KernelGenome {
         Some(KernelGenome { scene, ..drawn })
     }
 
-    /// Returns games of each form of a kernel, with all variants (if it has any) and without variants. The list is
-    /// empty if there is no such kernel.
+    /// Returns games for each form of a kernel, with all of its variants (if any) and without variants; empty if the
+    /// kernel does not exist.
     pub fn all_of(kernel: &str) -> Vec<KernelGenome> {
         let named = Kernel::all().iter().filter(|other| other.name == kernel);
         let mut sampler = Seed::from_text("all").sampler();
@@ -107,13 +107,13 @@ impl KernelGenome {
         genome.build().is_ok().then_some(genome)
     }
 
-    /// Draws a game of a kernel that has scenes, in one of its forms.
+    /// Draws a game from a kernel that has scenes, in one of its forms.
     pub(crate) fn of(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
         let form = drawn(kernel.in_all_forms().collect(), sampler).unwrap_or(kernel);
         KernelGenome::in_form(form, sampler)
     }
 
-    /// Draws a game of a form. The form must have a scene.
+    /// Draws a game in a given form. The form must have a scene.
     pub(crate) fn in_form(kernel: &'static Kernel, sampler: &mut Sampler) -> KernelGenome {
         let scenes: Vec<&'static Scene> = Scene::of(kernel).collect();
         let variants = (0..kernel.variants.len()).filter(|_| sampler.ratio(1, 3)).collect();
@@ -123,7 +123,7 @@ impl KernelGenome {
         KernelGenome { kernel, variants, values, scene, nouns, habits: Habits::draw(nouns), time: Some(LONG) }
     }
 
-    /// Returns the names of the scenes that have nouns for everything in the game.
+    /// Returns the names of the scenes with nouns for everything in the game.
     pub fn scenes(&self) -> Vec<&'static str> {
         Scene::of(self.kernel).map(|scene| scene.name.as_str()).collect()
     }
@@ -148,13 +148,13 @@ impl KernelGenome {
         &self.scene.name
     }
 
-    /// Returns the kernel that represents the given kernel and all kernels that hardly differ from it.
+    /// Returns the kernel that represents the given kernel's family: all kernels that hardly differ from it.
     pub fn family(kernel: &str) -> &str {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
         named.and_then(|kernel| kernel.like.as_deref()).unwrap_or(kernel)
     }
 
-    /// Returns the forms of a kernel, starting with `None` for the kernel itself.
+    /// Returns a kernel's forms, starting with `None` for the kernel itself.
     pub fn forms(kernel: &str) -> Vec<Option<&'static str>> {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
         let forms =
@@ -168,12 +168,12 @@ impl KernelGenome {
         Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
     }
 
-    /// Returns `true` if the game always has a tick limit, and not only if it would not end without a limit.
+    /// Returns `true` if the game always has a tick limit, and not only if it would otherwise never end.
     pub fn has_clock(&self) -> bool {
         self.habits.has_clock
     }
 
-    /// Returns the same game with a different tick limit, or without one. A goal to survive for some ticks is
+    /// Returns the same game with a different tick limit, or without one. A goal of surviving for some ticks is
     /// unchanged.
     #[must_use]
     pub fn timed(&self, ticks: Option<u32>) -> KernelGenome {
@@ -234,12 +234,12 @@ fn drawn(forms: Vec<&'static Kernel>, sampler: &mut Sampler) -> Option<&'static 
     Some(forms[sampler.weighted(&weights)?])
 }
 
-/// Builds the game of a kernel file for the file's author. The game is in one of the kernel's forms, with or without
-/// its variants, and has the nouns of a scene or the type names as nouns.
+/// Builds a game from a kernel file for the file's author. The game uses one of the kernel's forms, with or without
+/// variants, and a scene's nouns or the type names.
 ///
 /// # Errors
-/// Returns the errors in the file or in its rules. Also returns an error if there is no such form, or if the scene
-/// does not fit.
+/// Returns the errors in the file or in its rules. Also returns an error if the form does not exist or the scene does
+/// not fit.
 pub fn preview(
     name: &str,
     text: &str,
@@ -281,7 +281,7 @@ pub fn preview(
     Ok((syntax::print(&description), course))
 }
 
-/// Returns `true` if anything moves, appears or ends by itself.
+/// Returns `true` if any sprite moves, appears or ends by itself.
 pub(crate) fn has_movers(description: &Description) -> bool {
     let moves = |class: &str| !STILL.contains(&class) && !class.ends_with("Avatar");
     description

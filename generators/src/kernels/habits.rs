@@ -1,4 +1,4 @@
-//! The habits of a game's author: points, edges, sizes and clocks, which a kernel leaves open.
+//! The author's habits in a game: the points, edges, sizes and clocks that a kernel leaves open.
 
 use super::course::Space;
 use base::Seed;
@@ -6,20 +6,20 @@ use engine::Description;
 use engine::syntax::{InteractionLine, Param, SpriteLine};
 use std::collections::BTreeMap;
 
-/// The habits of a game's author. They change how the game looks and counts points, but not its dilemma.
+/// The author's habits in a game. Habits affect the game's appearance and scoring, but not its dilemma.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Habits {
     /// The factor by which all points are multiplied.
     pub(crate) unit: u32,
     pub(crate) edge: Edge,
     pub(crate) space: Space,
-    /// The player's colour, unless the floor or the walls have the same colour.
+    /// The player's colour, unless the floor or walls have the same colour.
     pub(crate) hero: &'static str,
-    /// `true` if the game always has a tick limit, and not only if it would not end without a limit.
+    /// `true` if the game always has a tick limit, and not only if it would otherwise never end.
     pub(crate) has_clock: bool,
 }
 
-/// The border of the board.
+/// The board's border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edge {
     /// A ring of walls.
@@ -28,15 +28,15 @@ pub(crate) enum Edge {
     Screen,
 }
 
-/// The colours of players.
+/// The colours available to heroes.
 const HEROES: [&str; 8] = ["BLUE", "BLUE", "BLUE", "GREEN", "GREEN", "YELLOW", "WHITE", "PINK"];
-/// The classes of types that stay where they are.
+/// The classes of stationary types.
 pub(super) const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
-/// The effects of walls that return a sprite to the screen or remove it.
+/// The wall effects that return a sprite to the screen or remove it.
 const ENDING: [&str; 2] = ["stepBack", "killSprite"];
-/// The effects of walls that may precede an effect in `ENDING`, and that need no partner.
+/// The wall effects that may precede an effect in `ENDING`, and that need no partner.
 const TURNING: [&str; 1] = ["reverseDirection"];
-/// The effects that move or create a sprite other than the mover, which may leave that sprite off the screen.
+/// The effects that move or create a sprite other than the mover, and so may leave that sprite off the screen.
 const ASTRAY: [&str; 6] = ["bounceForward", "undoAll", "spawnAbove", "spawnBelow", "spawnLeft", "spawnRight"];
 
 impl Habits {
@@ -48,7 +48,7 @@ impl Habits {
         Habits { unit, edge, space: Space::draw(&mut of("space")), hero, has_clock: of("clock").ratio(1, 4) }
     }
 
-    /// Applies the habits to a game's rules. Returns the edge that its levels have.
+    /// Applies the habits to a game's rules. Returns the edge of the game's levels.
     pub(crate) fn apply(&self, description: &mut Description) -> Edge {
         for line in &mut description.interactions {
             drop_penalty_of_death(line);
@@ -65,8 +65,8 @@ impl Habits {
     }
 }
 
-/// Removes the penalty for the hero's death, because that death ends the game. Penalties for actions that can be
-/// repeated are the price of these actions, and stay.
+/// Removes the penalty for the hero's death, because that death ends the game. Penalties for repeatable actions are
+/// the price of those actions, and are preserved.
 fn drop_penalty_of_death(line: &mut InteractionLine) {
     let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
     if line.first.text == "hero" && line.effect.text.starts_with("kill") {
@@ -74,11 +74,11 @@ fn drop_penalty_of_death(line: &mut InteractionLine) {
     }
 }
 
-/// Gives the edge of the screen the effects of walls. Returns `None` and changes nothing if a sprite could then leave
-/// the screen.
+/// Gives the screen edge the effects of walls. Returns `None` without any change if a sprite could then leave the
+/// screen.
 ///
-/// If a type has several rules for the edge, they apply one after the other, and repeat once per rule, while the
-/// sprite is beyond the edge (spec page 03, section 4.4). So only the last rule may return the sprite to the screen.
+/// If a type has several edge rules, they apply in turn, and repeat once per rule, while the sprite is beyond the
+/// edge (spec page 03, section 4.4). Therefore only the last rule may return the sprite to the screen.
 fn stop_at_edge(description: &mut Description) -> Option<()> {
     if description.interactions.iter().any(|line| ASTRAY.contains(&line.effect.text.as_str())) {
         return None;
@@ -110,7 +110,7 @@ fn stop_at_edge(description: &mut Description) -> Option<()> {
     all_stop.then(|| description.interactions = interactions)
 }
 
-/// Returns the types that avatars create, such as shots or things that avatars put down.
+/// Returns the types that avatars create, such as shots or dropped objects.
 fn made_by_hero(description: &Description) -> impl Iterator<Item = &str> {
     let is_avatar =
         |line: &&SpriteLine| line.class.as_ref().is_some_and(|class| class.text.ends_with("Avatar"));
@@ -119,7 +119,7 @@ fn made_by_hero(description: &Description) -> impl Iterator<Item = &str> {
     params.map(|param| param.value.text.as_str())
 }
 
-/// Returns `true` if every type that moves has rules for the edge, either its own or those of one type above it.
+/// Returns `true` if every moving type has edge rules, either its own or those of a single type above it.
 fn all_stop(line: &SpriteLine, class: Option<&str>, above: bool, stopped: &BTreeMap<String, bool>) -> bool {
     let class = line.class.as_ref().map(|class| class.text.as_str()).or(class);
     let own = stopped.contains_key(&line.name.text);

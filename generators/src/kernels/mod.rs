@@ -1,8 +1,8 @@
 //! Games composed around a dilemma: kernels in scenes, with levels that form a course.
 //!
-//! A kernel (`file/kernel.rs`, the files of `generators/kernels/`) has the rules for one dilemma and the maps of its
-//! levels. A scene (`words/scene.rs`, the files of `generators/scenes/`) has the nouns. [`KernelGenome`] draws both,
-//! `compose.rs` makes the rules and the words, and `course/` builds levels from maps.
+//! A kernel (`file/kernel.rs`, files in `generators/kernels/`) contains the rules for one dilemma and the maps for
+//! its levels. A scene (`words/scene.rs`, files in `generators/scenes/`) contains the nouns. [`KernelGenome`] draws
+//! both, `compose.rs` composes the rules and texts, and `course/` builds levels from maps.
 
 mod compose;
 mod course;

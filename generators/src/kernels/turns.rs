@@ -5,10 +5,10 @@ use crate::kernels::file::kernel::Kernel;
 use crate::kernels::words::scene::Scene;
 use base::{Sampler, Seed};
 
-/// The maximum number of turns of a kind in a round, regardless of its number of kernels.
+/// The maximum number of turns per kind in a round, regardless of the kind's number of kernels.
 const MOST: usize = 3;
 
-/// Returns the kinds that have kernels, in the order of [`Kind::ALL`].
+/// Returns the kinds that have kernels, in [`Kind::ALL`] order.
 pub fn kinds() -> impl Iterator<Item = Kind> {
     let has_kernel = |kind: &Kind| Kernel::all().iter().any(|kernel| kernel.kind == *kind);
     Kind::ALL.iter().copied().filter(has_kernel)
@@ -46,12 +46,12 @@ impl Turns {
         Turns { order }
     }
 
-    /// Returns the kernels and their kinds, in the order of their turns.
+    /// Returns the kernels and their kinds, in turn order.
     pub fn kernels(&self) -> impl Iterator<Item = (&'static str, Kind)> + '_ {
         self.order.iter().map(|kernel| (kernel.name.as_str(), kernel.kind))
     }
 
-    /// Draws one of the kernels, all equally likely; `None` if there are no kernels.
+    /// Draws a kernel uniformly at random; `None` if there are no kernels.
     pub(crate) fn any(&self, sampler: &mut Sampler) -> Option<&'static Kernel> {
         self.order.get(sampler.below(self.order.len().max(1))).copied()
     }

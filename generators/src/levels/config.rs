@@ -5,9 +5,9 @@ use engine::SpriteType;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The minimum number of columns and rows. With fewer, the border leaves no room inside.
+/// The minimum number of columns and rows. With fewer, there is no room inside the border.
 const MIN_SIDE: usize = 4;
-/// The maximum number of columns and rows. The cost of a level grows with the square of its number of cells.
+/// The maximum number of columns and rows. A level's cost grows with the square of its number of cells.
 const MAX_SIDE: usize = 64;
 
 base::with_defaults! {
@@ -19,13 +19,13 @@ base::with_defaults! {
         pub columns: (usize, usize) = (10, 18),
         /// The minimum and maximum number of rows, including the border, from 4 to 64.
         pub rows: (usize, usize) = (8, 11),
-        /// The difficulty from 0.0 (easiest) to 1.0 (hardest). Harder levels have more dangers, longer paths and fewer
+        /// The difficulty, from 0.0 (easiest) to 1.0 (hardest). Harder levels have more dangers, longer paths and fewer
         /// aids.
         pub difficulty: f64 = 0.5,
-        /// The minimum and maximum fraction of cells that hold more than floor, from 0.0 to 1.0. The fraction is met if
-        /// the rules leave room for it.
+        /// The minimum and maximum fraction of cells that contain more than floor, from 0.0 to 1.0. Met only as far as
+        /// the rules leave room.
         pub cover: Option<(f64, f64)> = None,
-        /// The exact numbers of sprites of some types, as far as there is room for them.
+        /// The exact numbers of sprites for some types, as far as there is room.
         #[serde(skip)]
         pub counts: Vec<(SpriteType, usize)> = Vec::new(),
         /// The examples that new levels should resemble.
@@ -49,7 +49,7 @@ impl LevelConfig {
         }
     }
 
-    /// Returns a description of the first problem; `None` if the configuration is valid.
+    /// Describes the first problem; `None` if the configuration is valid.
     pub(crate) fn problem(&self) -> Option<String> {
         for (name, (low, high)) in [("columns", self.columns), ("rows", self.rows)] {
             if low < MIN_SIDE || low > high || high > MAX_SIDE {

@@ -12,19 +12,19 @@ use engine::{Analysis, Game, Level, SpriteType};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Examples {
     boards: Vec<Sketch>,
-    /// The placement of each type.
+    /// Each type's placement.
     placements: Vec<Placement>,
-    /// The structure of the walls.
+    /// The walls' structure.
     pub(crate) patterns: Patterns,
     /// `true` if the border consists of walls.
     pub(crate) closed: bool,
     /// The number of examples with left-right symmetric walls.
     mirrored: usize,
-    /// The character of empty cells; `None` if it is the character that the rules suggest.
+    /// The character of empty cells; `None` if it is the character suggested by the rules.
     pub(crate) base: Option<u8>,
-    /// The number of open cells, by the arrangement of walls around them; see [`nook`].
+    /// The number of open cells, by the arrangement of surrounding walls; see [`nook`].
     pub(crate) nooks: [usize; NOOKS],
-    /// The visible types without a meaning in the rules.
+    /// The visible types without meaning in the rules.
     decor: Vec<SpriteType>,
 }
 
@@ -33,13 +33,13 @@ pub struct Examples {
 struct Sketch {
     columns: usize,
     rows: usize,
-    /// The fraction of all cells that hold more than floor.
+    /// The fraction of cells that contain more than floor.
     cover: f64,
-    /// The fraction of the cells inside the border that are walls.
+    /// The fraction of walls among the cells inside the border.
     walls: f64,
-    /// The number of sprites of each type.
+    /// The number of sprites per type.
     counts: Vec<usize>,
-    /// The number of sprites of each type in [`Examples::decor`].
+    /// The number of sprites per type in [`Examples::decor`].
     decor: Vec<usize>,
 }
 
@@ -47,21 +47,21 @@ struct Sketch {
 #[derive(Clone, Debug)]
 pub(crate) struct Target {
     pub(crate) grid: Grid,
-    /// The example to follow in the placement of sprites.
+    /// The example whose sprite placement to follow.
     pub(crate) model: usize,
-    /// The fraction of the cells inside the border that are walls.
+    /// The fraction of walls among the cells inside the border.
     pub(crate) walls: f64,
     /// For each type, the number of sprites, and the minimum, median and maximum over all examples.
     pub(crate) counts: Vec<(usize, [usize; 3])>,
-    /// The types without a meaning in the rules, and the number of sprites of each.
+    /// The types without meaning in the rules, and the number of sprites of each.
     pub(crate) decor: Vec<(SpriteType, usize)>,
 }
 
 impl Examples {
-    /// Analyses a game's own levels. Returns `None` if there are no levels, or if no character of the game places
-    /// exactly one avatar.
+    /// Analyses a game's own levels. Returns `None` if there are no levels, or if no level character in the game
+    /// places exactly one avatar.
     ///
-    /// Cost: one analysis, O(types × cells) per level, and some milliseconds for the structure of the walls.
+    /// Cost: one analysis, O(types × cells) per level, and a few milliseconds for the wall structure.
     pub fn of(game: &Game, levels: &[Level]) -> Option<Examples> {
         let analysis = Analysis::of(game);
         let mut palette = Palette::of(&analysis)?;
@@ -153,27 +153,27 @@ impl Examples {
         range(self.boards.iter().map(|board| board.rows))
     }
 
-    /// Returns the minimum and maximum fraction of cells that hold more than floor.
+    /// Returns the minimum and maximum fraction of cells that contain more than floor.
     pub fn cover(&self) -> (f64, f64) {
         let covers = self.boards.iter().map(|board| board.cover);
         covers
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), cover| (low.min(cover), high.max(cover)))
     }
 
-    /// Returns the minimum and maximum fraction of the cells inside the border that are walls.
+    /// Returns the minimum and maximum fraction of walls among the cells inside the border.
     pub fn walls(&self) -> (f64, f64) {
         let walls = self.boards.iter().map(|board| board.walls);
         walls.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), walls| (low.min(walls), high.max(walls)))
     }
 
-    /// Returns the minimum, median and maximum number of sprites of a type per level.
+    /// Returns the minimum, median and maximum number of a type's sprites per level.
     pub fn count(&self, stype: SpriteType) -> (usize, usize, usize) {
         let mut counts: Vec<usize> = self.boards.iter().map(|board| board.counts[stype.index()]).collect();
         counts.sort_unstable();
         (counts[0], counts[counts.len() / 2], counts[counts.len() - 1])
     }
 
-    /// Returns `true` if sprites of type `one` stand lower than sprites of type `two` on average, by a third of the
+    /// Returns `true` if sprites of type `one` are, on average, lower than sprites of type `two` by a third of the
     /// board, or if either type does not occur.
     pub(crate) fn is_below(&self, one: SpriteType, two: SpriteType) -> bool {
         match (self.placement(one).height(), self.placement(two).height()) {
@@ -191,7 +191,7 @@ impl Examples {
         &self.placements[stype.index()]
     }
 
-    /// Draws the target for a level of the given size, or of a size between those of two examples.
+    /// Draws the target for a level of the given size, or of a size between two examples.
     pub(crate) fn draw(
         &self,
         columns: (usize, usize),
@@ -245,8 +245,8 @@ fn commonest(analysis: &Analysis, levels: &[Level]) -> Option<u8> {
     symbols.max_by_key(|&symbol| (counts[usize::from(symbol)], std::cmp::Reverse(symbol)))
 }
 
-/// Returns the characters that place only visible floor, except the character of the empty cell. Each character comes
-/// with the rarest of its types.
+/// Returns the characters that place only visible floor, except the character for the empty cell, each with the
+/// rarest of its types.
 fn decor(analysis: &Analysis, palette: &Palette, levels: &[Level]) -> Vec<(u8, SpriteType)> {
     let game = analysis.game();
     let seen = |symbol: &u8| levels.iter().any(|level| level.cells().contains(symbol));
@@ -263,7 +263,7 @@ fn decor(analysis: &Analysis, palette: &Palette, levels: &[Level]) -> Vec<(u8, S
     decor.collect()
 }
 
-/// Returns the fraction of a level's cells that hold more than floor. Cost: O(cells).
+/// Returns the fraction of a level's cells that contain more than floor. Cost: O(cells).
 pub fn cover(analysis: &Analysis, level: &Level) -> f64 {
     let covered = level.cells().iter().filter(|&&symbol| is_cover(analysis, symbol)).count();
     covered as f64 / level.cells().len().max(1) as f64

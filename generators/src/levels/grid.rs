@@ -5,12 +5,12 @@ use std::collections::VecDeque;
 
 /// The steps up, left, down and right: (columns, rows).
 pub(crate) const WAYS: [(i32, i32); 4] = [(0, -1), (-1, 0), (0, 1), (1, 0)];
-/// The offsets of the eight cells around a cell, clockwise from the top.
+/// The offsets of the eight surrounding cells, clockwise from the top.
 const AROUND: [(i32, i32); 8] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
-/// The distance of cells that are not reached.
+/// The distance assigned to unreachable cells.
 pub(crate) const FAR: u32 = u32::MAX;
 
-/// The size of a board.
+/// A board's size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Grid {
     pub(crate) columns: usize,
@@ -34,26 +34,26 @@ impl Grid {
         cell / self.columns
     }
 
-    /// Returns the cell at an offset; `None` if the offset leads off the board.
+    /// Returns the cell at an offset; `None` if that cell is off the board.
     pub(crate) fn shift(self, cell: usize, (dx, dy): (i32, i32)) -> Option<usize> {
         let x = usize::try_from(self.x(cell) as i32 + dx).ok().filter(|&x| x < self.columns)?;
         let y = usize::try_from(self.y(cell) as i32 + dy).ok().filter(|&y| y < self.rows)?;
         Some(self.at(x, y))
     }
 
-    /// Returns the cells of a rectangle with the top left corner `cell` that lie on the board, row by row.
+    /// Returns the on-board cells of a rectangle with the top left corner `cell`, row by row.
     pub(crate) fn block(self, cell: usize, (columns, rows): (usize, usize)) -> impl Iterator<Item = usize> {
         let (right, bottom) = (self.x(cell) + columns, self.y(cell) + rows);
         let (right, bottom) = (right.min(self.columns), bottom.min(self.rows));
         (self.y(cell)..bottom).flat_map(move |y| (self.x(cell)..right).map(move |x| self.at(x, y)))
     }
 
-    /// Returns the up to four neighbours of a cell.
+    /// Returns a cell's neighbours, up to four.
     pub(crate) fn beside(self, cell: usize) -> impl Iterator<Item = usize> {
         WAYS.into_iter().filter_map(move |way| self.shift(cell, way))
     }
 
-    /// Returns the eight cells around a cell, clockwise from the top; `None` for cells off the board.
+    /// Returns the eight cells surrounding a cell, clockwise from the top; `None` for cells off the board.
     pub(crate) fn around(self, cell: usize) -> [Option<usize>; 8] {
         AROUND.map(|shift| self.shift(cell, shift))
     }
@@ -74,8 +74,8 @@ impl Grid {
         self.x(one).abs_diff(self.x(two)) + self.y(one).abs_diff(self.y(two))
     }
 
-    /// Returns the distance in steps of every cell from the nearest cell of `from` through open cells. Cells without a
-    /// path have the distance [`FAR`]. The cells of `from` need not be open. Cost: O(cells).
+    /// Returns every cell's distance, in steps through open cells, from the nearest cell in `from`. Unreachable cells
+    /// have the distance [`FAR`]. The cells in `from` need not be open. Cost: O(cells).
     pub(crate) fn flood(self, from: &[usize], open: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut steps = vec![FAR; self.len()];
         let mut queue: VecDeque<usize> = from.iter().copied().collect();
@@ -108,8 +108,8 @@ impl Grid {
         Some(way)
     }
 
-    /// Returns the connected regions of open cells from largest to smallest. Regions of equal size are ordered by their
-    /// first cells. Cost: O(cells).
+    /// Returns the connected regions of open cells, from largest to smallest. Regions of equal size are ordered by
+    /// first cell. Cost: O(cells).
     pub(crate) fn regions(self, open: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let mut seen = vec![false; self.len()];
         let mut regions: Vec<Vec<usize>> = Vec::new();
@@ -147,7 +147,7 @@ impl Grid {
         }
     }
 
-    /// Returns `true` if the open cells next to `cell` would be disconnected without `cell`. Cost: mostly O(1),
+    /// Returns `true` if the open cells next to `cell` would be disconnected without `cell`. Cost: usually O(1),
     /// otherwise O(cells).
     pub(crate) fn is_cut(self, cell: usize, open: impl Fn(usize) -> bool) -> bool {
         let beside: Vec<usize> = self.beside(cell).filter(|&next| open(next)).collect();

@@ -6,40 +6,40 @@ use super::symmetry::{LevelSimilarity, Mirror};
 use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Level};
 
-/// The number of goal things, or of fully weighted enemies next to the avatar, at which their measures reach half of
-/// the maximum.
+/// The number of goal sprites, or of fully weighted enemies next to the avatar, at which the measure reaches half of
+/// its maximum.
 const HALF: f64 = 4.0;
 /// The number of steps at which nearness is half of its maximum.
 const NEAR: f64 = 4.0;
 
 base::named_enum! {
-    /// A static measure of a level, from 0.0 to 1.0. A fraction without a denominator is 0.0.
+    /// A static measure of a level, from 0.0 to 1.0. A fraction with a zero denominator counts as 0.0.
     pub enum LevelMeasure {
         /// The fraction of cells that are neither empty nor ground.
         Cover = "cover",
-        /// The fraction of cells that the avatar a level starts with can never enter or clear.
+        /// The fraction of cells that the initial avatar can never enter or clear.
         Walls = "walls",
-        /// The mean number of open neighbours of the cells that the avatar can reach on foot, divided by four. Locks
-        /// count as open, and deadly cells do not.
+        /// The mean number of open neighbours of the cells reachable on foot, divided by four. Locks count as open, and
+        /// deadly cells do not.
         Openness = "openness",
-        /// The distance in steps to the farthest cell that the avatar can reach on foot, as a fraction of the number of
-        /// reachable cells. It is 1.0 in a single corridor, and small in a hall.
+        /// The distance, in steps, to the farthest cell reachable on foot, as a fraction of the number of reachable
+        /// cells: 1.0 in a single corridor, and small in a hall.
         Linearity = "linearity",
-        /// The nearness of harm, as s / (s + 4). Each cell with something harmful contributes the mean of two terms to
-        /// s. The first term is 4 / (4 + d) for its Manhattan distance d to the avatar. The second term is the same for
-        /// the nearest goal thing, or for the avatar again if there is no goal thing. Things that stay in place and
-        /// spawn nothing count half.
+        /// The nearness of harm, as s / (s + 4). Each cell with a harmful sprite contributes the mean of two terms to
+        /// s. The first term is 4 / (4 + d) for the cell's Manhattan distance d to the avatar. The second term is the
+        /// same for the nearest goal sprite, or for the avatar again if there is no goal sprite. Stationary sprites
+        /// that do not spawn others count half.
         Pressure = "enemy pressure",
-        /// The number of goal things, as n / (n + 4). Here, n is the number of cells with an exit, or with things that
-        /// must be removed for a win or protected.
+        /// The number of goal sprites, as n / (n + 4). Here, n is the number of cells with an exit, or with sprites
+        /// that must be removed or protected to win.
         Goals = "goal things",
         /// The left-right symmetry: 1.0 minus the distance ([`LevelSimilarity::distance`]) between the level and its
         /// mirror image, without a shift.
         LeftRight = "left-right symmetry",
         /// The up-down symmetry, computed like the left-right symmetry.
         UpDown = "up-down symmetry",
-        /// The fraction of walls, not counting the border, that have no wall next to them. It is high if walls are
-        /// scattered rather than built.
+        /// The fraction of walls, not counting the border, without an adjacent wall. High if walls are scattered rather
+        /// than built.
         Sprinkle = "sprinkle",
     }
 }
@@ -48,11 +48,11 @@ base::named_enum! {
 #[derive(Clone, Debug)]
 pub struct LevelMeasures {
     similarity: LevelSimilarity,
-    /// The properties of each character.
+    /// Each character's properties.
     marks: Vec<Mark>,
 }
 
-/// The properties of a character that the measures use.
+/// The properties of a character used by the measures.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mark {
     is_avatar: bool,
@@ -61,13 +61,14 @@ struct Mark {
     /// `true` if the avatar can walk onto the character sooner or later.
     is_open: bool,
     is_goal: bool,
-    /// The degree of harm: 1.0 for harmful things that move or spawn, 0.5 for other harmful things, and 0.0 for
-    /// harmless things.
+    /// The degree of harm: 1.0 for harmful sprites that move or spawn, 0.5 for other harmful sprites, and 0.0 for
+    /// harmless sprites.
     harm: f64,
 }
 
 impl LevelMeasures {
-    /// Creates a calculator; `None` if no character of the game places exactly one avatar. Cost: O(characters × types).
+    /// Creates a calculator; `None` if no level character in the game places exactly one avatar. Cost: O(characters ×
+    /// types).
     pub fn new(analysis: &Analysis) -> Option<LevelMeasures> {
         let palette = Palette::of(analysis)?;
         let marks = (0..128).map(|symbol| Mark::of(analysis, &palette, symbol)).collect();
@@ -124,7 +125,7 @@ impl Mark {
     }
 }
 
-/// A level as the properties of its cells.
+/// A level as its cells' properties.
 struct Marked {
     grid: Grid,
     marks: Vec<Mark>,

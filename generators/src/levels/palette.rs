@@ -1,41 +1,41 @@
-//! The characters to build levels with: for the empty cell, for walls, and for every sprite type.
+//! The characters for building levels: for the empty cell, for walls, and for every sprite type.
 
 use engine::analysis::{EffectSummary, Harm, Lock, Motion, Removal, Role};
 use engine::{Analysis, SpriteType};
 
-/// The effect of a level character on the movement of the avatar that a level starts with.
+/// A level character's effect on the initial avatar's movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Walk {
     /// The avatar can enter the cell.
     Open,
     /// The avatar cannot enter the cell.
     Blocked,
-    /// The avatar can first shoot the obstacle away.
+    /// The avatar can first shoot the obstacle.
     Breakable,
-    /// The avatar pushes the thing in the cell.
+    /// The avatar pushes the object in the cell.
     Pushed,
-    /// The thing in the cell kills or wounds the avatar.
+    /// The sprite in the cell kills or wounds the avatar.
     Deadly,
-    /// The cell is locked. The number is an index into [`Analysis::locks`].
+    /// The cell is locked. Contains an index into [`Analysis::locks`].
     Locked(usize),
 }
 
-/// The characters to build levels with.
+/// The characters for building levels.
 #[derive(Clone, Debug)]
 pub(crate) struct Palette {
-    /// The character of empty cells.
+    /// The empty cell's character.
     pub(crate) base: u8,
     /// The types in an empty cell.
     pub(crate) ground: Vec<SpriteType>,
-    /// The character of walls; `None` if the game has no walls that structure a board.
+    /// The wall character; `None` if the game has no walls that structure a board.
     pub(crate) wall: Option<u8>,
-    /// `true` if something could leave the board without a ring of walls.
+    /// `true` if a sprite could leave the board without a ring of walls.
     pub(crate) ring: bool,
-    /// The avatars with their characters. These characters place as few other things as possible.
+    /// The avatars with their characters. These characters place as few other sprites as possible.
     pub(crate) avatars: Vec<(SpriteType, u8)>,
-    /// The best character of each type that places no avatar.
+    /// The best character for each type that does not place an avatar.
     symbols: Vec<Option<u8>>,
-    /// The effect of each character on walking.
+    /// Each character's effect on walking.
     walk: Vec<Walk>,
 }
 
@@ -47,8 +47,8 @@ impl Palette {
         Palette::on(analysis, base(analysis, start, avatars[0].1))
     }
 
-    /// Chooses the characters for a game with a given character for the empty cell; `None` if no character places
-    /// exactly one avatar.
+    /// Chooses the characters for a game with a given empty-cell character; `None` if no character places exactly one
+    /// avatar.
     pub(crate) fn on(analysis: &Analysis, base: u8) -> Option<Palette> {
         let avatars = avatars(analysis)?;
         let start = avatars[0].0;
@@ -69,8 +69,8 @@ impl Palette {
         })
     }
 
-    /// Returns `true` if a character can represent the empty cell from the avatar's point of view. Nothing in the cell
-    /// may be collected, hurt the avatar or block it.
+    /// Returns `true` if a character can represent the empty cell from the avatar's point of view. The cell must not
+    /// contain anything that is collected, hurts the avatar or blocks it.
     pub(crate) fn is_bearable(analysis: &Analysis, symbol: u8) -> bool {
         let places = analysis.game().places(symbol);
         let plain = |stype: &SpriteType| match analysis.role(*stype) {
@@ -87,19 +87,19 @@ impl Palette {
         })
     }
 
-    /// Returns the character that places a type with as little else as possible.
+    /// Returns the character that places a type with as few other sprites as possible.
     pub(crate) fn symbol(&self, stype: SpriteType) -> Option<u8> {
         self.symbols[stype.index()]
     }
 
-    /// Returns the effect of a character on walking.
+    /// Returns a character's effect on walking.
     pub(crate) fn walk(&self, symbol: u8) -> Walk {
         self.walk.get(usize::from(symbol)).copied().unwrap_or(Walk::Open)
     }
 }
 
-/// Returns the characters of avatars with the fewest other sprites. There are several only if they place different
-/// avatars.
+/// Returns the characters that place an avatar with the fewest other sprites. Returns several characters only if they
+/// place different avatars.
 fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
     let game = analysis.game();
     let is_avatar = |stype: SpriteType| game.class(stype).is_some_and(|class| class.is_avatar());
@@ -124,9 +124,9 @@ fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
     Some(list)
 }
 
-/// Returns the character of the empty cell. The first choice is floor that the avatar also stands on, and the second is
-/// `.`, if it is harmless enough to be walked on. The third is exactly the ground that the avatar stands on, and the
-/// last is a space.
+/// Returns the empty cell's character. The first choice is floor that the avatar also stands on, and the second is `.`,
+/// if it can be walked on without harm. The third choice is exactly the ground that the avatar stands on, and the last
+/// is a space.
 fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
     let game = analysis.game();
     let under: Vec<SpriteType> =
@@ -156,7 +156,7 @@ fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
     symbols.iter().find(same).copied().unwrap_or(b' ')
 }
 
-/// Returns `true` if a type may lie everywhere.
+/// Returns `true` if a type may occur in every cell.
 fn bearable(analysis: &Analysis, avatar: SpriteType, stype: SpriteType) -> bool {
     let touch = analysis.touch(avatar, stype);
     let still = analysis.facts(stype).motion == Motion::Still;
@@ -197,8 +197,8 @@ fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option
     symbols.filter(|&symbol| !holds_avatar(analysis, symbol)).min_by_key(|&symbol| cost(symbol))
 }
 
-/// Returns the type that structures boards. Among the types that always block the avatar, this is the one that stops
-/// the most other types.
+/// Returns the type that structures boards: among the types that always block the avatar, the type that stops the most
+/// other types.
 fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     let moves = |stype: &SpriteType| {
         let facts = analysis.facts(*stype);
@@ -221,7 +221,7 @@ fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     candidates.max_by_key(|&stype| (strength(stype), stype == SpriteType(0), std::cmp::Reverse(stype)))
 }
 
-/// Returns `true` if no rule applies to something that moves, or is pushed, when it reaches the edge of the screen.
+/// Returns `true` if there is a moving or pushed sprite without a rule for reaching the screen edge.
 fn leaves_board(analysis: &Analysis) -> bool {
     analysis.game().sprite_types().any(|stype| {
         let facts = analysis.facts(stype);
@@ -231,7 +231,7 @@ fn leaves_board(analysis: &Analysis) -> bool {
     })
 }
 
-/// Returns the effect of entering a cell with the character, ignoring types that lie everywhere.
+/// Returns the effect of entering a cell with the character, ignoring types that occur everywhere.
 fn walk(analysis: &Analysis, avatar: SpriteType, ground: &[SpriteType], symbol: u8) -> Walk {
     let mut walk = Walk::Open;
     for &stype in analysis.game().places(symbol) {
@@ -262,7 +262,7 @@ fn walk(analysis: &Analysis, avatar: SpriteType, ground: &[SpriteType], symbol: 
     walk
 }
 
-/// Returns `true` if a shot of some avatar removes or changes the type.
+/// Returns `true` if an avatar's shot removes or changes the type.
 fn shot_away(analysis: &Analysis, stype: SpriteType) -> bool {
     let shots = analysis.avatars().iter().flat_map(|avatar| &avatar.shots);
     let ends = |shot: &SpriteType| {

@@ -1,4 +1,4 @@
-//! The placement of sprites of one type in examples: board region, nook, neighbours and order.
+//! Placement of one type's sprites in examples: board region, nook, neighbours and order.
 
 use super::grid::{Grid, WAYS};
 use engine::{Game, SpriteType};
@@ -6,36 +6,36 @@ use std::collections::BTreeMap;
 
 /// The number of bands into which a board is divided in each direction.
 const BANDS: usize = 5;
-/// The neutral weight of a cell.
+/// A cell's neutral weight.
 pub(crate) const USUAL: u32 = 16;
-/// The number of arrangements of walls next to a cell: see [`nook`].
+/// The number of wall arrangements next to a cell; see [`nook`].
 pub(crate) const NOOKS: usize = 6;
 
-/// The statistics of the positions of sprites of one type.
+/// Statistics on the positions of one type's sprites.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Placement {
     seen: usize,
     bands: Bands,
-    /// The number of sprites in each band, for each example separately.
+    /// The number of sprites per band, for each example separately.
     each: Vec<Bands>,
-    /// The number of sprites on the border of closed boards, by side, in the order of [`WAYS`].
+    /// The number of sprites on the border of closed boards, by side, in [`WAYS`] order.
     sides: [usize; 4],
     nooks: [usize; NOOKS],
     /// The number of neighbours, by direction (an index into [`WAYS`]) and type.
     beside: BTreeMap<(usize, SpriteType), usize>,
     /// The keys of `beside` that almost always occur next to the type.
     companions: Vec<(usize, SpriteType)>,
-    /// The number of sprites with a sprite of the same type in the cell mirrored from left to right.
+    /// The number of sprites whose left-right mirrored cell contains a sprite of the same type.
     mirrored: usize,
-    /// The number of sprites with a sprite of the same type next to them.
+    /// The number of sprites next to a sprite of the same type.
     grouped: usize,
     /// The number of boards with at least three sprites of the type.
     crowds: usize,
-    /// The number of rows in which sprites of the type stand, on the boards that `crowds` counts.
+    /// The number of rows with sprites of the type, on the boards counted in `crowds`.
     rows: usize,
 }
 
-/// The number of sprites in each band of the board.
+/// The number of sprites in each board band.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Bands {
     /// The bands from left to right.
@@ -50,7 +50,7 @@ impl Bands {
         self.down[band(grid.y(cell), grid.rows)] += 1;
     }
 
-    /// Returns the weight of a cell. The average weight is 1.0.
+    /// Returns a cell's weight. The average weight is 1.0.
     fn weigh(&self, grid: Grid, cell: usize) -> f64 {
         let share = |counts: &[usize; BANDS], at: usize| {
             let seen: usize = counts.iter().sum();
@@ -77,7 +77,7 @@ impl Scene<'_> {
 }
 
 impl Placement {
-    /// Records all sprites of a type in one example.
+    /// Records all of a type's sprites in one example.
     pub(crate) fn see(&mut self, scene: &Scene<'_>, stype: SpriteType) {
         let grid = scene.grid;
         let cells: Vec<usize> = (0..grid.len()).filter(|&cell| scene.holds(cell, stype)).collect();
@@ -110,7 +110,7 @@ impl Placement {
     }
 
     /// Derives the companions, after all examples have been recorded. `total` counts the sprites of a type in all
-    /// `cells`, and `plain` selects types that are everywhere.
+    /// `cells`, and `plain` selects types that occur everywhere.
     pub(crate) fn conclude(
         &mut self,
         cells: usize,
@@ -128,14 +128,14 @@ impl Placement {
         self.beside.clear();
     }
 
-    /// Returns the types that almost always stand next to such a sprite, with their directions.
+    /// Returns the types that almost always stand next to sprites of this type, with their directions.
     pub(crate) fn companions(&self) -> impl Iterator<Item = ((i32, i32), SpriteType)> + '_ {
         self.companions.iter().map(|&(at, stype)| (WAYS[at], stype))
     }
 
-    /// Returns the weight of a cell according to the positions of such sprites in the examples. The average weight is
-    /// [`USUAL`]. The weight is never 0, because examples are few. `nooks` holds the frequency of nooks among open
-    /// cells, and `model` is the example that the board follows.
+    /// Returns a cell's weight according to the positions of this type's sprites in the examples. The average weight
+    /// is [`USUAL`]. The weight is never 0, because there are few examples. `nooks` contains the frequencies of nooks
+    /// among open cells, and `model` is the example that the board follows.
     pub(crate) fn weigh(
         &self,
         grid: Grid,
@@ -160,39 +160,39 @@ impl Placement {
         ((f64::from(USUAL) * place * lift) as u32).max(1)
     }
 
-    /// Returns the average height of such sprites, from 0.0 at the top to 1.0 at the bottom; `None` if there are no
-    /// such sprites.
+    /// Returns the average vertical position of this type's sprites, from 0.0 at the top to 1.0 at the bottom; `None`
+    /// if there are no such sprites.
     pub(crate) fn height(&self) -> Option<f64> {
         let sum: usize = self.bands.down.iter().enumerate().map(|(band, count)| band * count).sum();
         (self.seen > 0).then(|| sum as f64 / (self.seen * (BANDS - 1)) as f64)
     }
 
-    /// Returns the number of such sprites in the walls on the cell's side of the board.
+    /// Returns the number of this type's sprites in the walls on the cell's side of the board.
     pub(crate) fn on_border(&self, grid: Grid, cell: usize) -> u32 {
         side(grid, cell).map_or(0, |side| self.sides[side] as u32)
     }
 
-    /// Returns `true` if most such sprites are set into the walls around the board.
+    /// Returns `true` if most of this type's sprites are set into the walls around the board.
     pub(crate) fn is_on_border(&self) -> bool {
         self.sides.iter().sum::<usize>() * 2 > self.seen
     }
 
-    /// Returns `true` if such sprites stand in niches, with walls on three sides.
+    /// Returns `true` if this type's sprites stand in niches, with walls on three sides.
     pub(crate) fn is_in_niches(&self) -> bool {
         self.nooks[NICHE] * 10 >= self.seen * 8 && self.seen > 0
     }
 
-    /// Returns `true` if such sprites stand in left-right pairs.
+    /// Returns `true` if this type's sprites stand in left-right pairs.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.mirrored >= 4 && self.mirrored * 10 >= self.seen * 7
     }
 
-    /// Returns `true` if such sprites stand in one or two rows.
+    /// Returns `true` if this type's sprites stand in one or two rows.
     pub(crate) fn is_lined_up(&self) -> bool {
         self.crowds > 0 && self.rows <= 2 * self.crowds
     }
 
-    /// Returns the fraction of sprites with a sprite of the same type next to them.
+    /// Returns the fraction of sprites next to a sprite of the same type.
     pub(crate) fn grouped(&self) -> f64 {
         self.grouped as f64 / self.seen.max(1) as f64
     }
@@ -202,7 +202,7 @@ fn band(at: usize, of: usize) -> usize {
     (at * BANDS / of.max(1)).min(BANDS - 1)
 }
 
-/// Returns the side of the border that a cell is on, in the order of [`WAYS`].
+/// Returns a cell's side of the border, as an index into [`WAYS`].
 fn side(grid: Grid, cell: usize) -> Option<usize> {
     WAYS.into_iter().position(|way| grid.shift(cell, way).is_none())
 }

@@ -1,4 +1,4 @@
-//! Equality and distance of levels up to symmetry.
+//! Equality and distance of levels, up to symmetry.
 
 use super::grid::Grid;
 use super::palette::Palette;
@@ -7,25 +7,26 @@ use engine::analysis::Role;
 use engine::{Analysis, Level};
 use itertools::Itertools;
 
-/// The number of symmetries of a board. Bit 0 mirrors left and right, bit 1 mirrors up and down, and bit 2 swaps
-/// columns and rows.
+/// The number of board symmetries. Bit 0 mirrors left and right, bit 1 mirrors up and down, and bit 2 swaps columns and
+/// rows.
 const SYMMETRIES: usize = 8;
-/// The value for cells outside the smaller of two levels, which have no character.
+/// The value for cells outside the smaller of two levels. Such cells have no character.
 const OUTSIDE: u8 = 0;
 
-/// Compares levels of one game up to rotations and reflections.
+/// Compares a game's levels up to rotations and reflections.
 ///
-/// Rules may distinguish directions, as for things that fall, or drive from left to right. The image of a level
-/// therefore need not play like the level, but still does not count as a new level.
+/// Rules may distinguish directions, for example if objects fall or drive from left to right. A level's image may
+/// therefore play differently, but still does not count as a new level.
 #[derive(Clone, Debug)]
 pub struct LevelSimilarity {
     /// For each character, the first character that places the same sprites.
     class: [u8; 128],
-    /// For each character, the index of the set of sprites that it places, which does not depend on characters.
+    /// For each character, the index of the set of sprites that it places. The index does not depend on the choice of
+    /// characters.
     rank: [u8; 128],
     /// For each character, the weight of a cell in which two levels differ.
     weight: [u32; 128],
-    /// For each character, `true` if it gives a board its shape, like a wall.
+    /// For each character, `true` if it shapes the board, as walls do.
     structure: [bool; 128],
 }
 
@@ -68,9 +69,9 @@ impl LevelSimilarity {
         LevelSimilarity { class, rank, weight, structure }
     }
 
-    /// Returns a digest that is the same for two levels if and only if they are equal up to two changes. The changes
-    /// are the eight symmetries of the board, and characters that place the same sprites. The two levels may also
-    /// belong to games that differ only in names and characters. Cost: O(cells).
+    /// Returns a digest that is the same for two levels exactly if the levels are equal up to the eight board
+    /// symmetries and the choice among characters that place the same sprites. The levels may belong to different games
+    /// that differ only in names and characters. Cost: O(cells).
     pub fn digest(&self, level: &Level) -> Digest {
         let (grid, mut cells) = self.classes(level);
         cells.iter_mut().for_each(|cell| *cell = self.rank[usize::from(*cell)]);
@@ -90,10 +91,10 @@ impl LevelSimilarity {
     ///   Σ weight of the cells that differ  /  Σ weight of all cells
     /// ```
     ///
-    /// with both levels aligned at the top left. A cell weighs 0 if both levels have ground there, or both have the
-    /// same wall on their border. A cell weighs 1 if it is wall, soil or ground in both, or lies outside one of them.
-    /// Any other cell weighs 2. Two levels that are mostly empty are therefore similar only if their few things are
-    /// similar. The distance is symmetric in its two arguments. Cost: O(cells).
+    /// with both levels aligned at the top left. A cell weighs 0 if it is ground in both levels, or the same border
+    /// wall in both. A cell weighs 1 if it is wall, soil or ground in both levels, or lies outside one level. Any other
+    /// cell weighs 2. Two mostly empty levels are therefore similar only if their few objects are similar. The distance
+    /// is symmetric in its arguments. Cost: O(cells).
     pub fn distance(&self, one: &Level, two: &Level) -> f64 {
         let (one, two) = (self.classes(one), self.classes(two));
         let turned = |fixed: &(Grid, Vec<u8>), (grid, cells): &(Grid, Vec<u8>)| {
@@ -104,8 +105,8 @@ impl LevelSimilarity {
         turned(&one, &two).min(turned(&two, &one))
     }
 
-    /// Returns the similarity of a level to its left-right or up-down mirror image. The similarity is 1.0 minus the
-    /// distance between the two without further symmetries. Cost: O(cells).
+    /// Returns the similarity of a level to its left-right or up-down mirror image: 1.0 minus their distance, without
+    /// further symmetries. Cost: O(cells).
     pub(super) fn mirror(&self, level: &Level, symmetry: Mirror) -> f64 {
         let (grid, cells) = self.classes(level);
         1.0 - self.share(&(grid, cells.clone()), &image(grid, &cells, symmetry as usize))
@@ -116,7 +117,7 @@ impl LevelSimilarity {
         (Grid { columns: level.columns(), rows: level.rows() }, cells)
     }
 
-    /// Returns the weighted fraction of cells that differ.
+    /// Returns the weighted fraction of differing cells.
     fn share(&self, (grid, one): &(Grid, Vec<u8>), (other_grid, two): &(Grid, Vec<u8>)) -> f64 {
         let (columns, rows) = (grid.columns.max(other_grid.columns), grid.rows.max(other_grid.rows));
         let at = |grid: &Grid, cells: &[u8], x: usize, y: usize| match x < grid.columns && y < grid.rows {

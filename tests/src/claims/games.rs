@@ -1,4 +1,5 @@
-//! Games that challenge proofs, most of which break some assumption: generated games and corpus games, each with several changes.
+//! Games that challenge proofs: generated games and corpus games, each with several changes. Most of these games break
+//! an assumption.
 
 use crate::any_game::any_game;
 use crate::choices::{Choices, random_bytes};
@@ -8,7 +9,7 @@ use engine::SpriteClass;
 use engine::syntax;
 use std::sync::LazyLock;
 
-/// The corpus games that are small enough, each with its levels.
+/// The sufficiently small corpus games, each with its levels.
 static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     let folders = workspace_root().join("corpora").read_dir().expect("the corpus can be read");
     let mut folders: Vec<_> = folders.map(|entry| entry.expect("the corpus can be read").path()).collect();
@@ -21,7 +22,7 @@ static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     folders.iter().map(load).collect()
 });
 
-/// Returns the game and the level for a seed. The two need not load.
+/// Returns the game and the level for a seed. The game and the level do not necessarily load.
 pub fn game(seed: Seed) -> (String, String) {
     let mut sampler = seed.child("game", 0).sampler();
     let (source, level, changes) = match sampler.below(10) {
@@ -52,7 +53,7 @@ pub fn game(seed: Seed) -> (String, String) {
     (text.source(), text.level())
 }
 
-/// Returns a piece of a level, so that short episodes cover much of the piece.
+/// Returns a part of a level that is small enough for short episodes to cover much of it.
 fn cropped(level: &str, sampler: &mut Sampler) -> String {
     let rows: Vec<&str> = level.lines().collect();
     let width = rows.first().map_or(0, |row| row.len());
@@ -67,10 +68,10 @@ fn cropped(level: &str, sampler: &mut Sampler) -> String {
         .collect()
 }
 
-/// The names of things.
+/// The names of sprite types.
 const THINGS: [&str; 6] = ["gem", "pit", "owl", "box", "key", "gate"];
 
-/// Returns a small ordinary game, which random play often ends.
+/// Returns a small ordinary game that often ends under random play.
 fn plain(sampler: &mut Sampler) -> (String, String) {
     // Some games have gates that consume keys, and fewer or more keys than gates.
     let pays = sampler.ratio(1, 5);
@@ -264,7 +265,7 @@ struct Text {
     symbols: Vec<char>,
 }
 
-/// Parameters that affect how long sprites live, whether they move, and how many there are.
+/// Parameters that affect the lifetime, movement and number of sprites.
 const PARAMETERS: [&str; 24] = [
     "singleton=True",
     "timeToLive=3",
@@ -312,7 +313,7 @@ impl Text {
         self.level.iter().map(|row| row.iter().collect::<String>() + "\n").collect()
     }
 
-    /// Returns the range of the lines in a section.
+    /// Returns a section's line range.
     fn section(&self, name: &str) -> std::ops::Range<usize> {
         let Some(start) = self.lines.iter().position(|line| line.trim() == name) else { return 0..0 };
         let rest = &self.lines[start + 1..];
@@ -340,7 +341,7 @@ impl Text {
         sampler.choose(&self.names).clone()
     }
 
-    /// Makes one random change.
+    /// Applies one random change.
     fn change(&mut self, sampler: &mut Sampler) {
         match sampler.below(20) {
             0 | 1 => {

@@ -1,10 +1,10 @@
 //! The claims that the suite makes about a game or a level, and episodes that could refute them.
 //!
-//! A claim of the form "cannot", "never" or "only" is a proof, and a false claim is the worst possible fault of the suite.
-//! [`read`] extracts the claims from the texts that users see (`describe`, warnings) and from the proofs of the analysis
-//! (reachability, chains of causes). [`play`] records episodes tick by tick. [`Fact::refuted_by`] searches an episode for a
-//! moment that contradicts a claim. [`games`] creates games, most of which break some assumption, and [`shrink`] reduces a game
-//! with a fault.
+//! A claim of the form "cannot", "never" or "only" is a proof, and a false claim is the worst possible bug in the
+//! suite. [`read`] extracts the claims from the texts that users see (`describe`, warnings) and from the proofs of the
+//! analysis (reachability, chains of causes). [`play`] records episodes tick by tick. [`Fact::refuted_by`] searches an
+//! episode for a moment that contradicts a claim. [`games`] creates games, most of which break an assumption, and
+//! [`shrink`] reduces games that refute a claim.
 
 pub mod games;
 pub mod play;
@@ -19,17 +19,17 @@ use play::Play;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The policy with which a game is loaded.
+/// The policy for loading a game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Policy {
     /// Faults are errors.
     Strict,
-    /// Faults are recovered from, as in the reference.
+    /// The loader recovers from faults, as the reference does.
     Reference,
 }
 
 impl Policy {
-    /// Loads a game under the policy. Returns `None` if the game does not load.
+    /// Loads a game under the policy. Returns `None` if loading fails.
     pub fn load(self, source: &str) -> Option<Game> {
         match self {
             Policy::Strict => Game::from_source(source).ok(),
@@ -38,32 +38,32 @@ impl Policy {
     }
 }
 
-/// A claim as a text with its meaning.
+/// A claim: its text and its meaning.
 #[derive(Clone, Debug)]
 pub struct Claim {
     /// The text of the claim, or the name of the proof.
     pub text: String,
-    /// The meaning of the claim.
+    /// The claim's meaning.
     pub fact: Fact,
 }
 
-/// The condition of an ending, as its sentence states it.
+/// An ending's condition, as stated in its sentence.
 #[derive(Clone, Debug, PartialEq)]
 pub enum When {
-    /// There is at most the given number of sprites of these types.
+    /// There are at most the given number of sprites of the given types.
     AtMost(Vec<SpriteType>, i64),
-    /// There is at least the given number of sprites of these types.
+    /// There are at least the given number of sprites of the given types.
     AtLeast(Vec<SpriteType>, i64),
-    /// There is exactly the given number of sprites of these types.
+    /// There are exactly the given number of sprites of the given types.
     Exactly(Vec<SpriteType>, i64),
-    /// The given number of ticks has been played.
+    /// The given number of ticks have been played.
     Ticks(i64),
 }
 
-/// The additional condition of an ending.
+/// An ending's additional condition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Provided {
-    /// There is no additional condition.
+    /// No additional condition applies.
     Always,
     /// The score is not 0.
     Score,
@@ -79,7 +79,7 @@ pub enum Provided {
     OtherValue(i32),
 }
 
-/// The exception under which an ending does not count.
+/// An exception under which an ending does not count.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unless {
     /// The condition of the exception.
@@ -97,11 +97,11 @@ pub struct Ending {
     pub win: bool,
     /// The condition of the ending.
     pub when: When,
-    /// The number of types that the counted sprites must have; `None` if it does not matter.
+    /// The number of different types required among the counted sprites; `None` if any number is allowed.
     pub kinds: Option<usize>,
     /// The additional condition of the ending.
     pub provided: Provided,
-    /// The exception under which the ending does not count; `None` if there is no exception.
+    /// The exception under which the ending does not count, if any.
     pub unless: Option<Unless>,
 }
 
@@ -112,55 +112,55 @@ pub enum Tie {
     Lost,
     /// The game is won.
     Won,
-    /// The claim is missing, or not understood here.
+    /// The claim is missing, or cannot be parsed.
     Open,
 }
 
-/// The meaning of a claim, as far as an episode can refute it.
+/// A claim's meaning, as far as an episode can refute it.
 #[derive(Clone, Debug)]
 pub enum Fact {
-    /// These endings are all ways to win and lose before the last tick, and each of them ends the game.
+    /// The given endings are the only ways to win or lose before the last tick, and each of them ends the game.
     Endings(Vec<Ending>, Tie),
     /// The game is never won (`true`) or lost (`false`), except in its first tick.
     Unattainable(bool),
     /// The level is never won (`true`) or lost (`false`), even in its first tick.
     OutOfReach(bool),
-    /// The episode is over in its first tick, with the given outcome if there is one.
+    /// The episode is over in its first tick, with the given outcome, if any.
     OverAtOnce(Option<bool>),
-    /// The interaction with this index never happens.
+    /// The interaction with the given index never happens.
     Silent(usize),
     /// No sprite ever holds more than the given amount of a resource.
     HeldAtMost(SpriteType, i64),
-    /// There is never a sprite of the type.
+    /// There are never any sprites of the type.
     Absent(SpriteType),
-    /// Only sprites of these types ever exist.
+    /// Only sprites of the given types ever exist.
     OnlyTypes(Vec<SpriteType>),
-    /// A rule about the first type concerns only sprites of these types.
+    /// A rule about the given type applies only to sprites of the listed types.
     OnlyMembers(SpriteType, Vec<SpriteType>),
     /// Sprites of the first types never meet sprites of the second types. If the second types are `None`, sprites of
     /// the first types never meet the edge.
     NeverMeet(Vec<SpriteType>, Option<Vec<SpriteType>>),
-    /// All avatars are of these types.
+    /// All avatars have one of the given types.
     OnlyAvatars(Vec<SpriteType>),
     /// Sprites of the type do not move by themselves.
     Stands(SpriteType),
     /// Sprites of the type never change their position.
     Fixed(SpriteType),
-    /// There is at most one sprite of these types, or at most as many as the level placed.
+    /// There is at most one sprite of the given types, or at most the number placed by the level.
     Single(Vec<SpriteType>),
-    /// There are never more sprites of these types than at the start.
+    /// There are never more sprites of the given types than at the start.
     OnlyFalls(Vec<SpriteType>),
-    /// The number of sprites of these types never exceeds the given number.
+    /// The number of sprites of the given types never exceeds the given number.
     CountAtMost(Vec<SpriteType>, i64),
-    /// The sprites that the level places in these cells stay there.
+    /// The sprites that the level places in the given cells stay there.
     Permanent(Vec<(SpriteType, usize)>),
-    /// The termination with this index among the goals never holds.
+    /// The termination with the given index among the goals never holds.
     GoalNeverHolds(usize),
     /// Sprites of the type never reach the cell.
     NeverAt(SpriteType, usize),
-    /// Between two ticks, the sprites of each type are only in these cells. The list is indexed by type and cell.
+    /// Between ticks, sprites of each type are only in the given cells. The list is indexed by type and cell.
     Within(Vec<Vec<bool>>),
-    /// Avatars visit at most the given number of cells of the board.
+    /// Avatars visit at most the given number of cells on the board.
     CellsVisited(usize),
     /// Sprites of the first types never move onto sprites of the second types. If the second types are `None`, sprites
     /// of the first types never move off the board.
@@ -169,7 +169,7 @@ pub enum Fact {
     Unseen(SpriteType),
     /// No key has any effect.
     DeadKeys,
-    /// These keys have no effect.
+    /// The given keys have no effect.
     IdleKeys(Vec<Action>),
     /// Nothing happens unless the player acts.
     TurnBased,
@@ -177,16 +177,16 @@ pub enum Fact {
     NoChance,
     /// Only avatars move by themselves.
     OthersIdle,
-    /// All sprites that interactions concern are shown.
+    /// Observations show all sprites that are part of an interaction.
     AllShown,
-    /// The game plays the same without the parameter at this position in the text.
+    /// The game plays the same without the parameter at the given position in the text.
     Ignored(usize),
-    /// No episode at all wins, because an exhaustive search has found no win.
+    /// No episode wins, according to an exhaustive search.
     SearchedInVain,
 }
 
 impl Fact {
-    /// Returns the name of the kind of fact, for counts.
+    /// Returns the name of the fact's kind, for counts.
     pub fn kind(&self) -> &'static str {
         match self {
             Fact::Endings(..) => "endings: these win and lose, and nothing else",
@@ -226,26 +226,26 @@ impl Fact {
     }
 }
 
-/// A game with a level, loaded under a policy.
+/// A game and a level, loaded under a policy.
 pub struct Case {
-    /// The text of the game.
+    /// The game's text.
     pub source: String,
-    /// The text of the level.
+    /// The level's text.
     pub text: String,
-    /// The policy with which the game was loaded.
+    /// The policy for loading the game.
     pub policy: Policy,
     /// The loaded game.
     pub game: Game,
     /// The loaded level.
     pub level: Level,
-    /// The analysis of the game.
+    /// The game's analysis.
     pub analysis: Analysis,
-    /// The reach of the sprites in the level.
+    /// The sprites' reach in the level.
     pub reach: Reach,
 }
 
 impl Case {
-    /// Loads a game and a level. Returns `None` if they do not load.
+    /// Loads a game and a level. Returns `None` if loading fails.
     pub fn load(source: &str, text: &str, policy: Policy) -> Option<Case> {
         let game = policy.load(source)?;
         let level = game.level(text).ok()?;
@@ -256,17 +256,17 @@ impl Case {
     }
 }
 
-/// A claim that an episode refutes, with its game.
+/// A claim refuted by an episode, with its game.
 pub struct Fault {
-    /// The claim that was refuted.
+    /// The refuted claim.
     pub claim: Claim,
     /// The observation that contradicts the claim.
     pub found: String,
-    /// The text of the game.
+    /// The game's text.
     pub source: String,
-    /// The text of the level.
+    /// The level's text.
     pub level: String,
-    /// The policy with which the game was loaded.
+    /// The policy for loading the game.
     pub policy: Policy,
     /// The seed and the actions of the episode that refutes the claim.
     pub play: (Seed, Vec<Action>),
@@ -281,7 +281,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// The counts of a run.
+/// The counts for a run.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     /// The number of games loaded under each policy.
@@ -290,14 +290,14 @@ pub struct Tally {
     pub plays: usize,
     /// The number of ticks.
     pub ticks: usize,
-    /// The numbers of episodes won and lost.
+    /// The number of episodes won, and the number lost.
     pub ends: [usize; 2],
     /// The number of claims by kind, each counted once per game.
     pub claims: BTreeMap<&'static str, usize>,
 }
 
 impl Tally {
-    /// Adds the counts of another run.
+    /// Adds another run's counts.
     #[must_use]
     pub fn and(mut self, other: Tally) -> Tally {
         (0..2).for_each(|at| self.games[at] += other.games[at]);
@@ -310,7 +310,7 @@ impl Tally {
         self
     }
 
-    /// Counts a case with its claims and episodes.
+    /// Counts a case and its claims and episodes.
     pub fn count(&mut self, case: &Case, claims: &[Claim], plays: &[Play]) {
         self.games[usize::from(case.policy == Policy::Reference)] += 1;
         self.plays += plays.len();
@@ -337,7 +337,7 @@ impl fmt::Display for Tally {
     }
 }
 
-/// Returns the claims of a case that its episodes refute. Each claim is returned once.
+/// Returns a case's claims that its episodes refute, each claim once.
 pub fn faults(case: &Case, claims: &[Claim], plays: &[Play]) -> Vec<Fault> {
     let fault = |claim: &Claim| {
         let refuted = plays.iter().find_map(|play| Some((claim.fact.refuted_by(case, play)?, play)));

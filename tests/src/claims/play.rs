@@ -12,23 +12,23 @@ pub struct Frame {
     pub meetings: Vec<Meeting>,
     /// The indices of the executed interaction lines.
     pub lines: Vec<usize>,
-    /// The type of the player's avatar.
+    /// The type of the avatar.
     pub avatar: Option<SpriteType>,
     /// The outcome of the episode so far.
     pub outcome: Outcome,
     /// The score at the end of the tick.
     pub score: f64,
-    /// The values of the counters.
+    /// The counters' values.
     pub counters: Vec<i32>,
 }
 
-/// A recorded episode. There is one more frame than actions, because the first frame is the start.
+/// A recorded episode. There is one more frame than actions, because the first frame is the initial state.
 pub struct Play {
-    /// The seed of the game's randomness.
+    /// The seed for the game's randomness.
     pub seed: Seed,
-    /// The actions of the episode.
+    /// The episode's actions.
     pub actions: Vec<Action>,
-    /// The states at the start and at the end of each tick.
+    /// The initial state, and the state at the end of each tick.
     pub frames: Vec<Frame>,
     /// The size of a cell.
     pub block: i32,
@@ -59,7 +59,7 @@ impl Watch for Seen {
     }
 }
 
-/// The maximum number of sprites in a recorded state. The episode stops when this number is exceeded.
+/// The maximum number of sprites in a recorded state. Recording stops when this number is exceeded.
 const SPRITES: usize = 400;
 
 impl Play {
@@ -94,7 +94,7 @@ impl Play {
         Play::record(case, seed, |_| actions.next())
     }
 
-    /// Plays at random. Keys are often held down, as people do.
+    /// Plays at random. Keys are often held down, as human players do.
     pub fn random(case: &Case, seed: Seed, ticks: usize) -> Play {
         let mut sampler = seed.child("actions", 0).sampler();
         let (mut held, mut left, mut played) = (Action::Nil, 0, 0);
@@ -135,8 +135,8 @@ impl Play {
     }
 }
 
-/// Returns episodes of a case. Some are idle, some random and some play towards the terminations. Some cases
-/// also have a long episode.
+/// Returns episodes for a case: idle episodes, random episodes, and episodes that play towards the
+/// terminations. For some cases, also returns a long episode.
 pub fn plays(case: &Case, seed: Seed) -> Vec<Play> {
     let mut sampler = seed.child("plays", 0).sampler();
     let mut plays = vec![

@@ -1,11 +1,11 @@
-//! Claims extracted from the texts that users see, and from the proofs of the analysis.
+//! Claims extracted from the texts that users see, and from the analysis's proofs.
 
 use super::{Case, Claim, Ending, Fact, Policy, Provided, Tie, Unless, When};
 use engine::analysis::{Cause, Chain, Missing, Obstacle, Spatiality, Steering, Unreachable};
 use engine::describe::{self, Guide, plural};
 use engine::{Action, Diagnostic, Game, SpriteType};
 
-/// Returns all claims of a case, and the number of sentences about endings that are not understood here.
+/// Returns all claims about a case, and the number of sentences about endings that cannot be parsed.
 pub fn claims(case: &Case) -> (Vec<Claim>, usize) {
     let mut reader = Reader { case, claims: Vec::new(), unread: 0 };
     let guide = Guide::from_analysis(&case.analysis);
@@ -28,7 +28,7 @@ struct Reader<'a> {
     unread: usize,
 }
 
-/// Returns the types in a list of names such as `a, b or c`. `several` is `true` if the names are plurals.
+/// Returns the types in a list of names such as `a, b or c`. `several` is `true` for plural names.
 fn listed(game: &Game, text: &str, several: bool) -> Option<Vec<SpriteType>> {
     let find = |name: &str| {
         let name = name.strip_prefix("no ").unwrap_or(name);
@@ -177,8 +177,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns `true` if the level uses a character that is mapped in every game, but that this game does not use.
-    /// Claims assume that no level uses such a character.
+    /// Returns `true` if the level uses a built-in character that the game itself does not use. Claims assume that
+    /// levels do not use such characters.
     fn uses_idle_default(&self, symbol: u8) -> bool {
         let facts = |&stype: &SpriteType| self.case.analysis.facts(stype);
         let is_idle =
@@ -255,7 +255,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the types that can occur without their own line, other than avatars.
+    /// Returns the types, other than avatars, that can occur without their own line.
     fn others(&self, guide: &Guide) -> Vec<SpriteType> {
         let analysis = &self.case.analysis;
         let has_line = |stype: SpriteType| {

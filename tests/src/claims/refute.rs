@@ -1,4 +1,4 @@
-//! The search for a moment in an episode that contradicts a claim.
+//! Searches an episode for a moment that contradicts a claim.
 
 use super::play::{Frame, Play};
 use super::{Case, Ending, Fact, Policy, Provided, Tie, When};
@@ -33,7 +33,7 @@ impl Frame {
         types.iter().map(count).sum()
     }
 
-    /// Returns `true` if the tick was played to its end.
+    /// Returns `true` if the tick was completed.
     fn is_whole(&self) -> bool {
         !matches!(self.outcome, Outcome::Stopped(_) | Outcome::Ended)
     }
@@ -43,14 +43,14 @@ impl Frame {
     }
 }
 
-/// Returns the complete ticks of an episode. Each has its number, counted from 1, the state before and the state after.
+/// Returns an episode's complete ticks, each with its number (counted from 1), the state before and the state after.
 fn ticks(play: &Play) -> impl Iterator<Item = (usize, &Frame, &Frame)> {
     let pairs = play.frames.windows(2).enumerate();
     pairs.map(|(at, pair)| (at + 1, &pair[0], &pair[1])).filter(|(.., after)| after.is_whole())
 }
 
 impl Fact {
-    /// Returns the contradiction between the claim and an episode of the case; `None` if there is none.
+    /// Returns the contradiction between the claim and an episode of the case, if any.
     pub fn refuted_by(&self, case: &Case, play: &Play) -> Option<String> {
         let name = |stype: SpriteType| case.game.name(stype);
         let ended = play.frames.last().map_or(Outcome::Ongoing, |frame| frame.outcome);
@@ -262,7 +262,7 @@ impl Fact {
     }
 }
 
-/// Returns a sprite that `wanted` accepts and whose position has changed in the tick.
+/// Returns a sprite accepted by `wanted` whose position has changed during the tick.
 fn moved<'a>(
     before: &Frame,
     after: &'a Frame,
@@ -360,8 +360,8 @@ impl Ending {
     }
 }
 
-/// Checks that every end of an episode is announced, that every announced ending ends the episode, and that the result
-/// is correct.
+/// Checks that every end of an episode matches a claimed ending, that every claimed ending ends the episode, and that
+/// the outcome is correct.
 fn refute_endings(case: &Case, endings: &[Ending], tie: &Tie, play: &Play) -> Option<String> {
     ticks(play).find_map(|(tick, before, frame)| {
         let holds =
@@ -391,7 +391,7 @@ fn refute_endings(case: &Case, endings: &[Ending], tie: &Tie, play: &Play) -> Op
     })
 }
 
-/// The effects that do not move or turn anything. A barrier stays a barrier in a tick with these effects.
+/// The effects that do not move or turn sprites. In a tick with only these effects, a barrier stays a barrier.
 const STILL_EFFECTS: [&str; 8] = [
     "stepBack",
     "collectResource",
@@ -403,7 +403,7 @@ const STILL_EFFECTS: [&str; 8] = [
     "subtractHealthPoints",
 ];
 
-/// Finds a sprite that moves onto a barrier that was there before and has not moved.
+/// Finds a sprite that moves onto a barrier that existed before and has not moved.
 fn refute_barrier(
     case: &Case,
     play: &Play,
@@ -466,7 +466,7 @@ fn takes_part(case: &Case, stype: SpriteType) -> bool {
     meets || analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype))
 }
 
-/// Finds an event that concerns sprites in the game although no key is pressed.
+/// Finds an event in the game that occurs although no key is pressed.
 fn refute_turns(case: &Case, seed: Seed) -> Option<String> {
     let shown = |frame: &Frame| {
         let own = frame.sprites.iter().filter(|record| takes_part(case, stype(record)));

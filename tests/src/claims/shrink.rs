@@ -1,11 +1,11 @@
-//! Reduction of games with a fault.
+//! Reduces games that refute a claim.
 
 use super::play::{Play, plays};
 use super::{Case, Fault, Policy, faults, read};
 use base::Seed;
 use engine::Action;
 
-/// Removes lines of the game, rows and columns of the level, and parameters, as long as a claim of the same kind and code stays
+/// Removes game lines, level rows and columns, and parameters, as long as a claim with the same kind and code remains
 /// false.
 pub fn shrunk(fault: Fault) -> Fault {
     let mut best = fault;

@@ -1,4 +1,4 @@
-//! A warm step allocates no memory, because planners make millions of steps.
+//! A warm step does not allocate memory, because planners take millions of steps.
 
 use base::Seed;
 use engine::{Action, Game, Level, State};

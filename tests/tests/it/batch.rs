@@ -1,4 +1,4 @@
-//! Batches: each lane plays the same episode as it would by itself, on any number of threads.
+//! Batches: on any number of threads, each lane plays the same episode as it would alone.
 
 use agents::{Batch, BatchError};
 use base::{Sampler, Seed};
@@ -65,7 +65,7 @@ fn lanes_of_public_games_are_episodes() {
     }
 }
 
-/// A lane's episode depends neither on other lanes nor on their number.
+/// A lane's episode does not depend on other lanes or on their number.
 #[test]
 fn lanes_are_independent() {
     let (name, game, levels) = games(&workspace_root().join("corpora")).swap_remove(0);

@@ -1,5 +1,5 @@
-//! Every claim of `describe`, the warnings, the analysis and the exhaustive search is checked against episodes, in generated and
-//! changed games, loaded strictly and as in the reference. See [`tests::claims`].
+//! Checks every claim made by `describe`, the warnings, the analysis and the exhaustive search against episodes, in
+//! generated and modified games, loaded strictly and as in the reference. See [`tests::claims`].
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
 use base::Seed;
@@ -13,12 +13,12 @@ use tests::sweep;
 
 /// The number of generated games in a sweep. Each is loaded under both policies.
 const GAMES: usize = 40_000;
-/// The number of games of which one is searched.
+/// The number of games per exhaustively searched game.
 const SEARCHED: usize = 10;
 /// The number of forward-model calls per search.
 const CALLS: u64 = 3000;
 
-/// Checks the game for a seed under a policy. Returns the counts, the number of sentences that were not understood, and the false
+/// Checks the game for a seed under a policy. Returns the counts, the number of unparsed sentences, and the false
 /// claims.
 fn check(seed: Seed, search: bool, policy: Policy) -> Option<(Tally, usize, Vec<Fault>)> {
     let (source, level) = games::game(seed);
@@ -85,7 +85,7 @@ const KINDS: [&str; 12] = [
     "the level cannot be won",
 ];
 
-/// A game that contains everything that the checks look for.
+/// A game that contains everything covered by the checks.
 const ZOO: &str = "\
 BasicGame square_size=10
     SpriteSet
@@ -119,7 +119,7 @@ BasicGame square_size=10
         Timeout limit=300 win=False
 ";
 
-/// Each check refutes a false claim, and no check refutes the true claims of the same game.
+/// Each check refutes a false claim, and no check refutes the true claims about the same game.
 #[test]
 fn false_claims_are_refuted() {
     let case = Case::load(ZOO, "A.gv...\nm.e.c..\n.o...p.\n", Policy::Strict);

@@ -1,6 +1,6 @@
-//! Single faults in valid files. Each fault must be reported at its line, and most faults with the right fix.
+//! Single faults in valid files. Each fault must be reported at its line, in most cases with the right fix.
 //!
-//! The faults are drawn with a seed over the corpus games, [`EACH`] of each kind.
+//! The faults are drawn from the corpus games with a seed, [`EACH`] of each kind.
 
 use base::{Sampler, Seed};
 use engine::{Diagnostic, Game, SpriteClass, line_and_column};
@@ -10,7 +10,7 @@ use tests::workspace_root;
 /// The number of faults of each kind.
 const EACH: u32 = 40;
 
-/// A corpus game as text, with one of its levels.
+/// A corpus game and one of its levels, as texts.
 struct Sound {
     game: String,
     level: String,
@@ -29,8 +29,7 @@ pub(crate) struct Fault {
     what: String,
 }
 
-/// A generator of one kind of fault. The generator returns `None` if the randomly chosen item does not allow such a
-/// fault.
+/// A generator for one kind of fault. Returns `None` if the randomly chosen item does not allow such a fault.
 type FaultMaker = fn(&Sound, &mut Sampler) -> Option<Fault>;
 
 const KINDS: [(&str, FaultMaker); 6] = [
@@ -104,8 +103,8 @@ fn told(kind: &str, fault: &Fault, problems: &[(bool, Diagnostic)]) -> String {
     text
 }
 
-/// Returns the problems of the game and, if the game compiles, the problems of the level. The flag is `true` for problems of the
-/// level.
+/// Returns the problems in the game and, if the game compiles, the problems in the level. The flag is `true` for
+/// problems in the level.
 fn problems(fault: &Fault) -> Vec<(bool, Diagnostic)> {
     let game = match Game::from_source(&fault.game) {
         Ok(game) => game,
@@ -134,7 +133,7 @@ struct Token<'a> {
     start: usize,
     text: &'a str,
     line: usize,
-    /// The index of the word in its line.
+    /// The index of the word within its line.
     place: usize,
     section: &'a str,
 }
@@ -170,7 +169,7 @@ fn in_game(sound: &Sound, game: String, lines: Vec<usize>, repairs: &[&str], wha
     Some(Fault { game, level: sound.level.clone(), in_level: false, lines, repairs, what })
 }
 
-/// Removes, doubles, swaps or changes one letter of a word.
+/// Removes, doubles, swaps or changes one letter in a word.
 fn typo(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let token = *sampler.choose(&tokens);
@@ -242,7 +241,7 @@ fn missing_token(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, game, vec![token.line], &repairs, what)
 }
 
-/// Indents a line by some columns more or less.
+/// Increases or decreases a line's indentation by some columns.
 fn wrong_indent(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let lines: Vec<&str> = sound.game.lines().collect();
     let at = 1 + sampler.below(lines.len() - 1);
@@ -259,7 +258,7 @@ fn wrong_indent(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, changed.join("\n") + "\n", vec![at + 1], &["indent"], what)
 }
 
-/// Swaps two section names, or moves a section before one that it needs.
+/// Swaps two section names, or moves a section before another section that it requires.
 fn swapped_section(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let heads: Vec<&Token<'_>> = tokens.iter().filter(|token| token.is_head()).collect();
@@ -311,7 +310,7 @@ fn wrong_type(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, game, vec![token.line], &[&format!("{key}=")], format!("{key}={value} → {key}={wrong}"))
 }
 
-/// Changes a valid character into an invalid one in a level, in a mapping, in an arrow or in a parameter.
+/// Replaces a valid character with an invalid one in a level, in a mapping, in an arrow or in a parameter.
 fn wrong_character(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     match sampler.below(4) {

@@ -7,7 +7,7 @@ use editor::{Edit, Fix, Problem, Severity, applied, level_problems, problems};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The number of problems that have a fix, and the number of problems that were fixed.
+/// The number of problems with a fix, and the number of fixed problems.
 #[derive(Default)]
 struct Tally {
     faults: usize,
@@ -15,7 +15,7 @@ struct Tally {
     failures: String,
 }
 
-/// Counts the problems by code and message. Positions are ignored because they change when a text is fixed.
+/// Counts the problems by code and message. Positions are ignored because fixes change them.
 fn counted(problems: &[Problem]) -> BTreeMap<(&str, &str), usize> {
     let mut counts = BTreeMap::new();
     for problem in problems {

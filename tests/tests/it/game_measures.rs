@@ -1,4 +1,4 @@
-//! Measures of our own games, compared with the intentions of their authors.
+//! Measures of the corpus games, compared with their authors' intentions.
 
 use agents::{PortfolioConfig, Solution, solve};
 use base::Seed;
@@ -31,7 +31,7 @@ fn kinds_of_our_own_games() {
     }
 }
 
-/// Measures the first level with the win that the portfolio finds.
+/// Measures the first level with the win found by the portfolio.
 fn played(name: &str) -> PlayMeasures {
     let all = games(&workspace_root().join("corpora"));
     let (_, game, levels) = all.iter().find(|game| game.0 == name).expect(name);
@@ -43,8 +43,8 @@ fn played(name: &str) -> PlayMeasures {
     PlayMeasures::of(&analysis, &recording, Seed::from_text("measures")).expect("an episode")
 }
 
-/// The jars wait for their porter, who can lose only because of the clock. The hounds of the bog do not wait, and catch
-/// an avatar that stays in place.
+/// In the puzzle, the jars wait for their porter, who can lose only on time. In the flight, the hounds of the bog do
+/// not wait, and catch an avatar that stays in place.
 #[test]
 fn measures_match_play_of_a_puzzle_and_a_flight() {
     let (jars, bog) = (played("quiet-jars"), played("bog-lantern"));

@@ -1,7 +1,8 @@
-//! The hostile set (`tests/suite/hostile/`). Each case has the result that its file states, under both policies for
-//! loading a game.
+//! The hostile set (`tests/suite/hostile/`). Each case has the result stated in its file, under both loading
+//! policies.
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-tests --test it hostile` rewrites the results. Review the diff like code.
+//! `BLESS=1 cargo test -p infinite-arcade-tests --test it hostile` rewrites the results. Review the diff as you
+//! would review code.
 
 use tests::hostile::Case;
 
@@ -26,7 +27,7 @@ fn every_case_ends_as_expected() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
-/// In addition to play, a game's warnings, description and canonical print also terminate.
+/// Besides play, a game's warnings, description and canonical printing also terminate.
 #[test]
 fn every_game_is_described_or_refused() {
     for case in Case::all() {

@@ -3,16 +3,16 @@
 //!
 //! A page is prose around fenced blocks, which run from top to bottom:
 //!
-//! - `vgdl` is a game, and `level` is a level of the last game. `level seed=7` starts the level's episode from that
-//!   seed instead of the default 0. Games are loaded strictly, except that a game in a `vgdl as-reference` block is
-//!   loaded as the reference does.
+//! - `vgdl` is a game, and `level` is a level of the preceding game. `level seed=7` starts the level's episode from
+//!   that seed instead of the default 0. Games are loaded strictly, except that a game in a `vgdl as-reference` block
+//!   is loaded as the reference does.
 //! - `actions` plays actions, such as `right use*3 nil`.
-//! - `expect` states the results, such as `tick 2, score 1, won`. Facts about the oldest sprite of a type may follow,
-//!   such as `key: count 2; at 3,1; facing left; speed 0.5; health 2; size 1x1; holds coin 3` (in cells). The board in
-//!   level characters may follow last. A cell shows the character that places exactly the sprites in the cell, or else
-//!   its topmost sprite.
-//! - `diagnostics` lists the problems of the block above it, each with line and column. Without this block, there must
-//!   be no problems, except that examples need not say how they are won and lost.
+//! - `expect` states the results, such as `tick 2, score 1, won`. Facts about a type's oldest sprite may follow, such
+//!   as `key: count 2; at 3,1; facing left; speed 0.5; health 2; size 1x1; holds coin 3` (in cells). The board in level
+//!   characters may follow last. A cell shows the character that places exactly the cell's sprites, or otherwise its
+//!   topmost sprite.
+//! - `diagnostics` lists the problems in the block above it, each with line and column. Without a `diagnostics` block,
+//!   there must be no problems, except that examples need not specify how they are won and lost.
 //!
 //! `BLESS=1 cargo test -p infinite-arcade-tests --test it pages` writes the actual results into the `expect` and
 //! `diagnostics` blocks. It also fills in a value of `?` in a fact, and a board that consists of a single `?`. Review
@@ -123,8 +123,8 @@ fn every_diagnostic_code_has_a_page() {
     assert!(problems.is_empty(), "\n{problems}");
 }
 
-/// Returns the output that the page about a code must show. This is the code in a list of problems. If no small example
-/// causes the problem, it is the whole output for a file that is created here.
+/// Returns the output that a code's page must show: the code in a list of problems or, if no small example causes the
+/// problem, the whole output for a file created by the test.
 fn shown(code: &str) -> String {
     let source = match code {
         "not-text" => "BasicGame\u{7}\n".to_owned(),
@@ -142,7 +142,7 @@ fn shown(code: &str) -> String {
     own.map(|problem| rendered(&source, problem)).collect()
 }
 
-/// Returns the problems of the last game or level on a page.
+/// Returns the problems in a page's last game or level.
 fn repaired(page: &str) -> Vec<Diagnostic> {
     let blocks = blocks(page);
     let games = blocks.iter().rfind(|block| block.info == "vgdl");
@@ -179,8 +179,8 @@ fn pages(folder: &'static str) -> impl Iterator<Item = String> {
     files.filter(move |file| file.starts_with(folder) && file.ends_with(".md"))
 }
 
-/// Returns the strictly loaded games and the levels on the pages in a folder, as the page, the game, and the level if
-/// there is one.
+/// Returns the strictly loaded games and the levels on a folder's pages, each as the page, the game, and the level (if
+/// any).
 pub(crate) fn examples(folder: &'static str) -> Vec<(String, String, Option<String>)> {
     let mut examples = Vec::new();
     for page in pages(folder) {
@@ -201,7 +201,7 @@ fn games(page: &str) -> impl Iterator<Item = &str> {
     page.split("```vgdl").skip(1).filter_map(|rest| rest.split("```").next())
 }
 
-/// Returns the first line that differs, in its stated and its actual form.
+/// Returns the first differing line, in its stated and its actual form.
 fn first_difference(said: &str, is: &str) -> String {
     let at = said
         .lines()
@@ -220,7 +220,7 @@ struct Block {
 }
 
 impl Block {
-    /// Returns the problems of the block. A level is checked against `game`.
+    /// Returns the problems in the block. A level is checked against `game`.
     fn problems(&self, game: Option<&Game>) -> Vec<Diagnostic> {
         match (self.info.as_str(), game) {
             ("vgdl as-reference", _) => {
@@ -255,7 +255,7 @@ fn blocks(page: &str) -> Vec<Block> {
     blocks
 }
 
-/// The state of a page's run: the games and levels loaded, and the actions played.
+/// The state while running a page: the games and levels loaded, and the actions played.
 #[derive(Default)]
 struct Bench {
     game: Option<Game>,
@@ -394,7 +394,7 @@ impl Bench {
     }
 }
 
-/// Returns one fact about the oldest sprite of a type.
+/// Returns one fact about a type's oldest sprite.
 fn fact(game: &Game, state: &State, name: &str, asked: &str) -> Result<String, String> {
     let stype = game.sprite_type(name).ok_or_else(|| format!("no sprite named `{name}`"))?;
     let records = game.records(state);

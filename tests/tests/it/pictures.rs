@@ -1,4 +1,4 @@
-//! Every game that loads can be drawn. The test uses the hostile games and the corpus, in every format.
+//! Every loadable game can be drawn. Tests the hostile games and the corpus, in every format.
 
 use base::Seed;
 use engine::{Action, Analysis, Game, Level, syntax};
@@ -11,7 +11,8 @@ use tests::hostile::Case;
 use tests::sweep::VARIABLE;
 use tests::workspace_root;
 
-/// Draws the first tick, and in a sweep also the start. An image with too many pixels may be rejected.
+/// Draws the first tick and, in a sweep, also the initial state. An image with too many pixels may be
+/// rejected.
 fn draw(name: &str, game: &Game, level: &Level) {
     let analysis = Analysis::of(game);
     let looks = Looks::of(&analysis);
@@ -55,7 +56,8 @@ fn hostile_games_can_be_drawn() {
     assert!(drawn > 40, "{drawn}");
 }
 
-/// Checks that any two visible types differ in form, in mark, clearly in colour, or in the number of dots.
+/// Checks that any two visible types differ in shape, in mark, clearly in colour, or in the number of
+/// dots.
 fn assert_distinct(name: &str, looks: &Looks) {
     let shown: Vec<_> = looks.shown().collect();
     for (at, &one) in shown.iter().enumerate() {

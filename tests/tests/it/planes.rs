@@ -1,4 +1,4 @@
-//! Planes that are updated from tick to tick show the same sprites as observations.
+//! Incrementally updated planes show the same sprites as observations.
 
 use base::Seed;
 use engine::{Action, Drawn, Game, Level, Planes, SpriteType, State};

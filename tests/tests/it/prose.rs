@@ -1,21 +1,21 @@
-//! The prose of the book and of the front pages. It must not contain long sentences, or phrases that a native editor
-//! replaces.
+//! The prose in the book and on the front pages. This prose must not contain long sentences, or phrases that a
+//! native editor would replace.
 
 use std::path::Path;
 
 use tests::{read, workspace_files};
 
-/// The pages at the root.
+/// The pages in the root folder.
 const FRONT_PAGES: [&str; 4] = ["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "README.md"];
 
-/// Pages whose words come from the code, because they are generated or show the output of programs.
+/// Pages whose text comes from the code, because they are generated or show program output.
 const GENERATED: [&str; 4] =
     ["docs/SUMMARY.md", "docs/lab/gallery.md", "docs/reference/commands.md", "docs/reference/recipe-keys.md"];
 
 /// The maximum length of a sentence, in words.
 const WORDS: usize = 35;
 
-/// Phrases in lower case, each with the words to write instead.
+/// Phrases in lower case, each with its replacement.
 const PHRASES: &[(&str, &str)] = &[
     ("is of no", "a plain adjective, or: belongs to none of the"),
     ("are of no", "a plain adjective, or: belong to none of the"),
@@ -95,8 +95,8 @@ fn for_each_page(look: &mut dyn FnMut(&str, &str)) {
     assert!(count > 200, "{count} pages");
 }
 
-/// Returns the paragraphs, items and headings of a page as plain words, each with the number of its first line. Cells
-/// of tables are included if wanted. Code is never included.
+/// Returns a page's paragraphs, items and headings as plain text, each with its first line number. Table cells are
+/// included on request. Code is never included.
 fn blocks(page: &str, with_tables: bool) -> Vec<(usize, String)> {
     let mut blocks: Vec<(usize, String)> = Vec::new();
     let mut is_open = false;
@@ -131,14 +131,14 @@ fn blocks(page: &str, with_tables: bool) -> Vec<(usize, String)> {
     blocks.iter().map(|(number, text)| (*number, plain(text))).collect()
 }
 
-/// Returns the text of a list item without its mark.
+/// Returns a list item's text without its marker.
 fn item(text: &str) -> Option<&str> {
     let digits = text.trim_start_matches(|c: char| c.is_ascii_digit());
     let numbered = digits.strip_prefix(". ").filter(|_| digits.len() < text.len());
     numbered.or_else(|| ["- ", "* ", "+ "].iter().find_map(|mark| text.strip_prefix(mark)))
 }
 
-/// Returns a text without marks. Code becomes one word, and a link becomes its text.
+/// Returns a text without markup. Code becomes one word, and links become their text.
 fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut rest = text;
@@ -162,7 +162,7 @@ fn plain(text: &str) -> String {
     text.replace(['*', '['], "")
 }
 
-/// Returns the sentences of a text. Items between `·` count as separate sentences.
+/// Returns a text's sentences. Items between `·` count as separate sentences.
 fn sentences(text: &str) -> impl Iterator<Item = &str> {
     text.split(" · ").flat_map(|part| {
         let mut starts = vec![0];
@@ -184,7 +184,7 @@ fn count(sentence: &str) -> usize {
     sentence.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
 }
 
-/// Returns the phrases of a text that an editor replaces, with what to write instead.
+/// Returns the phrases in a text that an editor would replace, with their replacements.
 fn found(text: &str) -> Vec<(String, &'static str)> {
     let lower = text.to_lowercase();
     let words: Vec<&str> = lower

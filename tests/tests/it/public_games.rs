@@ -1,8 +1,9 @@
-//! Diagnostics from strictly loading the reference's public games, recorded in `tests/ref/strict-diagnostics.txt`.
+//! The diagnostics from strictly loading the reference's public games, as recorded in
+//! `tests/ref/strict-diagnostics.txt`.
 //!
-//! The games are test data that is not part of the repository. Without the games, the test prints a note and passes.
-//! `BLESS=1 cargo test -p infinite-arcade-tests --test it public_games` rewrites the file. Review the file's diff
-//! like code.
+//! The games are test data outside the repository. Without the games, the test prints a note and passes.
+//! `BLESS=1 cargo test -p infinite-arcade-tests --test it public_games` rewrites the file. Review the file's diff as
+//! you would review code.
 
 use engine::{Diagnostic, Game, Severity, line_and_column};
 use std::fmt::Write;

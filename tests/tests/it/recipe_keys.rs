@@ -1,4 +1,4 @@
-//! The page of the book with every key of a recipe, generated from the structs that recipes are parsed into.
+//! The book's page with every recipe key, generated from the structs into which recipes are parsed.
 
 use std::fmt::Write;
 use std::fs;
@@ -16,7 +16,7 @@ This page lists every key of a [recipe](recipes.md) with its default, as the cod
 const PARTS: &str = "crates/snapshots/src/recipe/parts.rs";
 const PUZZLES: &str = "crates/snapshots/src/sections/puzzles/mod.rs";
 
-/// The sections of a recipe, each with its heading, and the file and the name of the struct that it is parsed into.
+/// The recipe sections, each with its heading, and the file and name of the struct into which the section is parsed.
 const SECTIONS: [(&str, &str, &str); 12] = [
     ("The recipe as a whole", "crates/snapshots/src/recipe/mod.rs", "Recipe"),
     ("`[invented]`", PARTS, "InventedPart"),
@@ -32,16 +32,16 @@ const SECTIONS: [(&str, &str, &str); 12] = [
     ("`[criteria.gates]`", "validators/src/gates/thresholds.rs", "Gates"),
 ];
 
-/// A key of a section.
+/// A key in a section.
 #[derive(Debug, PartialEq)]
 struct Key {
     name: String,
-    /// The default as in the code; empty if there is no default.
+    /// The default, as written in the code; empty if there is no default.
     default: String,
     doc: String,
 }
 
-/// Returns the public fields of a struct in a formatted source text, under their names in files.
+/// Returns a struct's public fields from formatted source code, under their names in files.
 fn keys(source: &str, name: &str) -> Vec<Key> {
     let start = format!("pub struct {name} {{");
     let body = source.lines().skip_while(|line| line.trim() != start).skip(1);
@@ -65,7 +65,7 @@ fn keys(source: &str, name: &str) -> Vec<Key> {
     keys
 }
 
-/// Returns a default in the notation of recipes; empty if the default's expression is not a plain value.
+/// Returns a default in recipe notation; empty if the default's expression is not a plain value.
 fn in_toml(value: &str) -> String {
     let list = value.strip_prefix("names(&").and_then(|list| list.strip_suffix(')'));
     let list = list.or_else(|| value.strip_prefix("vec!")).unwrap_or(value);

@@ -1,5 +1,5 @@
-//! Short runs of the checks that `tools/fuzz/` runs for a long time, on any text, any level and any actions. Every run
-//! uses the same inputs.
+//! Short runs of the checks that `tools/fuzz/` runs for longer, on any text, any level and any actions. Every run uses
+//! the same inputs.
 
 use base::Sampler;
 use engine::syntax::Section;
@@ -15,13 +15,13 @@ fn sampler(purpose: &str) -> Sampler {
     sweep::seed("robustness").child(purpose, 0).sampler()
 }
 
-/// Returns the files below a folder of the repository, in order.
+/// Returns the files below a repository folder, in order.
 fn files_below(folder: &str) -> Vec<Vec<u8>> {
     let files = workspace_files().into_iter().filter(|file| file.starts_with(folder));
     files.map(|file| std::fs::read(workspace_root().join(file)).expect("a file of the repository")).collect()
 }
 
-/// Tests every game in the repository, whole and damaged, and generated games.
+/// Tests every game in the repository, intact and damaged, and generated games.
 #[test]
 fn any_text_parses_compiles_and_prints() {
     let mut sampler = sampler("text");
@@ -40,7 +40,7 @@ fn any_text_parses_compiles_and_prints() {
     }
 }
 
-/// Tests levels of the corpus, whole and damaged, in their own and in different games.
+/// Tests corpus levels, intact and damaged, in their own and in different games.
 #[test]
 fn any_bytes_are_a_level_or_are_refused() {
     let mut sampler = sampler("level");
@@ -84,7 +84,7 @@ fn any_actions_leave_a_sound_state() {
     assert!(seen.merged > 1000, "{seen:?}");
 }
 
-/// Checks the words that the fuzzer puts into texts. `BLESS=1` rewrites the file.
+/// Checks the words that the fuzzer inserts into texts. `BLESS=1` rewrites the file.
 #[test]
 fn the_dictionary_has_every_word() {
     let words = SpriteClass::ALL.iter().map(|class| class.name());
@@ -129,7 +129,7 @@ fn the_dictionary_has_every_word() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Tests structurally valid games, and shrinks a failing game to the simplest one.
+    /// Tests structurally valid games, and shrinks a failing game to the simplest failing game.
     #[test]
     fn any_game_plays(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
         robustness::play(&bytes);

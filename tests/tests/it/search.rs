@@ -1,8 +1,8 @@
-//! Systematic search: tests that its proofs hold.
+//! Tests that the proofs of systematic search hold.
 //!
 //! Small levels are searched exhaustively in three ways. The three searches distinguish states by
-//! [`State::search_key`], by the key of the search, and by the full data that this key hashes. All three must find the
-//! same states, except for data that the key leaves out, and the same wins.
+//! [`State::search_key`], by the search's own key, and by the full data hashed into this key. All three must find the
+//! same states, except for data omitted from the key, and the same wins.
 
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use base::Seed;
@@ -10,7 +10,7 @@ use engine::analysis::StateAbstraction;
 use engine::{Action, Analysis, Game, Level, Outcome, State};
 use std::collections::BTreeMap;
 
-/// Returns a game with these sprites, mapping, interactions and terminations, in addition to walls and the player.
+/// Returns a game with the given sprites, mapping, interactions and terminations, plus walls and the player.
 fn game(sprites: &str, mapping: &str, rules: &str, ends: &str) -> Game {
     let lines = |text: &str| text.lines().map(|line| format!("    {line}\n")).collect::<String>();
     let source = format!(
@@ -33,7 +33,7 @@ fn drains() -> Game {
     )
 }
 
-/// Returns a game in which crates stay on plates and turn into a different type there.
+/// Returns a game in which crates stay on plates and turn into a different type.
 fn plates() -> Game {
     game(
         "tile > Immovable hidden=True\nplate > Immovable\nblock > Passive\n  crate >\n  stowed >\nhero > MovingAvatar",
@@ -43,7 +43,7 @@ fn plates() -> Game {
     )
 }
 
-/// Returns a game with a door that takes a key, and with pits.
+/// Returns a game with pits and with a door that uses up a key.
 fn keys() -> Game {
     game(
         "key > Resource limit=2\ndoor > Immovable\ngem > Immovable\npit > Immovable\nhero > MovingAvatar",
@@ -75,10 +75,10 @@ fn hunters() -> Game {
     Game::from_source(&source).unwrap()
 }
 
-/// Levels, each with `true` if it can be won.
+/// Levels, each with `true` if the level can be won.
 type Levels = Vec<(&'static str, bool)>;
 
-/// Returns every game with its levels.
+/// Returns all games with their levels.
 fn cases() -> Vec<(&'static str, Game, Levels)> {
     vec![
         (
@@ -144,8 +144,8 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Returns all reachable states of the ongoing game, distinguished by `tell`, and the minimum number of actions
-    /// that win. The search is breadth first.
+    /// Returns all reachable states of the ongoing game, distinguished by `tell`, and the minimum number of actions to
+    /// win. Searches breadth-first.
     fn reached<T: Ord>(&self, tell: impl Fn(&State) -> T) -> (BTreeMap<T, Vec<u64>>, Option<usize>) {
         let words = |state: &State| self.abstraction.words(self.analysis, state);
         let mut met = BTreeMap::from([(tell(&self.start), words(&self.start))]);
@@ -234,8 +234,8 @@ fn wins_are_the_shortest_and_proofs_are_right() {
     }
 }
 
-/// Pruned states are lost. No win can be reached from any state that [`Pushes`] prunes, and no state needs fewer ticks
-/// than its bound.
+/// Pruned states are lost: no win is reachable from a state pruned by [`Pushes`]. No state needs fewer ticks than its
+/// bound.
 #[test]
 fn push_distances_are_lower_bounds() {
     for (name, game, levels) in cases().into_iter().take(2) {
@@ -318,7 +318,7 @@ fn default_characters_are_searched_like_written_ones() {
     }
 }
 
-/// Crates are also pushed by an avatar that the game does not use itself.
+/// Crates are also pushed by an avatar type that the game itself does not use.
 #[test]
 fn crates_are_pushed_by_any_avatar() {
     let game = game(

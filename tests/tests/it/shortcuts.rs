@@ -1,5 +1,5 @@
-//! Shortcuts of a step. Sprites that a step skips because their movement is predicted are at the same positions as
-//! without the shortcut.
+//! Shortcuts within a step. Sprites skipped in a step because their movement is predictable end up at the same
+//! positions as without the shortcut.
 
 use base::{Sampler, Seed};
 use engine::{Action, Game, Level, Limit, Outcome, State};
@@ -39,7 +39,7 @@ fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<I
     state
 }
 
-/// Returns the first sprites that differ.
+/// Returns the first differing sprites.
 fn difference(game: &Game, one: &State, two: &State) -> String {
     let (ones, twos) = (game.records(one), game.records(two));
     let pairs = ones.iter().zip(&twos).find(|(one, two)| format!("{one:?}") != format!("{two:?}"));
@@ -79,7 +79,7 @@ proptest! {
     }
 }
 
-/// Creates a game of sprites that walk into obstacles which put them back, with many possible interruptions.
+/// Creates a game in which sprites walk into obstacles that put them back, with many possible interruptions.
 fn crowded_house(sampler: &mut Sampler) -> (String, String) {
     let mut source = "BasicGame square_size=10\n  SpriteSet\n    wall > Immovable\n    fence > Immovable\n    rock > Passive\n"
         .to_owned();
@@ -171,7 +171,8 @@ fn shortcuts_change_nothing_for_walks_into_walls() {
     assert!(played * 100 > cases * 97, "{played} of {cases}");
 }
 
-/// An effect moves the avatar against a wall after the rule that puts the avatar back has run. No rule runs again.
+/// An effect moves the avatar against a wall after the rule that puts the avatar back has run. That rule does not run
+/// again.
 #[test]
 fn a_move_against_a_wall_is_not_put_back_later() {
     let source = "\
@@ -200,7 +201,7 @@ BasicGame square_size=10
     assert_eq!(state.score(), 4.0);
 }
 
-/// The avatar and a cat walk into the same wall, and meet there before they are put back.
+/// The avatar and a cat walk into the same wall, and meet inside the wall before they are put back.
 #[test]
 fn two_sprites_can_meet_in_a_wall() {
     let source = "\
@@ -226,8 +227,8 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Lost);
 }
 
-/// The rule that puts the dart back changes no score, but the rule before it, in which the dart is the second sprite, is worth a
-/// point.
+/// The rule that puts the dart back does not change the score, but the preceding rule, in which the dart is the second
+/// sprite, is worth a point.
 #[test]
 fn steps_that_score_are_not_skipped() {
     let source = "\
@@ -252,8 +253,8 @@ BasicGame square_size=10
     assert_eq!(state.score(), 4.0);
 }
 
-/// A kite off the board moves onto the board, where a rule puts it back. The kite is on the board when the rules of the
-/// edge run.
+/// A kite off the board moves onto the board, where a rule puts it back. The kite is on the board when the edge rules
+/// run.
 #[test]
 fn sprites_off_the_board_do_not_sleep() {
     let source = "\
@@ -305,8 +306,8 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Ongoing);
 }
 
-/// A type that spreads into its own kind stops the tick in the middle of the updates. Flying sprites that have not been updated
-/// stay in place.
+/// A type that spreads into its own kind stops the tick during the updates. Flying sprites not yet updated stay in
+/// place.
 #[test]
 fn a_stop_amid_the_updates_finds_all_sprites_in_place() {
     let source = "\

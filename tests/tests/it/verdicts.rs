@@ -1,7 +1,8 @@
-//! `tests/suite/levels/`: games with a level, bad and good, and the expected verdicts on each.
+//! `tests/suite/levels/`: bad and good games with one level each, and their expected verdicts.
 //!
-//! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad case specifies the criterion that it does not pass,
-//! the expected verdict, and words that the reason and the evidence must contain. A good case meets every criterion.
+//! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad case specifies the criterion that it fails
+//! to pass, the expected verdict, and words that the reason and the evidence must contain. A good case meets every
+//! criterion.
 
 use base::Seed;
 use engine::{Game, Level};
@@ -25,13 +26,13 @@ struct Expect {
     criterion: Option<Criterion>,
     /// The expected verdict: `pass`, `fail` or `unknown`.
     verdict: String,
-    /// The words that the reason and the evidence must contain.
+    /// The words required in the reason and the evidence.
     #[serde(default)]
     words: Vec<String>,
-    /// The criteria to check. If empty, all criteria are checked.
+    /// The criteria to check. If empty, all are checked.
     #[serde(default)]
     ask: CriterionSet,
-    /// The settings of the criteria that differ from the defaults of these tests.
+    /// The criteria settings that differ from the defaults of these tests.
     #[serde(default)]
     criteria: toml::Table,
 }
@@ -60,7 +61,7 @@ fn cases(kind: &str) -> Vec<Case> {
     folders.iter().map(case).collect()
 }
 
-/// Returns all criteria, with budgets that suffice for small levels.
+/// Returns all criteria, with budgets sufficient for small levels.
 fn criteria(expect: &Expect) -> CheckedCriteria {
     let base = Criteria { budget: 600_000, ..Criteria::full() };
     let mut table = toml::Table::try_from(&base).unwrap();
@@ -80,7 +81,7 @@ fn word(finding: &Finding) -> &'static str {
     }
 }
 
-/// Returns the whole text of a finding.
+/// Returns a finding's complete text.
 fn told(finding: &Finding) -> String {
     let mut text = match &finding.verdict {
         Verdict::Fail { reason, .. } => reason.0.clone(),
@@ -144,7 +145,7 @@ fn good_levels_meet_every_criterion() {
     }
 }
 
-/// The levels of the corpus that meet every criterion for levels.
+/// The corpus levels that meet every level criterion.
 const CORPUS: &[(&str, usize)] = &[
     ("bog-lantern", 0),
     ("bog-lantern", 2),

@@ -1,15 +1,15 @@
-//! The language of the repository: doc comments open with a noun phrase or a verb, and standard terms are used instead of earlier
-//! coinages.
+//! The language of the repository: doc comments open with a noun phrase or a verb, and use standard terms instead of
+//! earlier coinages.
 
 use tests::{read, rust_files, workspace_files};
 
-/// Words with which a doc comment must not open, because they begin a subordinate clause.
+/// Words that must not open a doc comment, because they begin a subordinate clause.
 const OPENERS: &[&str] = &[
     "What", "Whatever", "Whether", "Who", "Whoever", "Whose", "Whom", "How", "Where", "Wherever", "Which",
     "Why", "So",
 ];
 
-/// Earlier coinages in lower case, each with its replacement. They are searched for in comments, texts and pages.
+/// Earlier coinages in lower case, each with its replacement. Comments, texts and pages are searched for them.
 const COINAGES: &[(&str, &str)] = &[
     ("what processors fetch at once", "a cache line"),
     ("hangs on", "depends on"),
@@ -97,12 +97,12 @@ fn no_coinage_is_left() {
     assert!(problems.is_empty(), "\n{}", problems.join("\n"));
 }
 
-/// Returns `true` if a file contains minted or recorded bytes, whose words must not change.
+/// Returns `true` if a file contains minted or recorded bytes, whose text must not change.
 fn is_data(name: &str) -> bool {
     name.starts_with("tests/suite/snapshots") || name.starts_with("crates/evaluation/tests/golden")
 }
 
-/// Returns the text of a line in a doc comment.
+/// Returns a line's text in a doc comment.
 fn doc_comment(line: &str) -> Option<&str> {
     let line = line.trim_start();
     line.strip_prefix("/// ").or_else(|| line.strip_prefix("//! "))

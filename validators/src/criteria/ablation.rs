@@ -1,4 +1,4 @@
-//! The `ablation` criterion, which disables one rule at a time and checks whether play changes.
+//! The `ablation` criterion: disables one rule at a time and checks whether play changes.
 
 use crate::allowance::Setting;
 use crate::criteria::with_count;
@@ -14,46 +14,46 @@ use engine::{Action, Analysis, Chance, Episode, Game, Outcome, SpriteRecord, Spr
 use itertools::Itertools;
 use rayon::prelude::*;
 
-/// Passes if every executed interaction matters: with its consequences disabled but its random draws kept ([`Game::without`]),
-/// some outcome or score changes.
+/// Passes if every executed interaction matters: with its consequences disabled but its random draws preserved
+/// ([`Game::without`]), an outcome or score changes.
 ///
 /// There are three tests, from cheapest to most expensive. First, recorded episodes that execute the rule are replayed
 /// without it. Second, futures from just before the rule's execution are played with and without the rule, with the
 /// same seeds. Third, a searching player plays an episode without the rule, and the episode is replayed with the rule.
-/// One change is enough for a pass. If no test shows a change, the answer is unknown. The criterion fails only if a
-/// rule is proved idle, which means that on every level, all sequences of actions end and score alike without the rule.
-/// Rules on walls and the edge of the screen are guards. Guards are reported but never fail, because sprites that they
+/// One change suffices for a pass. If no test shows a change, the verdict is unknown. The criterion fails only if a
+/// rule is proved idle: on every level, all sequences of actions have the same outcome and score without the rule.
+/// Rules on walls and the screen edge are guards. Guards are reported but never fail, because the sprites that they
 /// remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RulesMatter {
     /// The number of forward-model calls per interaction. A proof that an interaction is idle may take up to a quarter
     /// more.
     calls: u64,
-    /// The maximum total number of forward-model calls of all interactions; `None` for no limit. Tests that do not fit
-    /// are skipped.
+    /// The maximum total number of forward-model calls for all interactions; `None` for no limit. Tests beyond the
+    /// limit are skipped.
     total: Option<u64>,
 }
 
-/// The number of random futures from each execution.
+/// The number of random futures after each execution.
 const FUTURES: u64 = 8;
-/// The number of ticks of a future.
+/// The number of ticks per future.
 const DEPTH: usize = 60;
-/// The number of calls per decision of the searching player.
+/// The searching player's number of calls per decision.
 const DECISION: Budget = Budget(300);
-/// The look-ahead of the searching player, in ticks.
+/// The searching player's look-ahead, in ticks.
 const LOOK_AHEAD: u32 = 20;
-/// The maximum number of ticks of an episode of the searching player.
+/// The maximum number of ticks per episode of the searching player.
 const PLAY: usize = 400;
-/// The divisor of a rule's calls that gives the budget of the proof that the rule is idle.
+/// The divisor that derives the budget for proving a rule idle from the rule's calls.
 const PROOF: u64 = 4;
 
 /// The result of disabling one interaction.
 enum Effect {
     /// An outcome or a score changes without the interaction.
     Matters,
-    /// No test shows a change in outcome or score. `differs` is `true` if the sprites differ in some test.
+    /// No test shows a change in outcome or score. `differs` is `true` if a test shows different sprites.
     Unshown { differs: bool },
-    /// It is proved that all episodes end and score the same. The value is the number of states in the proof.
+    /// All episodes are proved to have the same outcome and score. Contains the number of states in the proof.
     Idle(usize),
 }
 
@@ -121,7 +121,7 @@ impl GameValidator for RulesMatter {
 }
 
 impl RulesMatter {
-    /// Tests one rule. The number of tested rules is `lines`.
+    /// Tests one rule. `lines` is the number of rules to test.
     fn try_without(&self, case: GameCase<'_>, line: usize, uses: &[Use], lines: usize) -> (Effect, u64) {
         let without = case.game.without(line);
         let share = self.total.map(|total| total / lines.max(1) as u64);
@@ -206,8 +206,7 @@ impl RulesMatter {
     }
 }
 
-/// Returns advice for a rule that should move back sprites, if these sprites never move and the rule's partner is the
-/// avatar.
+/// Returns advice for a rule that moves sprites back, if these sprites never move and the rule's partner is the avatar.
 fn swapped(case: GameCase<'_>, line: usize) -> Option<String> {
     let GameCase { game, analysis, .. } = case;
     let written = &game.description().interactions[line];
@@ -226,8 +225,7 @@ fn swapped(case: GameCase<'_>, line: usize) -> Option<String> {
     })
 }
 
-/// Returns `true` if a rule only keeps sprites on the board, because all of its partners are walls or the edge of the
-/// screen.
+/// Returns `true` if a rule only keeps sprites on the board, because all of its partners are walls or the screen edge.
 pub(crate) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     let game = analysis.game();
     let is_wall = |written: SpriteType| {
@@ -238,7 +236,7 @@ pub(crate) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     of_line.peek().is_some() && of_line.all(|encounter| encounter.second.is_none_or(is_wall))
 }
 
-/// Returns the outcome and score of an episode with these actions.
+/// Returns the outcome and score of an episode with the given actions.
 fn result_of(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]) -> (Outcome, f64) {
     let mut state = game.start(recorded.level, seed);
     for &action in actions {
@@ -247,8 +245,8 @@ fn result_of(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]
     (state.outcome(), state.score())
 }
 
-/// Futures of an episode from just before the first execution of a rule. They are played with and without the rule,
-/// with keys held and with random keys.
+/// An episode's futures from just before a rule's first execution, played with and without the rule, with held keys and
+/// with random keys.
 struct Futures<'a> {
     with: &'a Game,
     without: &'a Game,
@@ -258,8 +256,8 @@ struct Futures<'a> {
 }
 
 impl Futures<'_> {
-    /// Returns `true` first if some future ends differently without the rule, and second if the board ever looks
-    /// different. Also returns the number of calls.
+    /// Returns whether a future ends differently without the rule, whether the board ever looks different, and the
+    /// number of calls.
     fn compare(&self, seed: Seed) -> (bool, bool, u64) {
         // A state carries predictions of its own game, so each game replays the prefix to get its own state.
         let before = [self.with, self.without].map(|game| {
@@ -319,7 +317,7 @@ impl Futures<'_> {
         [Action::Nil].into_iter().chain(keys).collect()
     }
 
-    /// Returns the observable state, without the internal memory of the rules.
+    /// Returns the observable state, without the rules' internal memory.
     fn observable(&self, state: &State) -> (Vec<SpriteRecord>, Vec<i32>, (Outcome, f64)) {
         (self.with.records(state), state.counters().to_vec(), result(state))
     }

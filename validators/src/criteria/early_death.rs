@@ -1,4 +1,4 @@
-//! The `early-death` criterion, which checks that the player can survive the first ticks.
+//! The `early-death` criterion: checks that the player can survive the first ticks.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -11,12 +11,12 @@ use engine::{Action, Episode, Outcome, State};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Passes if some way of playing survives the first ticks.
+/// Passes if the player can survive the first ticks.
 ///
 /// On a deterministic level, all action sequences are searched tick by tick, and equivalent states are counted once.
-/// If no state is left, death is proved to be unavoidable. In a stochastic game, the search is repeated for several
+/// If no state remains, death is proved to be unavoidable. In a stochastic game, the search is repeated for several
 /// known seeds. If even a player who knows the random draws dies, death is unavoidable. If doing nothing is deadly,
-/// that is reported, but is not a failure.
+/// this is reported, but is not a failure.
 #[derive(Clone, Copy, Debug)]
 pub struct NoEarlyDeath {
     /// The number of ticks to survive.
@@ -25,22 +25,23 @@ pub struct NoEarlyDeath {
     pub calls: u64,
     /// The number of random seeds in a stochastic game.
     pub seeds: u32,
-    /// The maximum fraction of seeds with which death may be unavoidable.
+    /// The maximum fraction of seeds for which death may be unavoidable.
     pub share: f64,
 }
 
-/// The maximum number of states to expand in one tick. If there are more states, the answer is unknown instead of no.
+/// The maximum number of states to expand per tick. If there are more states, the verdict is unknown rather than a
+/// failure.
 const MAX_STATES: usize = 2000;
 /// The number of random episodes to try before a search.
 const RANDOM_PLAYS: u64 = 24;
 
 /// The result for one seed.
 struct Survival {
-    /// `true` if some way of playing survived.
+    /// `true` if a sequence of actions survived.
     survived: bool,
-    /// `true` if all ways of playing were searched.
+    /// `true` if all sequences of actions were searched.
     complete: bool,
-    /// The longest episode found. `idle` is the episode in which the player does nothing.
+    /// The longest episode found. `idle` is the idle episode.
     longest: Episode,
     idle: Episode,
     calls: u64,
@@ -119,7 +120,7 @@ impl NoEarlyDeath {
         )
     }
 
-    /// Returns a note if doing nothing is deadly although there are ways to survive.
+    /// Returns a note if doing nothing is deadly although survival is possible.
     fn idle_note(&self, case: Case<'_>, results: &[Survival]) -> Option<Evidence> {
         let dead: Vec<&Episode> =
             results.iter().map(|result| &result.idle).filter(|idle| idle.outcome == Outcome::Lost).collect();
@@ -136,7 +137,7 @@ impl NoEarlyDeath {
         Some(Evidence { text, board: None, ..cause })
     }
 
-    /// Looks for a way to survive with one seed. It tries doing nothing, then random actions, then an exhaustive
+    /// Searches for a way to survive with one seed: by doing nothing, by random actions, and finally by an exhaustive
     /// search.
     fn survival(&self, case: Case<'_>, seed: &SeedPath) -> Survival {
         let idle = self.play_start(case, seed, |_| Action::Nil);
@@ -182,7 +183,7 @@ impl NoEarlyDeath {
         episode
     }
 
-    /// Searches all action sequences, tick by tick, until one survives. Returns the longest sequence, `true` if all
+    /// Searches all action sequences, tick by tick, until one survives. Returns the longest sequence, whether all
     /// sequences were tried, and the number of calls.
     fn search(&self, case: Case<'_>, seed: Seed) -> (Vec<Action>, bool, u64) {
         let game = case.game;
@@ -245,7 +246,7 @@ mod tests {
         finding
     }
 
-    /// Returns the game without wolves, which is deterministic.
+    /// Returns the deterministic game without wolves.
     fn calm() -> String {
         GAME.replace("    wolf > RandomNPC speed=1\n", "")
             .replace("    o > wolf\n", "")

@@ -1,4 +1,4 @@
-//! The `length` criterion, which checks that a level neither ends at once nor takes too long.
+//! The `length` criterion: checks that a level neither ends immediately nor takes too long.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -9,7 +9,7 @@ use crate::report::Report;
 use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 
-/// Passes if the number of ticks of the witness is within bounds.
+/// Passes if the witness's number of ticks is within bounds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LengthWithin {
     /// The minimum number of ticks.
@@ -18,11 +18,11 @@ pub(crate) struct LengthWithin {
     most: usize,
 }
 
-/// The beginning of the reason for a win that takes too long. A shorter win may exist.
+/// The start of the reason for a win that takes too long. A shorter win may exist.
 const TOO_LONG: &str = "the shortest win found takes";
 
-/// Turns a failure into an unknown answer if a shorter win may exist, because the search did not prove the shortest
-/// win.
+/// Turns a failure into an unknown verdict if a shorter win might exist, because the search did not prove the win
+/// to be the shortest.
 pub(crate) fn without_proof(finding: &mut Finding, report: &Report) {
     let Verdict::Fail { reason, .. } = &finding.verdict else { return };
     let searched = report.finding(Criterion::Winnable);

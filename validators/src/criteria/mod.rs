@@ -1,7 +1,7 @@
-//! The judges of the criteria, except for gates.
+//! The judges for all criteria except gates.
 //!
-//! The module of a criterion has the criterion's judge, the constant `QUESTION`, and a function `judge` that creates
-//! the judge for a [`Setting`].
+//! A criterion's module contains its judge, the constant `QUESTION`, and a function `judge` that creates the judge
+//! for a [`Setting`].
 
 mod ablation;
 mod early_death;
@@ -33,7 +33,7 @@ use crate::gates::{
 };
 use crate::validator::{GameJudge, LevelJudge};
 
-/// Defines the questions and the judges of [`Criterion`] from the table.
+/// Defines the questions and judges of [`Criterion`] from the table.
 macro_rules! define {
     (
         levels { $($level:ident = $level_name:literal, $stage:ident, $level_cost:ident, $level_module:ident;)* }
@@ -41,7 +41,7 @@ macro_rules! define {
         gates { $($gate:ident = $gate_name:literal, $gate_cost:ident, $gate_module:ident;)* }
     ) => {
         impl Criterion {
-            /// Returns the question that the criterion asks, in one sentence.
+            /// Returns the criterion's question, as one sentence.
             pub fn question(self) -> &'static str {
                 match self {
                     $(Criterion::$level => $level_module::QUESTION,)*
@@ -50,7 +50,7 @@ macro_rules! define {
                 }
             }
 
-            /// Returns the judge of a criterion of levels.
+            /// Returns the judge for a level criterion.
             pub(crate) fn level_judge(self, setting: &Setting<'_>) -> Option<LevelJudge> {
                 let judge = |stage, validator| LevelJudge { criterion: self, stage, validator };
                 match self {
@@ -59,7 +59,7 @@ macro_rules! define {
                 }
             }
 
-            /// Returns the judge of a criterion of games.
+            /// Returns the judge for a game criterion.
             pub(crate) fn game_judge(self, setting: &Setting<'_>) -> Option<GameJudge> {
                 let judge = |about, validator| GameJudge { criterion: self, about, validator };
                 match self {

@@ -1,4 +1,4 @@
-//! The `not-idle` criterion, which checks that doing nothing does not win.
+//! The `not-idle` criterion: checks that doing nothing does not win.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -10,13 +10,12 @@ use crate::verdict::{Finding, Verdict};
 use agents::{Budget, DoNothing, Limits, Play, play};
 use engine::{Episode, Outcome};
 
-/// Passes if a player who does nothing never wins, with several random seeds (or one seed if the level is
-/// deterministic).
+/// Passes if an idle player never wins, with several random seeds (or one seed on a deterministic level).
 #[derive(Clone, Copy, Debug)]
 pub struct NotIdle {
     /// The number of episodes to play.
     pub plays: u32,
-    /// The maximum number of ticks of an episode. If the limit stops an episode, a pass becomes unknown.
+    /// The maximum number of ticks per episode. If the limit stops an episode, a pass becomes unknown.
     pub ticks: usize,
 }
 
@@ -45,15 +44,15 @@ impl Validator for NotIdle {
     }
 }
 
-/// A win by a player who should not have won.
+/// A win by a player that should not have won.
 pub(crate) struct Failure {
     pub(crate) reason: String,
     pub(crate) advice: &'static str,
     pub(crate) witness: Episode,
 }
 
-/// Returns the finding for episodes of at most `ticks` ticks. If there is no failure, episodes that were stopped early
-/// make the answer unknown.
+/// Returns the finding for episodes of at most `ticks` ticks. If there is no failure, episodes stopped early make the
+/// verdict unknown.
 pub(crate) fn finding(case: Case<'_>, played: Vec<Play>, ticks: usize, failure: Option<Failure>) -> Finding {
     let finding = match failure {
         None => broken_off(&played, ticks).unwrap_or_else(|| Finding::from(Verdict::pass())),
@@ -66,7 +65,7 @@ pub(crate) fn finding(case: Case<'_>, played: Vec<Play>, ticks: usize, failure: 
     finding.measured(Rate::of(&played)).played(played.into_iter().map(|play| play.episode))
 }
 
-/// Returns a finding if some episodes were stopped after `ticks` ticks.
+/// Returns a finding if any episodes were stopped after `ticks` ticks.
 fn broken_off(played: &[Play], ticks: usize) -> Option<Finding> {
     let is_cut =
         |play: &&Play| play.episode.outcome == Outcome::Ongoing && play.episode.actions.len() >= ticks;

@@ -1,4 +1,4 @@
-//! The `not-random` criterion, which checks that random play seldom wins.
+//! The `not-random` criterion: checks that random play rarely wins.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -17,7 +17,7 @@ pub struct NotRandom {
     pub plays: u32,
     /// The maximum fraction of episodes that may be won.
     pub most: f64,
-    /// The maximum number of ticks of an episode. If the limit stops an episode, a pass becomes unknown.
+    /// The maximum number of ticks per episode. If the limit stops an episode, a pass becomes unknown.
     pub ticks: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The `readable` criterion, which checks that a player can see everything that decides the game.
+//! The `readable` criterion: checks that a player can see everything that decides the game.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -12,13 +12,13 @@ use itertools::Itertools;
 
 /// Passes if every visible type has its own character, and nothing decisive is hidden.
 ///
-/// A type that counts towards a win or a loss, or that affects the avatar, fails if it is `hidden`. It also fails if
-/// the level places it only under sprites that cover it. A hidden type that only creates other sprites (a spawner) is
-/// reported, but is not a failure. Covered types that decide nothing are scenery.
+/// A type that counts towards a win or a loss, or that affects the avatar, fails if it is `hidden`. Such a type also
+/// fails if the level places it only under sprites that cover it. A hidden type that only creates other sprites (a
+/// spawner) is reported, but is not a failure. Covered types that do not decide anything are scenery.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Readable;
 
-/// The number of printable characters, excluding the space. Each visible type needs one of them.
+/// The number of printable characters, excluding the space. Each visible type needs one character.
 const CHARACTERS: usize = 94;
 
 pub(crate) const QUESTION: &str = "can the player see everything that decides the game?";
@@ -65,7 +65,7 @@ fn is_present(reach: &Reach, stype: SpriteType) -> bool {
     reach.touched(stype).next().is_some()
 }
 
-/// Returns `true` if a type counts for a termination, or if some rule applies between it and an avatar.
+/// Returns `true` if a type counts towards a termination, or if a rule applies between the type and an avatar.
 fn decides(analysis: &Analysis, stype: SpriteType) -> bool {
     let counted = analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype));
     let meets = |avatar: SpriteType| {
@@ -74,7 +74,7 @@ fn decides(analysis: &Analysis, stype: SpriteType) -> bool {
     counted || analysis.avatars().iter().any(|avatar| meets(avatar.stype))
 }
 
-/// Returns the types that no character shows, because the level always covers them with a different type.
+/// Returns the types not shown by any character, because the level always covers them with a different type.
 fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     let game = analysis.game();
     let visible = |stype: &&SpriteType| !analysis.facts(**stype).hidden;
@@ -114,7 +114,7 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     faults
 }
 
-/// Returns `true` if some character shows the type, even if this level does not use the character. Players can then
+/// Returns `true` if a character shows the type, even if this level does not use the character. Players can then
 /// learn what the type looks like.
 fn shown_elsewhere(game: &Game, stype: SpriteType, over: impl Fn(u8) -> Option<SpriteType>) -> bool {
     (b'!'..=b'~').any(|symbol| game.places(symbol).contains(&stype) && over(symbol).is_none())

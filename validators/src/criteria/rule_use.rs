@@ -1,4 +1,4 @@
-//! The `rule-use` criterion, which checks that every rule and every sprite type is used.
+//! The `rule-use` criterion: checks that every rule and every sprite type is used.
 
 use crate::allowance::Setting;
 use crate::evidence::{Evidence, Line};
@@ -12,16 +12,15 @@ use base::Seed;
 use engine::analysis::{Analysis, Reach};
 use engine::{Game, Level, SpriteType};
 
-/// Passes if every interaction is executed, and a sprite of every type is present, in some recorded episode of the
-/// game.
+/// Passes if every interaction is executed, and a sprite of every type is present, in a recorded episode of the game.
 ///
 /// Rules and types that never occurred and provably cannot occur in any of the levels are a failure. If they might
-/// occur, the answer is unknown. Rules on the edge of the screen are reported but never fail, because walls can make
-/// these guards idle.
+/// occur, the verdict is unknown. Rules on the screen edge are reported but never fail, because walls can make these
+/// guards idle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RuleUse;
 
-/// The name of the edge of the screen in interactions.
+/// The name of the screen edge in interactions.
 const EDGE: &str = "EOS";
 
 pub(crate) const QUESTION: &str = "does every rule run, and every type appear, in some play?";
@@ -83,24 +82,24 @@ impl GameValidator for RuleUse {
     }
 }
 
-/// The rules and types that recorded episodes of a game show, as counted by [`RuleUse`].
+/// The rules and types that occur in a game's recorded episodes, as counted by [`RuleUse`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RulesShown {
-    /// The interactions that some episode executes, as indices into [`Description::interactions`](engine::Description),
-    /// without interactions with the edge of the screen.
+    /// The interactions executed in an episode, as indices into [`Description::interactions`](engine::Description),
+    /// without interactions with the screen edge.
     pub executed: Vec<usize>,
-    /// The interactions that no episode executes, without interactions with the edge of the screen.
+    /// The interactions not executed in any episode, without interactions with the screen edge.
     pub idle: Vec<usize>,
-    /// The types that are declared for their own sprites and had a sprite on the board or held as a resource.
+    /// The types that are declared with their own sprites and occurred on the board or as a resource.
     pub present: Vec<SpriteType>,
-    /// The types that never had a sprite.
+    /// The types that never occurred.
     pub absent: Vec<SpriteType>,
 }
 
 impl RulesShown {
-    /// Counts the rules and types in the episodes of the levels' validators, and in the panel's random walks for
-    /// missing rules. The same arguments give the same answer on any number of threads. Cost: twice that of the
-    /// episodes, with at most 100,000 ticks per level each, and up to 400 walks of 40 random actions on each level.
+    /// Counts the rules and types in the episodes recorded by the levels' validators, and in the panel's random walks
+    /// for missing rules. The same arguments give the same result on any number of threads. Costs two replays of the
+    /// episodes, with at most 100,000 ticks per level each, and up to 400 walks of 40 random actions per level.
     pub fn of(game: &Game, levels: &[Level], reports: &[Report], seed: Seed) -> RulesShown {
         let episodes = record(game, levels, reports, seed, u64::MAX);
         let usage = Usage::of(game, &recorded(levels, &episodes));
@@ -111,7 +110,7 @@ impl RulesShown {
     }
 }
 
-/// Returns a reason with the number of further reasons.
+/// Returns a reason that includes the number of further reasons.
 pub(crate) fn with_count(first: &str, others: usize) -> String {
     match others {
         0 => first.to_owned(),
@@ -119,12 +118,12 @@ pub(crate) fn with_count(first: &str, others: usize) -> String {
     }
 }
 
-/// Returns the types that the file declares, and that can have sprites but never had one.
+/// Returns the declared types that can have sprites but never had one.
 fn unused_types(game: &Game, usage: &Usage) -> Vec<SpriteType> {
     own_types(game).into_iter().filter(|stype| !usage.types[stype.index()]).collect()
 }
 
-/// Returns the types that the file declares and that can have sprites.
+/// Returns the declared types that can have sprites.
 fn own_types(game: &Game) -> Vec<SpriteType> {
     let lines = game.description().sprite_lines();
     let declared =
@@ -132,7 +131,7 @@ fn own_types(game: &Game) -> Vec<SpriteType> {
     game.sprite_types().filter(|&stype| game.class(stype).is_some() && declared(game.name(stype))).collect()
 }
 
-/// Returns `true` unless it is proved that the two sides of an interaction cannot meet in any level.
+/// Returns `true` unless the two sides of an interaction are proved never to meet in any level.
 fn meets(analysis: &Analysis, recording: &[Recorded<'_>], reaches: &[Reach], line: usize) -> bool {
     let game = analysis.game();
     let of_line: Vec<_> = analysis.encounters().iter().filter(|encounter| encounter.line == line).collect();

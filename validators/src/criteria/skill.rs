@@ -1,4 +1,4 @@
-//! The `skill` criterion, which checks that playing well pays on a level.
+//! The `skill` criterion: checks that skilled play pays off on a level.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -11,70 +11,71 @@ use engine::Outcome;
 use statistics::{Interval, Z95};
 
 /// Passes if stronger players win more, or score more, than players that do not look ahead. The difference must reach a
-/// margin and be significant, which means that its 95% interval is above 0. One player of the ladder and one held-out
-/// player must show this, so that a level is not fitted to the players that found it.
+/// margin and be significant: its 95% interval must be above 0. One ladder player and one held-out player must show
+/// this difference, so that a level is not fitted to the players that found it.
 ///
-/// On a deterministic level, a witness counts as a held-out player that always wins. A puzzle that is too deep for
-/// every player of the ladder therefore still shows skill, if players that do not look ahead lose it.
+/// On a deterministic level, a witness counts as a held-out player that always wins. A puzzle too deep for every ladder
+/// player therefore still shows skill, if players that do not look ahead lose it.
 #[derive(Clone, Debug)]
 pub(crate) struct SkillPays {
-    /// The players and the limits of their episodes.
+    /// The players, and the limits on their episodes.
     players: LadderConfig,
     /// The minimum difference in win rate.
     wins: f64,
-    /// The minimum difference in mean score, as a fraction of the range of all scores. Reaching this difference
-    /// suffices instead of `wins`.
+    /// The minimum difference in mean score, as a fraction of the range of all scores. Reaching this difference is
+    /// sufficient even if `wins` is not reached.
     scores: f64,
     /// The number of forward-model calls after which an episode is stopped. If an episode is stopped, a failure becomes
     /// unknown.
     play_calls: u64,
-    /// `true` to allow stopping after a round of episodes, from the third round on. The judge stops if skill pays by a
-    /// stricter boundary, or if no player is far ahead of the baseline, because more episodes would seldom change the
-    /// answer. `cargo xtask judging` counts how often they would.
+    /// `true` to allow stopping after each round of episodes, from the third round on. The judge stops if skill pays
+    /// off by a stricter boundary, or if no player is far ahead of the baseline. More episodes would then rarely change
+    /// the answer; `cargo xtask judging` counts how often they do.
     sequential: bool,
 }
 
-/// A boundary that an advantage must cross.
+/// A boundary that an advantage must exceed.
 #[derive(Clone, Copy)]
 struct Boundary {
     /// The normal quantile for win rates.
     z: f64,
-    /// The confidence of the interval of scores.
+    /// The confidence level of the score interval.
     confidence: f64,
-    /// The minimum number of episodes of each player before scores count.
+    /// The minimum number of episodes per player before scores count.
     scored_plays: usize,
 }
 
-/// The boundary for stopping early, which is stricter because of repeated looks at growing data (O'Brien and Fleming
+/// The boundary for stopping early, made stricter to correct for repeated tests on growing data (O'Brien and Fleming
 /// 1979).
 const EARLY: Boundary = Boundary { z: 2.8, confidence: 0.995, scored_plays: 8 };
 /// The boundary for the final answer.
 const FINAL: Boundary = Boundary { z: Z95, confidence: 0.95, scored_plays: 0 };
-/// The number of episodes of each player after which skill may count as shown or as missing.
+/// The number of episodes per player after which skill may be considered shown or missing.
 const EARLY_PLAYS: usize = 6;
 
-/// The number of resamples for an interval of scores.
+/// The number of resamples per score interval.
 const RESAMPLES: usize = 1000;
 
-/// The advantage of one player over another.
+/// One player's advantage over another.
 struct Advantage {
     text: String,
     /// `true` if the advantage is large enough and significant.
     pays: bool,
     /// `true` if the advantage is large enough, but not significant.
     unsure: bool,
-    /// `true` if the advantage is large enough, or half as large in scores, so that more episodes may show it.
+    /// `true` if the advantage is large enough, or at least half as large as required in scores, so that more episodes
+    /// might show it.
     leads: bool,
 }
 
-/// The answer from the episodes so far.
+/// The answer according to the episodes so far.
 struct Answer {
     ladder: Ladder,
-    /// The advantages of the ladder's players, then those of the held-out players.
+    /// The ladder players' advantages, followed by the held-out players' advantages.
     advantages: [Vec<Advantage>; 2],
     /// `true` if a win is known.
     won: bool,
-    /// `true` if a player of the ladder shows skill.
+    /// `true` if a ladder player shows skill.
     shown: bool,
     /// `true` if a held-out player shows skill.
     accepted: bool,
@@ -137,7 +138,7 @@ impl Validator for SkillPays {
 }
 
 impl SkillPays {
-    /// Returns the answer from the episodes so far; `None` without a baseline.
+    /// Returns the answer according to the episodes so far; `None` without a baseline.
     fn answer(&self, case: Case<'_>, played: &LadderPlays, boundary: Boundary) -> Option<Answer> {
         let ladder = self.players.measure(played);
         let range = range(played);
@@ -229,7 +230,7 @@ impl SkillPays {
     }
 }
 
-/// Compares two rungs by wins, then by mean score.
+/// Compares two rungs by wins, and then by mean score.
 fn better(ladder: &Ladder, a: usize, b: usize) -> std::cmp::Ordering {
     let (a, b) = (&ladder.rungs[a].rate, &ladder.rungs[b].rate);
     a.wins.cmp(&b.wins).then(a.mean_score.total_cmp(&b.mean_score))
@@ -251,7 +252,7 @@ mod tests {
     use base::Seed;
     use engine::Game;
 
-    /// A game with a path past something that wanders and kills. A player that stands still is safe, but never wins.
+    /// A game with a path past a sprite that wanders and kills. A player that stands still is safe, but never wins.
     const GAME: &str = "\
 BasicGame
     SpriteSet
@@ -275,8 +276,8 @@ BasicGame
         Timeout limit=40 win=False
 ";
 
-    /// Judges a level both in full and sequentially. The verdicts must be the same, and the sequential judgement must
-    /// take fewer episodes.
+    /// Judges a level both in full and sequentially. The verdicts must agree, and the sequential judgement must take
+    /// fewer episodes.
     #[track_caller]
     fn check(level: &str, strong: &str, passes: bool) {
         let game = Game::from_source(GAME).unwrap();

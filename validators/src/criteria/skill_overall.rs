@@ -1,4 +1,4 @@
-//! The `skill-overall` criterion, which checks that playing well pays over all levels together.
+//! The `skill-overall` criterion: checks that skilled play pays off over all levels together.
 
 use crate::allowance::Setting;
 use crate::evidence::Evidence;
@@ -8,20 +8,21 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
 
-/// Passes if, over all levels together, two players win more often than the best player that does not look ahead.
-/// These are the strongest player of the ladder and the strongest held-out player. Even the lower end of Newcombe's
-/// 95% interval of the difference must reach the margin. One level has too few episodes for such a test, but five
-/// levels have enough.
+/// Passes if, over all levels together, two players win more often than the best player that does not look ahead:
+/// the strongest ladder player and the strongest held-out player. Even the lower end of Newcombe's 95% interval of
+/// the difference must reach the margin. A single level has too few episodes for such a test, but five levels have
+/// enough.
 ///
-/// If all levels of a game have a win and are deterministic, a player that knows the solutions counts as a player of
-/// the ladder and as a held-out player. There is no cost, because the episodes are those of the criterion `skill`.
+/// If all of a game's levels are deterministic and have a known win, a player that knows the solutions counts as a
+/// ladder player and as a held-out player. There is no extra cost, because the episodes come from the criterion
+/// `skill`.
 #[derive(Clone, Copy, Debug)]
 pub struct SkillOverall {
     /// The margin, as a difference between win rates.
     pub wins: f64,
 }
 
-/// The wins and episodes of one player on all levels.
+/// One player's wins and episodes on all levels.
 #[derive(Clone)]
 struct Total {
     player: String,
@@ -31,19 +32,19 @@ struct Total {
 }
 
 impl Total {
-    /// Returns the fraction of episodes that the player wins.
+    /// Returns the fraction of episodes won by the player.
     fn share(&self) -> f64 {
         self.wins as f64 / self.plays.max(1) as f64
     }
 
-    /// Extrapolates the total by `times` times as many further episodes, won at the rate `share`.
+    /// Extrapolates the total with `times` times as many further episodes, won at the rate `share`.
     fn extrapolated(&self, times: f64, share: f64) -> Total {
         let plays = (self.plays as f64 * times).round();
         let wins = self.wins + (plays * share).round() as u64;
         Total { wins, plays: self.plays + plays as u64, ..self.clone() }
     }
 
-    /// Returns the interval of the difference from the win rate of `baseline`.
+    /// Returns the interval of the difference to the win rate of `baseline`.
     fn difference_to(&self, baseline: &Total) -> Interval {
         statistics::difference([self.wins, baseline.wins], [self.plays, baseline.plays], Z95)
     }
@@ -101,10 +102,10 @@ impl GameValidator for SkillOverall {
 }
 
 impl SkillOverall {
-    /// Returns `true` if the game cannot be expected to meet the margin, judged by the first of its `levels` levels.
-    /// Such a game would miss the margin even if the strong players went on to win at the upper end of Wilson's 95%
-    /// interval of their win rate so far. `planned` means that all levels are deterministic and have a win. If all
-    /// levels are given, the answer is that of the criterion.
+    /// Returns `true` if the game is unlikely to meet the margin, judging by the first of its `levels` levels. Such
+    /// a game would miss the margin even if the strong players went on to win at the upper end of Wilson's 95%
+    /// interval of their win rate so far. `planned` means that all levels are deterministic and have a known win. If
+    /// all levels are given, the answer equals the criterion's.
     pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool, levels: usize) -> bool {
         let ahead = levels.saturating_sub(ladders.len()) as f64 / ladders.len().max(1) as f64;
         sides(ladders, planned).is_some_and(|(baseline, sides)| {
@@ -115,8 +116,8 @@ impl SkillOverall {
     }
 }
 
-/// Returns the best player that does not look ahead, the strongest player of the ladder and the strongest held-out
-/// player; `None` if one of them is missing.
+/// Returns the best player that does not look ahead, the strongest ladder player and the strongest held-out player;
+/// `None` if any of the three is missing.
 fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     let rungs = totals(ladders, |ladder| &ladder.rungs);
     let held_out = totals(ladders, |ladder| &ladder.held_out);
@@ -133,7 +134,7 @@ fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     Some((baseline, sides))
 }
 
-/// Sums the results of each player over all levels. All ladders must have the same players.
+/// Sums each player's results over all levels. All ladders must have the same players.
 fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<PlayerResult>) -> Vec<Total> {
     let first = ladders.first().map_or(&[][..], |ladder| of(ladder));
     let total = |(at, result): (usize, &PlayerResult)| {
@@ -148,7 +149,7 @@ fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<PlayerResult>) -> Ve
     first.iter().enumerate().map(total).collect()
 }
 
-/// Returns the player with the highest win rate. Among equals, returns the first player of the ladder.
+/// Returns the player with the highest win rate. Ties go to the first player.
 fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
     totals.fold(None, |best: Option<&Total>, total| match best {
         Some(best) if best.share() >= total.share() => Some(best),
@@ -162,8 +163,8 @@ mod tests {
     use base::Seed;
     use engine::Game;
 
-    /// A game in which the player fetches the gem. In the stochastic variant, a player that stands still is caught
-    /// sooner or later.
+    /// A game in which the player collects the gem. In the stochastic variant, a player that stands still is
+    /// eventually caught.
     const GAME: &str = "BasicGame
     SpriteSet
         wall > Immovable
@@ -184,7 +185,7 @@ mod tests {
         Timeout limit=12 win=False
 ";
 
-    /// A level of six steps, which requires a detour from players that go straight.
+    /// A level of six steps that requires a detour from the direct path.
     const FAR: &str = "wwwwwww\nwA   ww\nww w  w\nwr w gw\nwwwwwww\n";
 
     #[track_caller]

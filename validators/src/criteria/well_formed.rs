@@ -1,4 +1,4 @@
-//! The `well-formed` criterion, which checks that the game works at all.
+//! The `well-formed` criterion: checks that the game works at all.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -9,10 +9,9 @@ use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteClass};
 
-/// Passes if the game can be won in principle, is not over in its first tick, and does nothing that makes the engine
-/// stop.
+/// Passes if the game can be won in principle, is not over in its first tick, and does not make the engine stop.
 ///
-/// The types `Game` and `Level` already guarantee that the text is VGDL and that the level fits the game.
+/// The types `Game` and `Level` already guarantee valid VGDL and a level that fits the game.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WellFormed;
 
@@ -71,7 +70,7 @@ impl Validator for WellFormed {
     }
 }
 
-/// Returns the interaction that a warning about swapped sides refers to.
+/// Returns the interaction to which a warning about swapped sides refers.
 fn swapped(game: &Game, warning: &Diagnostic) -> Option<Line> {
     let mut lines = game.description().interactions.iter();
     let line = lines.position(|line| line.first.span.start == warning.span.start)?;
@@ -90,10 +89,11 @@ fn path_finder(game: &Game) -> Option<Line> {
     Line::sprite(game, name)
 }
 
-/// The number of seeds with which a game must end in its first tick to count as over at once.
+/// The number of seeds with which a game must end in its first tick to count as immediately over.
 const STARTS: u64 = 8;
 
-/// Returns `true` if every first action ends the game in its first tick, with several seeds, so that nobody can play.
+/// Returns `true` if every first action ends the game in its first tick, with several seeds, so that the level is
+/// unplayable.
 pub(crate) fn is_over_at_once(game: &Game, level: &Level, seed: Seed) -> bool {
     (0..STARTS).map(|start| seed.child("start", start)).all(|seed| {
         let (_, state) = Episode::begin(game, level, seed);

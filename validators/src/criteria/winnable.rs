@@ -1,4 +1,4 @@
-//! The `winnable` criterion, which checks that a search finds a win.
+//! The `winnable` criterion: checks that a search finds a win.
 
 use crate::allowance::Setting;
 use crate::case::Case;
@@ -16,7 +16,7 @@ use engine::describe::{self, plural};
 /// Passes if the portfolio ([`agents::solve`]) finds a win, which becomes the witness. In a deterministic game, the
 /// search may also prove that there is no win, or that the win found is the shortest.
 ///
-/// The level is analysed before the search. If the analysis shows that a win is out of reach
+/// The level is analysed before the search. If the analysis shows that a win is unreachable
 /// ([`engine::analysis::Reach`]), the level fails without a search. For designers, the panel adds the chain of causes.
 ///
 /// If no win is found within the budget, the verdict is `Unknown`, never `Fail`, because an interrupted search proves
@@ -64,7 +64,7 @@ impl Validator for Winnable {
     }
 }
 
-/// Returns the finding for a level whose win is out of reach.
+/// Returns the finding for a level with an unreachable win.
 fn out_of_reach(Case { game, level, analysis, .. }: Case<'_>, reach: &Reach) -> Finding {
     let wins =
         reach.impossible_goals().iter().filter(|impossible_goal| analysis.goals()[impossible_goal.goal].win);
@@ -95,7 +95,7 @@ fn out_of_reach(Case { game, level, analysis, .. }: Case<'_>, reach: &Reach) -> 
 /// The maximum number of types to list.
 const MAX_NAMED: usize = 3;
 
-/// Describes the state closest to a win among the states that episodes can reach.
+/// Describes the state closest to a win among the reachable states.
 fn nearest_to_a_win(
     Case { game, level, analysis, seed, .. }: Case<'_>,
     actions: &[Action],

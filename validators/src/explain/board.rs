@@ -1,4 +1,4 @@
-//! Boards in characters, for reasons and reports. Each type has its own character.
+//! Boards as characters, for reasons and reports. Each type has its own character.
 
 use engine::{Game, SpriteType, State};
 use serde::Serialize;
@@ -7,11 +7,11 @@ use std::collections::BTreeSet;
 /// A state of a level as text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Board {
-    /// The rows from top to bottom, with one character per cell for the sprite that is drawn last.
+    /// The rows from top to bottom, with one character per cell that represents the topmost sprite.
     pub rows: Vec<String>,
-    /// The type that each character on the board represents.
+    /// The type represented by each character on the board.
     pub legend: Vec<(char, String)>,
-    /// The characters that the LevelMapping does not use for their type.
+    /// The characters that do not represent their type in the LevelMapping.
     #[serde(skip)]
     stand_ins: Vec<char>,
 }
@@ -35,7 +35,7 @@ impl Board {
         Board { rows, legend: legend.into_iter().collect(), stand_ins }
     }
 
-    /// Returns the legend in words: `A avatar, ~ water; not in the LevelMapping by itself: s shot`.
+    /// Returns the legend as text: `A avatar, ~ water; not in the LevelMapping by itself: s shot`.
     pub fn key(&self) -> String {
         let (others, own): (Vec<_>, Vec<_>) =
             self.legend.iter().partition(|(symbol, _)| self.stand_ins.contains(symbol));
@@ -55,12 +55,12 @@ impl Board {
 /// Characters for types that no level character places alone, in order of preference.
 const SPARE: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@#$%&*+=?!";
 
-/// The character for types when no other character is left.
+/// The character for types when no other character is available.
 const OTHER: char = '·';
 
-/// Returns a character for every type with a class, and the set of these characters that come from the LevelMapping. A
-/// type gets the character that places it on top. If there is none, it gets the first free character of its name, or
-/// else of the alphabet.
+/// Returns a character for every type with a class, and the subset of characters that come from the LevelMapping. A
+/// type gets the character that places it on top. If there is no such character, the type gets the first free
+/// character of its name or, failing that, of the alphabet.
 fn symbols(game: &Game) -> (Vec<(SpriteType, char)>, BTreeSet<char>) {
     let mut free: BTreeSet<char> = ('!'..='~').collect();
     let mut symbols: Vec<(SpriteType, char)> = Vec::new();
@@ -91,7 +91,7 @@ fn symbols(game: &Game) -> (Vec<(SpriteType, char)>, BTreeSet<char>) {
     (symbols, own)
 }
 
-/// Returns the position of a type in the drawing order.
+/// Returns a type's position in the drawing order.
 pub(crate) fn drawn(game: &Game, stype: SpriteType) -> usize {
     game.drawing_order().iter().position(|&other| other == stype.0).unwrap_or_default()
 }

@@ -1,5 +1,5 @@
-//! Explanations for levels that cannot be won. An explanation is the chain of causes that the analysis proves, from
-//! the termination back to the first obstacle.
+//! Explanations for levels that cannot be won. An explanation is the chain of causes proved by the analysis, from the
+//! termination back to the first obstacle.
 
 use crate::case::Case;
 use crate::evidence::{Evidence, Line};
@@ -11,11 +11,11 @@ use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_r
 
 /// The maximum number of chains to report, one per winning termination.
 const MAX_CHAINS: usize = 3;
-/// The maximum product of a level's cells and interactions for which a swapped rule is searched.
+/// The maximum product of a level's cells and interactions up to which swapped rules are searched for.
 const MAX_EFFORT: usize = 1 << 18;
 
-/// Rewrites the failure of a level that is proved to be unwinnable. Adds the chain of causes, and the rule whose sides
-/// are most likely swapped. Leaves other findings unchanged. Cost: several analyses of the level, one per rule.
+/// Rewrites the failure of a level proved unwinnable: adds the chain of causes, and the rule whose sides are most
+/// likely swapped. Other findings stay unchanged. Cost: several analyses of the level, one per rule.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let Case { game, level, analysis, .. } = case;
     if !matches!(finding.verdict, Verdict::Fail { .. }) || analysis.reach(level).can_win() {
@@ -58,13 +58,13 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     finding.evidence = evidence;
 }
 
-/// Returns a sentence in a form that can end a different sentence.
+/// Returns a sentence in a form that can be appended to another sentence.
 pub(crate) fn lower(sentence: &str) -> String {
     let mut characters = sentence.trim_end_matches('.').chars();
     characters.next().map_or(String::new(), |first| first.to_lowercase().chain(characters).collect())
 }
 
-/// The links of a chain in words.
+/// A chain's links, as text.
 struct Explanation<'a> {
     analysis: &'a Analysis,
     level: &'a Level,
@@ -114,7 +114,7 @@ impl Explanation<'_> {
         self.links.push(Evidence::new(text).advise(advice));
     }
 
-    /// Adds removals that cost more of a resource than is available.
+    /// Adds removals that cost more of a resource than available.
     fn unpaid(&mut self, unpaid: &Unpaid) {
         let Unpaid { target, removals, resource, each, most, removing, taking } = unpaid;
         let (game, name) = (self.analysis.game(), self.name(*resource).to_owned());
@@ -143,7 +143,7 @@ impl Explanation<'_> {
         self.links.push(Evidence::new(text).advise(advice));
     }
 
-    /// Returns `true` if some rule removes sprites of the type.
+    /// Returns `true` if a rule removes sprites of the type.
     fn is_ended(&self, stype: SpriteType) -> bool {
         let applies = |written: SpriteType| self.analysis.applies(written, stype);
         self.analysis.encounters().iter().any(|encounter| {
@@ -285,7 +285,7 @@ impl Explanation<'_> {
         }
     }
 
-    /// Returns the type if the level places it in the cell, or else the topmost type in the cell.
+    /// Returns the type if the level places it in the cell, and otherwise the topmost type in the cell.
     fn standing(&self, cell: usize, stype: SpriteType) -> SpriteType {
         let places = self.analysis.game().places(self.level.cells()[cell]);
         let known = places.contains(&stype) || places.is_empty();
@@ -300,13 +300,13 @@ impl Explanation<'_> {
         format!("the {}", self.name(stype))
     }
 
-    /// Returns the acting sprite in words. This is the avatar, under any name, or sprites of a type.
+    /// Describes the acting sprite: the avatar, under any name, or sprites of a type.
     fn acting(&self, stype: SpriteType) -> String {
         let own = self.analysis.avatars().iter().any(|avatar| self.analysis.applies(stype, avatar.stype));
         if own { "the avatar".to_owned() } else { self.the(stype) }
     }
 
-    /// Returns the column and row of a cell, counted from 1.
+    /// Returns a cell's column and row, counted from 1.
     fn place(&self, cell: usize) -> (usize, usize) {
         (cell % self.level.columns() + 1, cell / self.level.columns() + 1)
     }

@@ -1,8 +1,8 @@
-//! The search for the line of a game that is responsible for a level that cannot be won, or for a level without a known
-//! win.
+//! Searches for the line of a game that is responsible for an unwinnable level, or for a level without a known win.
 //!
-//! One line of the game is changed at a time, and a search looks for a win of the changed game. A win proves that the
-//! changed game can be won. It proves that the change is necessary only if the original level is proved unwinnable.
+//! The module changes one line of the game at a time, and searches for a win in the changed game. A win proves that the
+//! changed game can be won. The win proves that the change is necessary only if the original level is proved
+//! unwinnable.
 
 use crate::case::Case;
 use crate::criteria::is_guard;
@@ -14,22 +14,22 @@ use engine::analysis::{Condition, EffectSummary, Motion, Role};
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
 use engine::{Analysis, Description, Episode, Game, Meeting, SpriteType};
 
-/// The divisor of the budget of `winnable` that gives the total for all these searches.
+/// The divisor that derives the total budget of all these searches from the budget of `winnable`.
 const SHARE: u64 = 2;
-/// The fraction of a search's budget that may foresee all randomness, in a stochastic game.
+/// The fraction of a search's budget that may be spent with foresight of all randomness, in a stochastic game.
 const FORESIGHT: f64 = 0.4;
 /// The maximum number of lines to report.
 const MAX_NAMED: usize = 3;
 /// The maximum number of searches.
 const MAX_TRIALS: u64 = 200;
-/// The speed of a sprite that carries others. At this speed, the sprite takes several ticks to leave a cell.
+/// The speed given to sprites that carry others. At this speed, a sprite takes several ticks to leave a cell.
 const CARRYING_SPEED: &str = "0.2";
 
-/// The beginning of the sentence about a line without which, or with which, the level can be won.
+/// The start of the sentence about a line whose presence or absence makes the level winnable.
 pub(crate) const CAN_BE_WON: &str = "the level can be won ";
 
-/// Adds to a finding of `winnable` the lines that keep the level from being won, as far as searches of games without
-/// them show it. Other findings stay unchanged. Cost: half the budget of the search.
+/// Adds to a `winnable` finding the lines that prevent a win, as far as searches in games without these lines show it.
+/// Other findings stay unchanged. Costs half of the search budget.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) {
     let is_open = match &finding.verdict {
         Verdict::Pass { .. } => return,
@@ -54,7 +54,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
     }
 }
 
-/// A variant of the game that differs in one line.
+/// A game variant that differs in one line.
 struct Changed {
     game: Game,
     /// The original line, or the new line.
@@ -64,7 +64,7 @@ struct Changed {
     advice: String,
 }
 
-/// A win of a changed game.
+/// A win in a changed game.
 struct Won {
     changed: Changed,
     episode: Episode,
@@ -85,7 +85,7 @@ impl Won {
     }
 }
 
-/// The searches, with the remaining calls.
+/// The searches, with the number of calls left.
 struct Trials<'a> {
     case: Case<'a>,
     search: &'a PortfolioConfig,
@@ -95,7 +95,7 @@ struct Trials<'a> {
 }
 
 impl Trials<'_> {
-    /// Returns the evidence for all changes with which the level can be won, from most to least informative.
+    /// Returns the evidence for all changes that make the level winnable, from most to least informative.
     fn all(&mut self) -> Vec<Evidence> {
         let repairs: Vec<Changed> = self.carriers().into_iter().chain(self.leavers()).collect();
         let dropped = self.dropped();
@@ -147,7 +147,7 @@ impl Trials<'_> {
         found
     }
 
-    /// Looks for a win of a changed game, with an equal fraction of the remaining calls.
+    /// Searches for a win in a changed game, with an equal fraction of the remaining calls.
     fn won(&mut self, changed: Changed, waiting: &mut u64) -> Option<Won> {
         let share = self.left / (*waiting).max(1);
         *waiting = waiting.saturating_sub(1);
@@ -174,7 +174,7 @@ impl Trials<'_> {
         }
     }
 
-    /// Returns the games without one interaction, or without one losing termination.
+    /// Returns the game variants without one interaction, or without one losing termination.
     fn dropped(&self) -> Vec<(Option<usize>, Changed)> {
         let Case { game, analysis, .. } = self.case;
         let rules = (0..game.description().interactions.len()).map(|line| {
@@ -198,8 +198,8 @@ impl Trials<'_> {
         rules.chain(endings).collect()
     }
 
-    /// Returns the games with the two sides of one interaction swapped. Rules by which a wall stops the avatar are not
-    /// swapped, because the avatar would then walk through walls.
+    /// Returns one game variant per interaction, with the interaction's two sides swapped. Rules that make a wall stop
+    /// the avatar are not swapped, because the avatar could then walk through walls.
     fn swapped(&self) -> Vec<(usize, Changed)> {
         let game = self.case.game;
         let lines = &game.description().interactions;
@@ -225,7 +225,7 @@ impl Trials<'_> {
         (0..lines.len()).filter(|&line| !is_guard(self.case.analysis, line)).filter_map(swap).collect()
     }
 
-    /// Returns the games in which sprites that fly off the board return at the opposite edge.
+    /// Returns the game variants in which sprites that fly off the board reappear at the opposite edge.
     fn leavers(&self) -> Vec<Changed> {
         let Case { game, analysis, .. } = self.case;
         let leaves = |&stype: &SpriteType| {
@@ -251,7 +251,7 @@ impl Trials<'_> {
         game.sprite_types().filter(leaves).filter_map(returning).collect()
     }
 
-    /// Returns the games in which a sprite that should carry others is slow enough to do so.
+    /// Returns the game variants in which a sprite that should carry others is slow enough to do so.
     fn carriers(&self) -> Vec<Changed> {
         let Case { game, analysis, .. } = self.case;
         let carries = |&stype: &SpriteType| {
@@ -278,9 +278,8 @@ impl Trials<'_> {
         game.sprite_types().filter(carries).filter_map(slowed).collect()
     }
 
-    /// Returns the evidence about a rule without which the level can be won. The evidence states where the rule would
-    /// act in that win. It also states whether moving the rule further down, or shielding the avatar from it, is
-    /// enough.
+    /// Returns the evidence about a rule whose removal makes the level winnable. The evidence states where the rule
+    /// would act in that win, and whether moving the rule further down, or shielding the avatar from it, is sufficient.
     fn without_rule(&mut self, line: usize, won: Won) -> Vec<Evidence> {
         let game = self.case.game;
         let (place, others) = self.first_meeting(line, &won);
@@ -327,7 +326,7 @@ impl Trials<'_> {
         seen
     }
 
-    /// Returns the game in which the avatar is protected from a rule while it is on sprites called `other`.
+    /// Returns the game variant in which the avatar is protected from a rule while standing on sprites called `other`.
     fn shielded(&self, line: usize, other: &str) -> Option<Changed> {
         let game = self.case.game;
         let written = &game.description().interactions[line];
@@ -348,7 +347,8 @@ impl Trials<'_> {
         Some(Changed { game: changed, line: rule, how, advice })
     }
 
-    /// Returns the position at which a disabled rule would first act in a win, and the names of the other types there.
+    /// Returns the position at which a disabled rule would first act in a win, and the names of the other types at that
+    /// position.
     fn first_meeting(&self, line: usize, won: &Won) -> (Option<Evidence>, Vec<String>) {
         let (case, game) = (self.case, &won.changed.game);
         let mut state = game.start(case.level, won.episode.seed);
@@ -389,7 +389,8 @@ fn with_lines(game: &Game, change: impl FnOnce(&mut Vec<InteractionLine>)) -> Op
     Game::compile(&description).ok()
 }
 
-/// Gives the sprite called `name` a speed at which it can carry others. Returns `false` if it already has such a speed.
+/// Gives the sprite called `name` a speed at which it can carry others. Returns `false` if the sprite already has such
+/// a speed.
 fn slow_down(lines: &mut [SpriteLine], name: &str) -> bool {
     for line in lines {
         if line.name.text == name {

@@ -1,4 +1,4 @@
-//! The ending of an episode, and the lines that caused the ending, for the reason of a verdict.
+//! An episode's ending and the lines that caused it, for a verdict's reason.
 
 use crate::evidence::{Evidence, Line};
 use crate::explain::board::Board;
@@ -6,7 +6,7 @@ use crate::measures::level::MeetingRecorder;
 use engine::analysis::{Encounter, Side};
 use engine::{Action, Analysis, Episode, Game, Level, Meeting, Outcome, SpriteType};
 
-/// The ending of an episode.
+/// An episode's ending.
 #[derive(Clone, Debug)]
 pub(crate) struct Ending {
     /// The number of ticks played.
@@ -14,17 +14,17 @@ pub(crate) struct Ending {
     outcome: Outcome,
     /// The termination that holds, as an index into the description's terminations.
     termination: Option<usize>,
-    /// The interaction of the last tick that caused the ending. It removed the avatar, or the sprite that had to be
+    /// The interaction in the last tick that caused the ending by removing the avatar or the sprite that had to be
     /// removed.
     cause: Option<Meeting>,
     /// The board before the last tick.
     before: Option<Board>,
-    /// The last action of the episode.
+    /// The episode's last action.
     action: Option<Action>,
 }
 
 impl Ending {
-    /// Replays an episode and records its last tick. Cost: that of the episode.
+    /// Replays an episode and records its last tick. Costs one episode.
     pub(crate) fn of(analysis: &Analysis, level: &Level, episode: &Episode) -> Ending {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
@@ -58,7 +58,7 @@ impl Ending {
         }
     }
 
-    /// Returns the events of the last tick, one sentence per line involved.
+    /// Returns the last tick's events, with one sentence per line involved.
     pub(crate) fn evidence(&self, game: &Game) -> Vec<Evidence> {
         let mut list = Vec::new();
         let key = self.action.filter(|action| *action != Action::Nil);
@@ -93,7 +93,7 @@ fn ends(analysis: &Analysis, meeting: &Meeting, types: &[SpriteType]) -> bool {
     first || meeting.second.is_some_and(|second| types.contains(&second)) && ends(Side::Second)
 }
 
-/// Converts a cell to column and row counted from 1.
+/// Converts a cell to a column and row counted from 1.
 fn placed((column, row): (i32, i32)) -> Option<(usize, usize)> {
     Some((usize::try_from(column).ok()? + 1, usize::try_from(row).ok()? + 1))
 }

@@ -1,4 +1,4 @@
-//! Explanations for designers of why a level is not won and how an episode ends.
+//! Explanations, for designers, of why a level is not won and how an episode ends.
 
 pub(crate) mod board;
 pub(crate) mod causes;

@@ -1,4 +1,4 @@
-//! Judgements in words, for people.
+//! Judgements as text, for people.
 
 use crate::criterion::Criterion;
 use crate::evidence::Evidence;
@@ -12,8 +12,8 @@ impl Judgement {
         self.finding.evidence.first().is_some_and(|seen| seen.text.starts_with("skipped"))
     }
 
-    /// Returns the answer as one sentence, without the evidence. The sentence is empty for a pass that has
-    /// nothing to show.
+    /// Returns the answer as one sentence, without the evidence; empty for a pass without anything to
+    /// report.
     pub fn answer(&self) -> String {
         let Judgement { criterion, finding } = self;
         match &finding.verdict {

@@ -1,5 +1,4 @@
-//! The `actors-matter` gate, which checks that sprites that move by themselves range over the board and get in the
-//! player's way.
+//! The `actors-matter` gate: checks that self-moving sprites range over the board and get in the player's way.
 
 use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -10,19 +9,18 @@ use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Passes if two conditions are met. Sprites that move by themselves, not counting the player's shots, must sweep at
-/// least [`Gates::sweep`] cells each, on average. On at least [`Gates::met_levels`] of the levels with such sprites,
-/// one must also come into or next to a cell of the win's route, and next to the player. If contact with them can kill,
-/// a third condition applies: they must cause at least [`Gates::foe_losses`] of the losses of careless players.
+/// Passes if two conditions are met. Self-moving sprites, not counting the player's shots, must sweep an average of at
+/// least [`Gates::sweep`] cells each. On at least [`Gates::met_levels`] of the levels with such sprites, a sprite must
+/// also enter or come next to a cell on the win's route, and come next to the player. If contact with such sprites can
+/// kill, a third condition applies: the sprites must cause at least [`Gates::foe_losses`] of careless players' losses.
 ///
 /// The sprites are observed in the shortest known wins and in careless episodes. A sprite counts if it lived for twenty
-/// ticks. The sprites cause a loss if, in the tick of the loss, the avatar meets one of them or something that they
-/// make. Games in which nothing moves by itself pass. Cost: that of the careless episodes, and an inspection of all
-/// sprites in each tick.
+/// ticks. The sprites cause a loss if, in the tick of the loss, the avatar meets one of them or one of their products.
+/// Games without self-moving sprites pass. Costs the careless episodes, and an inspection of all sprites in each tick.
 #[derive(Clone, Debug)]
 pub(crate) struct ActorsMatter(Gates);
 
-/// The minimum number of ticks that a sprite must live to be measured.
+/// The minimum lifetime, in ticks, for a sprite to be measured.
 const LIFE: usize = 20;
 
 pub(crate) const QUESTION: &str = "do sprites that move by themselves get in the player's way?";
@@ -95,27 +93,27 @@ impl GameValidator for ActorsMatter {
     }
 }
 
-/// The types that move by themselves.
+/// The self-moving types.
 struct Actors<'a> {
     analysis: &'a Analysis,
-    /// For each type, `true` if it moves by itself.
+    /// For each type, `true` if it is self-moving.
     moves: Vec<bool>,
-    /// For each type, `true` if it moves by itself or is created by a type that does.
+    /// For each type, `true` if it is self-moving or is created by a self-moving type.
     foes: Vec<bool>,
-    /// `true` if contact with some of the foes is harmful.
+    /// `true` if contact with any foe is harmful.
     deadly: bool,
 }
 
-/// The observations of an episode.
+/// The observations made during an episode.
 #[derive(Default)]
 struct Watched {
     /// The number of cells swept by each sprite that lived long enough.
     sweeps: Vec<f64>,
-    /// `true` if any sprites that move by themselves were present.
+    /// `true` if any self-moving sprites were present.
     present: bool,
-    /// `true` if such a sprite came into or next to a cell of the avatar's route.
+    /// `true` if a self-moving sprite entered or came next to a cell on the avatar's route.
     crossed: bool,
-    /// `true` if such a sprite came next to the avatar.
+    /// `true` if a self-moving sprite came next to the avatar.
     near: bool,
     /// `true` if the avatar met a foe in the last tick.
     last: bool,
@@ -182,14 +180,14 @@ impl<'a> Actors<'a> {
     }
 }
 
-/// The flag of sprite records that are no longer in play.
+/// The flag for sprite records that are no longer in play.
 const DISABLED: u16 = 1;
 
 fn next_to((x, y): (i32, i32), (u, v): (i32, i32)) -> bool {
     (x - u).abs() + (y - v).abs() <= 1
 }
 
-/// A watcher for contacts of the avatar with foes.
+/// A watcher for the avatar's contacts with foes.
 struct Meetings<'a> {
     actors: &'a Actors<'a>,
     any: bool,

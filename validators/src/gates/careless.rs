@@ -8,38 +8,38 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// The multiple of the win's ticks that limits the ticks of an episode. [`GRACE`] is added to the product.
+/// The maximum length of an episode, as a multiple of the win's ticks. [`GRACE`] is added to the product.
 const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
-/// The number of episodes of a closer look, as a multiple of the number in the first look. Before a gate fails because
-/// of a few episodes, it requests more episodes.
+/// The number of episodes in a closer evaluation, as a multiple of the number in the first evaluation. Before a gate
+/// fails because of a few episodes, it requests more.
 pub(super) const CLOSER: u32 = 4;
 
-/// The episodes of careless players. They are played when the first gate requests them, and shared by all gates.
+/// The careless players' episodes. The episodes are played when first requested by a gate, and shared by all gates.
 pub(crate) struct CarelessPlays<'a> {
     game: &'a Game,
     seed: Seed,
     levels: Vec<OnceLock<Vec<Episode>>>,
-    /// The win rate in a closer look, by level.
+    /// The win rate in a closer evaluation, by level.
     closer: Vec<OnceLock<f64>>,
 }
 
 impl<'a> CarelessPlays<'a> {
-    /// Creates the record for a game with `levels` levels. No episode has been played yet.
+    /// Creates the record for a game with `levels` levels, before any episode is played.
     pub(crate) fn new(game: &'a Game, levels: usize, seed: Seed) -> CarelessPlays<'a> {
         let (plays, closer) = (vec![OnceLock::new(); levels], vec![OnceLock::new(); levels]);
         CarelessPlays { game, seed, levels: plays, closer }
     }
 
-    /// Returns the episodes of careless players on a level. The first call costs one forward-model call per action and
+    /// Returns the careless players' episodes on a level. The first call costs one forward-model call per action and
     /// tick.
     pub(super) fn plays(&self, won: WonLevel<'_>, gates: &Gates) -> &[Episode] {
         self.levels[won.number].get_or_init(|| self.numbered_plays(won, gates, 0..gates.careless_plays))
     }
 
-    /// Returns the win rate of careless players on a level, from [`CLOSER`] times as many episodes. The first call
-    /// costs as much as these episodes.
+    /// Returns the careless players' win rate on a level, from [`CLOSER`] times as many episodes. The first call costs
+    /// these episodes.
     pub(super) fn closer_win_share(&self, won: WonLevel<'_>, gates: &Gates) -> f64 {
         *self.closer[won.number].get_or_init(|| {
             let first = gates.careless_plays;
@@ -54,24 +54,24 @@ impl<'a> CarelessPlays<'a> {
     }
 }
 
-/// A level with the shortest known win.
+/// A level with its shortest known win.
 #[derive(Clone, Copy)]
 pub(super) struct WonLevel<'a> {
-    /// The index of the level in the game.
+    /// The level's index in the game.
     pub(super) number: usize,
     pub(super) level: &'a Level,
     pub(super) win: &'a Episode,
 }
 
 impl WonLevel<'_> {
-    /// Returns the number of ticks of the win.
+    /// Returns the win's number of ticks.
     pub(super) fn ticks(&self) -> usize {
         self.win.actions.len()
     }
 }
 
-/// Plays the numbered episodes by the nearest-goal player, with a fraction of slips, on a level that is won in `ticks`
-/// ticks. Cost: one call per action and tick.
+/// Plays the numbered episodes with the nearest-goal player and a fraction of slips, on a level won in `ticks` ticks.
+/// Cost: one call per action and tick.
 pub(super) fn nearest_goal(
     game: &Game,
     level: &Level,
@@ -89,8 +89,8 @@ pub(super) fn nearest_goal(
     numbers.into_par_iter().map(run).collect()
 }
 
-/// Returns the fraction of careless episodes on a level that the rules end with a win or a loss. All other episodes got
-/// stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
+/// Returns the fraction of careless episodes on a level that end by the rules, with a win or a loss. All other episodes
+/// got stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
 pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
     let numbers = 0..gates.careless_plays;
     let plays = nearest_goal(game, level, win.actions.len(), gates.careless_slips, numbers, seed);
@@ -99,7 +99,7 @@ pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, see
     ended as f64 / plays.len().max(1) as f64
 }
 
-/// Returns the fraction of episodes that are won.
+/// Returns the fraction of episodes won.
 pub(super) fn win_share(plays: &[Episode]) -> f64 {
     let won = plays.iter().filter(|episode| episode.outcome == Outcome::Won).count();
     won as f64 / plays.len().max(1) as f64

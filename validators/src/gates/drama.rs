@@ -1,4 +1,4 @@
-//! The `drama` gate, which checks that winning is in doubt along the way.
+//! The `drama` gate: checks that winning is in doubt along the way.
 
 use super::{Gates, NO_WIN, measured, without_subject, won_levels};
 use crate::PlayMeasures;
@@ -9,8 +9,8 @@ use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::slice;
 
-/// Passes if the drama of the shortest known wins ([`PlayMeasures::drama`]) is at least [`Gates::drama`], on average
-/// over the levels. Cost: that of [`PlayMeasures::of`], some milliseconds per level.
+/// Passes if the drama of the shortest known wins ([`PlayMeasures::drama`]) averages at least [`Gates::drama`] over
+/// the levels. Costs one [`PlayMeasures::of`] per level, which takes a few milliseconds.
 #[derive(Clone, Debug)]
 pub(crate) struct Drama(Gates);
 

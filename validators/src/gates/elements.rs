@@ -1,4 +1,4 @@
-//! The elements of a game that can be removed: placed types and rules, except guards.
+//! The removable elements of a game: placed types and rules, except guards.
 
 use crate::evidence::{Evidence, Line};
 use crate::measures::Guards;
@@ -9,11 +9,11 @@ use std::collections::BTreeSet;
 
 /// A rule or a placed type, and the game without it.
 pub(super) struct Element {
-    /// The text of the rule, or the name of the type.
+    /// The rule's text, or the type's name.
     pub(super) text: String,
     line: Option<Line>,
-    /// The indices of the levels on which the element occurs. A type occurs if it is placed, and a rule occurs if a
-    /// recorded episode executes it.
+    /// The indices of the levels on which the element occurs: on which the type is placed, or on which a recorded
+    /// episode executes the rule.
     pub(super) levels: Vec<usize>,
     pub(super) without: Game,
     /// `true` if the element is a type, so that levels must be parsed again without it.
@@ -23,7 +23,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Returns the level for the game without the element; `None` if it cannot be parsed.
+    /// Returns the level for the game without the element; `None` if the level cannot be parsed.
     pub(super) fn level(&self, level: &Level) -> Option<Level> {
         if !self.is_type {
             return Some(level.clone());
@@ -38,11 +38,11 @@ impl Element {
     }
 }
 
-/// Returns the elements of a game, which are interactions and types. Interactions exclude guards ([`Guards`]) and
-/// interactions by which a wall keeps sprites other than avatars in bounds. Types are those that some level places,
-/// except avatars, walls, background, and types that an ending counts.
+/// Returns a game's elements: interactions and placed types. Guards ([`Guards`]) are excluded, and so are
+/// interactions by which a wall keeps sprites other than avatars in bounds. Avatars, walls, background, and types
+/// counted by an ending are also excluded.
 ///
-/// `executed` lists the rules that are executed in addition to those of the recording, by level.
+/// `executed` lists, by level, the rules executed in addition to the rules in the recording.
 pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]) -> Vec<Element> {
     let (game, analysis) = (case.game, case.analysis);
     let guards: BTreeSet<usize> = Guards::of(analysis).lines().collect();

@@ -1,8 +1,8 @@
-//! Gates, which are criteria of a game with its levels in order that measure what people observe in play.
+//! Gates: criteria for a game with its levels in order that measure what people observe in play.
 //! `docs/reference/gates.md` explains each gate, with the evidence for its thresholds.
 //!
-//! A gate examines the shortest known win of each level. Levels without a known win are left out. The figure of a
-//! finding is for tables: [`Finding::figure`].
+//! A gate examines the shortest known win of each level. Levels without a known win are skipped. A finding's
+//! figure is meant for tables: [`Finding::figure`].
 
 pub(crate) mod actors_matter;
 mod careless;
@@ -41,15 +41,15 @@ fn won_levels<'a>(case: GameCase<'a>) -> Option<Vec<WonLevel<'a>>> {
     (!won.is_empty()).then_some(won)
 }
 
-/// Returns the finding of a gate that has nothing to judge.
+/// Returns a gate's finding if there is nothing to judge.
 fn without_subject(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
-/// The message of a gate for games without a known win.
+/// A gate's message for games without a known win.
 const NO_WIN: &str = "skipped: no win of any level is known";
 
-/// Returns the finding of a gate. The gate fails if there are problems. The most important problem comes first.
+/// Returns a gate's finding. The gate fails if there are problems. The most important problem comes first.
 fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -> Finding {
     let verdict = match problems.first() {
         None => Verdict::pass(),
@@ -58,7 +58,7 @@ fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -
     Finding { figure, ..Finding::from(verdict).seen(problems).seen(notes) }
 }
 
-/// Returns the finding of a gate that makes one statement, which is a problem unless the game passes.
+/// Returns the finding for a gate that makes one statement. The statement is a problem unless the game passes.
 fn measured(passes: bool, seen: Evidence, figure: f64) -> Finding {
     match passes {
         true => finding(Vec::new(), vec![seen], Some(figure)),
@@ -72,7 +72,7 @@ mod tests {
     use base::Seed;
     use engine::Game;
 
-    /// Judges a game by one gate, with wins from the search of `winnable`.
+    /// Judges a game by one gate, with wins found by the `winnable` search.
     pub(super) fn judged(
         gate: Criterion,
         source: &str,

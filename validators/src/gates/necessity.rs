@@ -1,4 +1,4 @@
-//! The `necessity` gate, which checks that a winner's plan depends on each rule and each placed type.
+//! The `necessity` gate: checks that a winner's plan depends on each rule and each placed type.
 
 use super::elements::{Element, elements};
 use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
@@ -17,25 +17,24 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards, and placed
-/// types, except avatars, walls, background and types that an ending counts. An element matters if one of the following
-/// is true of the game without the element, on at least [`Gates::needed_levels`] of the levels on which the element
-/// occurs. The tests go from cheapest to most expensive:
+/// types, except avatars, walls, background and types counted by an ending. An element matters if the game without it
+/// meets one of the following conditions, on at least [`Gates::needed_levels`] of the levels on which the element
+/// occurs. The conditions are tested from cheapest to most expensive:
 ///
-/// 1. the shortest known win no longer wins, or wins [`Gates::plan_change`] earlier, so that different actions are
+/// 1. the shortest known win no longer wins, or wins earlier by [`Gates::plan_change`], so that different actions are
 ///    needed;
 /// 2. at least [`Gates::plan_change`] of the careless episodes change between win and loss, so that players who do not
 ///    foresee everything do better or worse;
 /// 3. a search that foresees the random draws of the win finds a much shorter win. The win must be shorter by
 ///    [`Gates::plan_change`] than the known win, and than the win that the search finds with the element.
 ///
-/// The gate fails only if it would fail even if every element that is not proved to be idle mattered. On deterministic
-/// levels, searches prove that an element is idle by proving the shortest wins with and without the element. Otherwise
-/// the answer is unknown.
+/// The gate fails only if it would also fail if every element not proved idle mattered. On deterministic levels,
+/// searches prove that an element is idle by proving the shortest wins with and without the element. Otherwise the
+/// verdict is unknown.
 ///
 /// Removing a moving type shifts the random draws of a stochastic game, so the game's win is not replayed without the
-/// type. Cost: that of the replays and of the careless episodes. For each element that these do not show to matter,
-/// there is also a search with [`Gates::needed_calls`] calls on each of the element's levels until the answer is
-/// certain.
+/// type. Costs the replays and the careless episodes. For each element not shown to matter by these, it also costs a
+/// search with [`Gates::needed_calls`] calls on each of the element's levels until the answer is certain.
 #[derive(Clone, Debug)]
 pub(crate) struct Necessity(Gates);
 
@@ -121,11 +120,11 @@ enum Need {
     Shown,
     /// No test shows that the element matters, and the searches were not exhaustive.
     NotShown,
-    /// It is proved that the element does not matter in the sense of the tests.
+    /// The element is proved not to matter in the sense of the tests.
     Refuted,
 }
 
-/// The length of the shortest known win, if a win is known. `sure` is `true` if it is proved that no win is shorter.
+/// The length of the shortest known win, if any. `sure` is `true` if that win is proved to be the shortest.
 #[derive(Clone, Copy)]
 struct Shortest {
     ticks: Option<usize>,
@@ -136,14 +135,14 @@ struct Shortest {
 struct Subject<'a> {
     won: WonLevel<'a>,
     careless: &'a [Episode],
-    /// The number of ticks of the shortest known win with all elements, once a search has looked for it.
+    /// The number of ticks in the shortest known win with all elements, once it has been searched for.
     shortest: OnceLock<Shortest>,
-    /// The number of forward-model calls of the searches on the level.
+    /// The number of forward-model calls in searches on the level.
     spent: AtomicU64,
 }
 
 impl Necessity {
-    /// Returns `true` if an element is shown to matter, and a sentence with the number of levels on which it matters.
+    /// Returns whether an element is shown to matter, and a sentence with the number of levels on which it matters.
     fn matters(
         &self,
         case: GameCase<'_>,
@@ -223,8 +222,8 @@ impl Necessity {
         (hinders, found.sure && shortest.sure)
     }
 
-    /// Returns the number of ticks of a win that a search finds with the random draws of the known win. The search
-    /// looks for the shortest win, or else for any win.
+    /// Returns the number of ticks in a win that a search finds with the known win's random draws. Searches for the
+    /// shortest win first, and then for any win.
     fn search(&self, analysis: &Analysis, level: &Level, subject: &Subject<'_>) -> Shortest {
         let start = analysis.game().start(level, subject.won.win.seed);
         if start.is_over() {
@@ -247,7 +246,7 @@ impl Necessity {
     }
 }
 
-/// The memory of a search in bytes.
+/// A search's memory, in bytes.
 const BYTES: usize = 1 << 27;
 
 /// Returns the outcome of a sequence of actions, and the number of ticks until then.

@@ -1,4 +1,4 @@
-//! The `no-dead-time` gate, which checks that a win has no long stretch in which playing has no effect.
+//! The `no-dead-time` gate: checks that a win has no long stretch in which playing has no effect.
 
 use super::{Gates, NO_WIN, WonLevel, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -10,12 +10,12 @@ use engine::{Analysis, SpriteType, State};
 use std::collections::BTreeSet;
 
 /// Passes if the longest stretch without progress in the shortest known win takes at most [`Gates::dead_share`] of the
-/// win's ticks, or at most [`Gates::dead_ticks`].
+/// win's ticks, or at most [`Gates::dead_ticks`] ticks.
 ///
-/// A tick makes progress if one of these changes: the score, the avatar's type, the resources that the avatar holds,
-/// the number of sprites that a termination counts, the number of still sprites of a type, or the position of a
-/// pushable sprite. A tick also makes progress if the avatar enters a cell that it has not been in since the last such
-/// change. Waiting, pacing to and fro and walking back are dead time. Cost: that of replaying the wins.
+/// A tick makes progress if one of these changes: the score, the avatar's type, the avatar's resources, the number of
+/// sprites counted by a termination, the number of stationary sprites of a type, or the position of a pushable sprite.
+/// A tick also makes progress if the avatar enters a cell not visited since the last such change. Waiting, pacing to
+/// and fro and walking back are dead time. Costs one replay of each win.
 #[derive(Clone, Debug)]
 pub(crate) struct NoDeadTime(Gates);
 
@@ -51,7 +51,7 @@ impl GameValidator for NoDeadTime {
     }
 }
 
-/// The types whose numbers and positions show progress.
+/// The types whose numbers or positions indicate progress.
 struct Telling {
     /// The types whose number counts.
     counted: Vec<SpriteType>,
@@ -60,7 +60,7 @@ struct Telling {
     resources: Vec<SpriteType>,
 }
 
-/// The part of a state that shows progress.
+/// The part of a state that indicates progress.
 #[derive(PartialEq)]
 struct Standing {
     score: f64,
@@ -97,7 +97,7 @@ impl Telling {
         }
     }
 
-    /// Returns the number of ticks of the longest stretch of a win without progress, and the tick before it.
+    /// Returns the number of ticks in a win's longest stretch without progress, and the tick before that stretch.
     fn longest_stretch(&self, won: WonLevel<'_>, case: GameCase<'_>) -> (usize, usize) {
         let mut state = case.game.start(won.level, won.win.seed);
         let mut standing = self.standing(&state);

@@ -1,4 +1,4 @@
-//! The `open-ground` gate, which checks that levels offer space to move about in, instead of tunnels in solid rock.
+//! The `open-ground` gate: checks that levels offer space to move around, rather than tunnels in solid rock.
 
 use super::{Gates, measured, without_subject};
 use crate::allowance::Setting;
@@ -8,16 +8,16 @@ use crate::verdict::Finding;
 use engine::analysis::Role;
 use engine::{Analysis, Level};
 
-/// Passes if the fraction of narrow ground is at most [`Gates::narrow`], on average over the levels.
+/// Passes if the fraction of narrow ground averages at most [`Gates::narrow`] over the levels.
 ///
-/// Ground is a cell without a wall. A wall ([`Role::Wall`]) stands still and always blocks, and nothing removes it.
-/// Ground is narrow if no square of two by two ground cells contains it, as in corridors, doorways and alcoves.
-/// Nothing is played. Cost: O(cells) per level.
+/// Ground is a cell without a wall. A wall ([`Role::Wall`]) is stationary, always blocks and cannot be removed.
+/// Ground is narrow if no 2×2 square of ground cells contains it, as in corridors, doorways and alcoves. No
+/// episodes are played. Cost: O(cells) per level.
 #[derive(Clone, Debug)]
 pub struct OpenGround(pub Gates);
 
 impl OpenGround {
-    /// Returns the fraction of a level's ground that is narrow; `None` without ground.
+    /// Returns the fraction of narrow ground in a level; `None` without ground.
     pub fn narrow(analysis: &Analysis, level: &Level) -> Option<f64> {
         let game = analysis.game();
         let is_wall = |cell: &u8| game.places(*cell).iter().any(|&stype| analysis.role(stype) == Role::Wall);

@@ -1,4 +1,4 @@
-//! The `progression` gate, which checks that later levels need more mechanics and are no easier.
+//! The `progression` gate: checks that later levels need more mechanics and are not easier.
 
 use super::{Gates, NO_WIN, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -8,19 +8,19 @@ use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
-/// Passes if the mechanics that winning needs grow over the levels. These mechanics are the interactions that the
-/// shortest known win of a level executes, not counting guards. At least [`Gates::growth`] levels must need mechanics
-/// that no earlier level needed. The last level must need as many mechanics as the first, and at least
-/// [`Gates::last_share`] of all mechanics that any level needs. The last level must not be easier than either of the
-/// first two by more than [`Gates::easier`].
+/// Passes if the mechanics needed to win grow over the levels. A level's mechanics are the interactions executed in
+/// its shortest known win, not counting guards. At least [`Gates::growth`] levels must need mechanics that no earlier
+/// level needed. The last level must need as many mechanics as the first, and at least [`Gates::last_share`] of all
+/// mechanics needed on any level. The last level must not be easier than either of the first two by more than
+/// [`Gates::easier`].
 ///
-/// If a ladder was played on every level, ease is the ease for the ladder. Otherwise it is the win rate of careless
+/// If a ladder was played on every level, ease is the ease for the ladder. Otherwise ease is the win rate of careless
 /// players, with four times as many episodes if the last level seems easier. Games with fewer than three levels have
-/// no progression to judge. Cost: that of replaying the wins, and of the careless episodes.
+/// no progression to judge. Costs one replay of each win, and the careless episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Progression(Gates);
 
-/// The minimum number of levels of a course.
+/// The minimum number of levels in a course.
 const COURSE: usize = 3;
 
 pub(crate) const QUESTION: &str =
@@ -91,8 +91,8 @@ impl GameValidator for Progression {
 }
 
 impl Progression {
-    /// Returns the ease of the levels, from 0 to 1. If it is measured by careless episodes and the first episodes
-    /// speak against the game, the compared levels get a closer look.
+    /// Returns the levels' ease, from 0 to 1. If ease is measured by careless episodes and the first episodes count
+    /// against the game, the compared levels are evaluated more closely.
     fn eases(&self, case: GameCase<'_>, wins: &[super::WonLevel<'_>]) -> Vec<f64> {
         let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
         let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();

@@ -1,4 +1,4 @@
-//! The thresholds of the gates.
+//! The gates' thresholds.
 
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +66,7 @@ impl Gates {
         *self == Gates::default()
     }
 
-    /// Returns stricter thresholds for the measures that involve randomness. Games made by these thresholds also pass
+    /// Returns stricter thresholds for the measures that involve randomness. Games that pass these thresholds also pass
     /// the original thresholds with other seeds.
     #[must_use]
     pub fn with_margin(&self) -> Gates {
@@ -80,7 +80,7 @@ impl Gates {
         }
     }
 
-    /// Returns laxer thresholds for some of a game's levels. The levels need no new mechanics, and only half of the
+    /// Returns laxer thresholds for a subset of a game's levels, which require no new mechanics and only half of the
     /// drama.
     #[must_use]
     pub fn for_some_levels(&self) -> Gates {

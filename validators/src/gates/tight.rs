@@ -1,4 +1,4 @@
-//! The `tight` gate, which checks that a win uses most of the available resources, and that careless play fails.
+//! The `tight` gate: checks that a win uses most of the available resources, and that careless play fails.
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -8,14 +8,14 @@ use crate::verdict::Finding;
 use engine::State;
 use engine::analysis::Resource;
 
-/// Passes if the fraction of the consumables that a win leaves is within [`Gates::spare`], on average over the levels.
-/// Careless players must also win at most [`Gates::careless_wins`] of their episodes after the first level. If they win
-/// more, they play four times as many episodes.
+/// Passes if the fraction of consumables left after a win, averaged over the levels, is within [`Gates::spare`].
+/// Careless players must also win at most [`Gates::careless_wins`] of their episodes after the first level. If careless
+/// players win more, they play four times as many episodes.
 ///
-/// A consumable is a resource that some rule takes, or that shots cost. Its supply is the amount that the avatar spends
-/// in the win, holds at the end, and could still collect from the board. Levels whose win spends no consumable are left
-/// out. Careless players walk to the nearest goal and slip ([`Gates::careless_slips`]). Cost: that of replaying the
-/// wins, and of the careless episodes.
+/// A consumable is a resource that a rule takes, or that shots cost. Its supply is the amount that the avatar spends in
+/// the win, holds at the end, and could still collect from the board. Levels whose win does not spend consumables are
+/// skipped. Careless players walk to the nearest goal and slip ([`Gates::careless_slips`]). Costs one replay of each
+/// win, and the careless episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Tight(Gates);
 
@@ -70,8 +70,7 @@ impl GameValidator for Tight {
     }
 }
 
-/// Returns the amount of a resource that a win spends and the amount that it leaves; `None` if the win spends nothing
-/// of the resource.
+/// Returns the amounts of a resource that a win spends and leaves; `None` if the win does not spend the resource.
 fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option<(f64, f64)> {
     let held = |state: &State| state.amount_held(resource.stype);
     let mut state = case.game.start(won.level, won.win.seed);
@@ -106,7 +105,7 @@ mod tests {
         check(Criterion::Tight, GAME, &["wwwwww\nwA  pw\nwwwwww\n"], Some("careless players win 100%"));
     }
 
-    /// The first episode is won, and so are two of the three episodes that follow.
+    /// The first episode is won, and so are two of the next three.
     #[test]
     fn few_plays_are_followed_by_more() {
         let level = "wttttw\nwA  pw\nwttttw\n";

@@ -1,28 +1,28 @@
-//! Comparison of a game with and without one of its rules, in every state that play can reach.
+//! Comparison of a game with and without one of its rules, in every reachable state.
 
 use base::Seed;
 use engine::{Analysis, Level, State};
 use std::collections::{BTreeSet, VecDeque};
 
-/// The answer of a comparison.
+/// The result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Comparison {
     /// Some sequence of actions ends or scores differently in the two games.
     Differs,
-    /// It is proved that all sequences of actions end and score the same. The value is the number of pairs of
-    /// states in the proof.
+    /// All sequences of actions are proved to end and score the same. Contains the number of state pairs in the
+    /// proof.
     Equal(usize),
-    /// The answer is unknown, because the level is stochastic or the calls ran out.
+    /// The result is unknown, because the level is stochastic or the calls ran out.
     Open,
 }
 
-/// The maximum number of pairs of states to distinguish.
+/// The maximum number of state pairs to distinguish.
 const MAX_PAIRS: usize = 50_000;
 
-/// Compares two games that differ in one rule on a level, breadth first, with at most `most` forward-model calls.
-/// Returns the answer and the number of calls.
+/// Compares two games that differ in one rule, breadth-first on a level, with at most `most` forward-model calls.
+/// Returns the result and the number of calls.
 ///
-/// Pairs of states with equal search keys have the same future, so only one pair is continued.
+/// State pairs with equal search keys have the same future, so only one of them is continued.
 pub(crate) fn compare(games: [&Analysis; 2], level: &Level, seed: Seed, most: u64) -> (Comparison, u64) {
     let start = games.map(|analysis| analysis.game().start(level, seed));
     let abstractions = [0, 1].map(|at| games[at].abstraction(&start[at]));

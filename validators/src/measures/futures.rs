@@ -1,7 +1,7 @@
-//! Random futures of a moment, compared with the played episode. They show which side is in the lead, and how far
-//! ahead a player must look.
+//! Random futures from a moment in an episode, compared with the episode as played. The futures show which side is in
+//! the lead, and how far ahead a player must look.
 //!
-//! The futures press random keys, but take back a key that loses at once. Otherwise, any deadly game would look
+//! The futures press random keys, but undo a key that loses immediately. Otherwise, any deadly game would look
 //! hopeless at every moment.
 
 use base::{Sampler, Seed};
@@ -9,18 +9,18 @@ use engine::{Game, Outcome, State};
 use std::cmp::Ordering;
 use std::mem;
 
-/// The number of ticks that random futures are played.
+/// The number of ticks for which random futures are played.
 pub const SIGHT: usize = 64;
-/// The number of random futures of each moment.
+/// The number of random futures per moment.
 pub const FUTURES: u64 = 8;
 /// The ticks at which futures are compared.
 const CHECKPOINTS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
-/// The number of random keys to try in a tick.
+/// The number of random keys to try per tick.
 const KEYS_TRIED: usize = 3;
-/// The number of futures that must be worse for the played line to count as visibly better.
+/// The number of futures that must be worse for the actual play to count as visibly better.
 const WORSE: usize = 6;
 
-/// A future that is being played.
+/// A future being played.
 struct Future<'a> {
     game: &'a Game,
     state: State,
@@ -101,9 +101,9 @@ impl Futures {
         f64::from(sum) / FUTURES as f64
     }
 
-    /// Returns the number of ticks after which a line of play is better than most of the futures. The line is given by
-    /// its standing at each tick from the moment on. Returns [`SIGHT`] if that happens later or never, and `None` if
-    /// the line wins but most futures do equally well.
+    /// Returns the number of ticks after which a line of play is better than most futures. The line is given by its
+    /// standing at each tick, starting at the moment of the futures. Returns [`SIGHT`] if the line becomes better
+    /// later or never, and `None` if the line wins but most futures do equally well.
     pub(super) fn sight(&self, line: &[Standing]) -> Option<usize> {
         let last = line.len() - 1;
         let seen = |checkpoint: &usize| {

@@ -5,11 +5,11 @@ use crate::measures::is_guard;
 use engine::analysis::Role;
 use engine::{Analysis, Meeting, SpriteType};
 
-/// The guards of a game: interactions with the edge of the screen, and moves that walls undo without a price. A wall
-/// ([`Role::Wall`]) stands still and always blocks, and nothing removes it.
+/// A game's guards: interactions with the screen edge, and moves that walls undo at no cost. A wall ([`Role::Wall`])
+/// is stationary, always blocks and cannot be removed.
 #[derive(Clone, Debug)]
 pub struct Guards {
-    /// The kind of each interaction line.
+    /// Each interaction line's kind.
     lines: Vec<GuardKind>,
     /// For each type, `true` if it is a wall.
     walls: Vec<bool>,
@@ -17,9 +17,9 @@ pub struct Guards {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum GuardKind {
-    /// An interaction with the edge of the screen.
+    /// An interaction with the screen edge.
     Edge,
-    /// An interaction that runs on the clock.
+    /// An interaction that runs on the clock, independently of contacts.
     Clock,
     /// An interaction that only undoes a move. `walls` is `true` if all of the interaction's partners are walls.
     Block { walls: bool },
@@ -62,8 +62,8 @@ impl Guards {
         (0..self.lines.len()).filter(guards)
     }
 
-    /// Returns `true` for an execution of a guard. Either the line is a guard, or the execution meets a wall
-    /// although the line has other partners too.
+    /// Returns `true` for an execution of a guard: the line is a guard, or the execution involves a wall although
+    /// the line also has other partners.
     pub fn covers(&self, meeting: Meeting) -> bool {
         match self.lines[meeting.line] {
             GuardKind::Edge => true,

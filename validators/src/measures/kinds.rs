@@ -1,4 +1,4 @@
-//! The kind of a game, derived from its rules alone: its avatar, its goal, and its sources of randomness and movement.
+//! A game's kind, derived from its rules alone: the avatar, the goal, and the sources of randomness and movement.
 
 use super::families::{ClassFamily, EffectFamily};
 use super::guards::Guards;
@@ -8,13 +8,13 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 base::named_enum! {
-    /// The abilities of the initial avatar: how it moves, and whether the use key creates something.
+    /// The initial avatar's abilities: how it moves, and whether the use key creates a sprite.
     pub enum AvatarKind {
         /// The avatar moves up, left, down and right.
         Walks = "walks",
-        /// The avatar moves in four directions, but turns before it moves.
+        /// The avatar moves in four directions, but turns before moving.
         Turns = "turns",
-        /// The avatar moves in four directions, and shoots, hits or puts something ahead.
+        /// The avatar moves in four directions, and shoots, hits or places a sprite ahead.
         WalksAndShoots = "walks-and-shoots",
         /// The avatar moves along a line.
         Slides = "slides",
@@ -22,7 +22,7 @@ base::named_enum! {
         SlidesAndShoots = "slides-and-shoots",
         /// The avatar always moves ahead, whether or not it can be turned.
         Runs = "runs",
-        /// The avatar always moves ahead, and shoots or leaves something behind.
+        /// The avatar always moves ahead, and shoots or leaves a sprite behind.
         RunsAndShoots = "runs-and-shoots",
         /// The avatar stays in place, aims and shoots.
         Aims = "aims",
@@ -58,38 +58,39 @@ impl AvatarKind {
 }
 
 base::named_enum! {
-    /// The task that a win requires, by the analysed goals. If several tasks fit, the first in this order counts.
+    /// The task required to win, according to the analysed goals. If several tasks fit, the first in declaration order
+    /// counts.
     pub enum GoalKind {
-        /// Other sprites head for the same goal, and the first to arrive wins.
+        /// Other sprites head for the same goal. The first to arrive wins.
         Race = "race",
         /// Pushed sprites must reach their targets.
         Deliver = "deliver",
         /// Many copies of a created type must exist.
         Grow = "grow",
-        /// Sprites must be removed by shots or by obstacles that the avatar puts down.
+        /// Sprites must be removed by shots or by obstacles that the avatar places.
         Eliminate = "eliminate",
         /// Moving sprites must be caught.
         Hunt = "hunt",
         /// Items on the board must be taken: all items of a type, or many of a resource that an exit requires.
         Collect = "collect",
-        /// A thing must be reached or taken that is closed until the avatar has the key or the right form.
+        /// A sprite must be reached or taken that is inaccessible until the avatar has the key or the right form.
         Unlock = "unlock",
         /// A location must be reached.
         Reach = "reach",
         /// Movers must be brought together with each other or to a location.
         Herd = "herd",
-        /// Things that stay in place must be switched, lit or used up.
+        /// Stationary objects must be switched, lit or used up.
         Switch = "switch",
         /// A sprite other than the avatar must be protected for a while.
         Guard = "guard",
-        /// The avatar must stay alive until some tick.
+        /// The avatar must stay alive until a certain tick.
         Survive = "survive",
-        /// There is no goal except the score. Play cannot cause a win, or the clock wins in any case.
+        /// The only goal is the score. Play cannot cause a win, or the clock wins in any case.
         Score = "score",
     }
 }
 
-/// The minimum number at which quantity is the point of a goal.
+/// The minimum number at which a goal is considered to be about quantity.
 const MANY: i32 = 3;
 
 impl GoalKind {
@@ -133,8 +134,8 @@ impl GoalKind {
     }
 }
 
-/// Returns `true` if a type that a win must remove ends by meeting a different type, and one of the two moves by
-/// itself.
+/// Returns `true` if a type that must be removed to win is removed by meeting a different type, and one of the two
+/// types moves by itself.
 fn moves_to_a_goal(analysis: &Analysis) -> bool {
     let moves = |written: SpriteType| {
         let types = analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype));
@@ -153,9 +154,9 @@ fn moves_to_a_goal(analysis: &Analysis) -> bool {
 }
 
 base::named_enum! {
-    /// The source of randomness that can decide anything.
+    /// The source of randomness that affects a game.
     pub enum ChanceKind {
-        /// No randomness decides anything.
+        /// No randomness affects the game.
         None = "none",
         /// The movement of sprites other than the avatar is random.
         Movers = "movers",
@@ -163,7 +164,7 @@ base::named_enum! {
         Makers = "makers",
         /// The results of interactions are random.
         Rules = "rules",
-        /// Several of these sources are random.
+        /// Several of the above sources are random.
         Several = "several",
     }
 }
@@ -208,21 +209,21 @@ impl ChanceKind {
     }
 }
 
-/// The kind of a game, derived from its rules alone. Cost: some milliseconds at most, and no forward-model calls.
+/// A game's kind, derived from its rules alone. Cost: at most a few milliseconds, and no forward-model calls.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameKind {
-    /// The kind of the avatar.
+    /// The avatar's kind.
     pub avatar: AvatarKind,
     /// The kind of goal.
     pub goal: GoalKind,
     /// The source of randomness.
     pub chance: ChanceKind,
-    /// The families of the interactions' effects, including guards, in the order of [`EffectFamily`].
+    /// The families of the interactions' effects, including guards, in [`EffectFamily`] order.
     pub effects: Vec<EffectFamily>,
-    /// The classes that move by themselves and can be present, in alphabetical order.
+    /// The self-moving classes that can be present, in alphabetical order.
     pub npcs: Vec<String>,
-    /// The classes that create others by themselves and can be present, in alphabetical order.
+    /// The classes that can be present and create others by themselves, in alphabetical order.
     pub producers: Vec<String>,
     /// The number of lines in the InteractionSet, not counting guards.
     pub interactions: usize,

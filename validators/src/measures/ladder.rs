@@ -1,4 +1,4 @@
-//! Players from weak to strong on one level: the win rate of each player, and the resulting difficulty.
+//! Players from weak to strong on one level: each player's win rate, and the resulting difficulty.
 
 use crate::case::Case;
 use agents::{Limits, Play, ReferencePlanner, Stopped, play_until};
@@ -22,20 +22,20 @@ fn play_once(
     play_until(case.game, case.level, &mut player.player(seed), player.budget(), chance, limits, stopped)
 }
 
-/// The results of one player.
+/// One player's results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlayerResult {
-    /// The name of the player, such as `mcts:500`.
+    /// The player's name, such as `mcts:500`.
     pub player: String,
     /// `true` if the player looks ahead.
     pub looks_ahead: bool,
     /// The player's win rate.
     pub rate: Rate,
-    /// The mean number of ticks of the won episodes; `None` if no episode was won.
+    /// The mean number of ticks over the won episodes; `None` if no episode was won.
     pub win_ticks: Option<f64>,
-    /// The mean score, scaled from 0 for the lowest to 1 for the highest score. The range covers all episodes of the
-    /// rungs, without the held-out players. `None` if all scores are equal.
+    /// The mean score, scaled from 0 (lowest) to 1 (highest). The range covers all episodes of the rungs, excluding the
+    /// held-out players. `None` if all scores are equal.
     pub reward: Option<f64>,
 }
 
@@ -45,7 +45,7 @@ pub struct PlayerResult {
 pub struct Ladder {
     /// The players from weakest to strongest, in the order of the criteria.
     pub rungs: Vec<PlayerResult>,
-    /// The players that are held out until acceptance.
+    /// The players held out until acceptance.
     pub held_out: Vec<PlayerResult>,
     /// The ease, from 0 to 1 (`spec/06` §2.6); `None` if no player looks ahead.
     pub ease: Option<f64>,
@@ -54,7 +54,7 @@ pub struct Ladder {
 }
 
 base::named_enum! {
-    /// The difficulty of a level (`spec/06` §2.6).
+    /// A level's difficulty (`spec/06` §2.6).
     pub enum Difficulty {
         /// The ease is 0.8 or more.
         VeryEasy = "very_easy",
@@ -72,7 +72,7 @@ base::named_enum! {
 }
 
 impl Difficulty {
-    /// The labels that can be requested, each with its range of eases: lower end (inclusive) and upper end (exclusive).
+    /// The labels that can be requested, each with its ease range: lower end (inclusive) and upper end (exclusive).
     pub const LABELS: [(Difficulty, [f64; 2]); 5] = [
         (Difficulty::VeryEasy, [0.8, 1.0]),
         (Difficulty::Easy, [0.6, 0.8]),
@@ -81,7 +81,7 @@ impl Difficulty {
         (Difficulty::VeryHard, [0.0, 0.2]),
     ];
 
-    /// Returns the range of eases of a label; `None` for [`Difficulty::Unbeaten`].
+    /// Returns a label's ease range; `None` for [`Difficulty::Unbeaten`].
     pub fn eases(self) -> Option<[f64; 2]> {
         Difficulty::LABELS.into_iter().find(|(label, _)| *label == self).map(|(_, eases)| eases)
     }
@@ -92,7 +92,7 @@ impl Difficulty {
     }
 }
 
-/// The error for a label that is not in [`Difficulty::LABELS`].
+/// The error for a label not in [`Difficulty::LABELS`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("unknown difficulty `{0}`: choose very_easy, easy, medium, hard or very_hard")]
 pub struct UnknownDifficulty(String);
@@ -100,7 +100,7 @@ pub struct UnknownDifficulty(String);
 impl FromStr for Difficulty {
     type Err = UnknownDifficulty;
 
-    /// Parses a label that can be requested. For example, `very_easy`, `very-easy` and `very easy` are equal.
+    /// Parses a requestable label. For example, `very_easy`, `very-easy` and `very easy` are equivalent.
     fn from_str(text: &str) -> Result<Difficulty, UnknownDifficulty> {
         let plain = text.replace(['_', '-'], " ");
         let mut labels = Difficulty::LABELS.into_iter().map(|(label, _)| label);
@@ -114,37 +114,37 @@ impl fmt::Display for Difficulty {
     }
 }
 
-/// The players of a ladder and the limits of their episodes.
+/// A ladder's players, and the limits on their episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LadderConfig {
-    /// The players of the ladder, from weakest to strongest.
+    /// The ladder's players, from weakest to strongest.
     pub rungs: Vec<ReferencePlanner>,
     /// The held-out players, which never guide a search.
     pub held_out: Vec<ReferencePlanner>,
-    /// The maximum number of episodes of each player.
+    /// The maximum number of episodes per player.
     pub plays: u64,
-    /// The total number of forward-model calls of all episodes, after which no further round begins.
+    /// The total number of forward-model calls, over all episodes, after which no further round begins.
     pub calls: u64,
-    /// The maximum number of ticks of an episode.
+    /// The maximum number of ticks per episode.
     pub ticks: usize,
-    /// The multiple of the witness's ticks that limits an episode if there is a witness. The limit is this multiple
-    /// plus 50 ticks.
+    /// The limit on an episode's ticks if there is a witness, as a multiple of the witness's ticks. The total limit is
+    /// this multiple plus 50 ticks.
     pub patience: usize,
 }
 
 /// The number of ticks added to the multiple of the witness's ticks.
 const GRACE: usize = 50;
 
-/// The number of episodes of each player in a round.
+/// The number of episodes per player in a round.
 const ROUND: u64 = 2;
 
-/// The episodes of each player, by number. The rungs come first, then the held-out players.
+/// Each player's episodes, by number. The rungs come first, followed by the held-out players.
 pub(crate) struct LadderPlays {
     pub(crate) plays: Vec<Vec<Play>>,
 }
 
 impl LadderPlays {
-    /// Returns the number of episodes that were stopped because their calls ran out.
+    /// Returns the number of episodes stopped because their calls ran out.
     pub(crate) fn broken_off(&self, calls: u64) -> usize {
         let is_cut = |play: &&Play| {
             play.episode.outcome == Outcome::Ongoing
@@ -159,7 +159,7 @@ impl LadderConfig {
         self.rungs.iter().chain(&self.held_out)
     }
 
-    /// Measures the players on a level, and the resulting difficulty.
+    /// Measures the players on a level and the resulting difficulty.
     pub fn ladder(&self, case: Case<'_>) -> Ladder {
         self.measure(&self.play_all(case))
     }
@@ -174,13 +174,13 @@ impl LadderConfig {
         ROUND * self.players().count() as u64
     }
 
-    /// Lets every player play equally many episodes. Rounds go on until the episodes or the calls run out.
+    /// Lets every player play the same number of episodes. Rounds continue until the episodes or the calls run out.
     pub(crate) fn play_all(&self, case: Case<'_>) -> LadderPlays {
         self.play_within(case, u64::MAX, |_| false, &|| false)
     }
 
-    /// Plays like [`LadderConfig::play_all`], with three more limits. An episode stops at the first decision after
-    /// `calls` calls, at its tick limit, or once `stopped` returns `true`. No further round starts once `enough`
+    /// Plays like [`LadderConfig::play_all`], with three additional limits. An episode stops at the first decision
+    /// after `calls` calls, at its tick limit, or once `stopped` returns `true`. No further round starts once `enough`
     /// returns `true`.
     pub(crate) fn play_within(
         &self,
@@ -214,8 +214,8 @@ impl LadderConfig {
         all
     }
 
-    /// Computes the results of the episodes. The rewards of held-out players are scaled by the scores of the other
-    /// players, so that difficulty does not depend on held-out players.
+    /// Computes the results from the episodes. The rewards of held-out players are scaled by the other players' scores,
+    /// so that difficulty does not depend on held-out players.
     pub(crate) fn measure(&self, played: &LadderPlays) -> Ladder {
         let all = || played.plays[..self.rungs.len()].iter().flatten().map(|play| &play.episode);
         let scores = || all().map(|episode| episode.score);
@@ -252,7 +252,7 @@ fn won_in(episode: &Episode) -> Option<f64> {
 
 /// Returns the weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2). The step efficiency
 /// is `1 − mean ticks of wins / ticks of the longest episode`. The reward is missing if all scores are equal, and the
-/// efficiency is missing without a win. The weight of a missing value goes to the remaining values.
+/// efficiency is missing without a win. A missing value's weight is distributed over the remaining values.
 fn ease(result: &PlayerResult, longest: f64) -> f64 {
     let Rate { wins, plays, .. } = result.rate;
     let won = wins as f64 / plays.max(1) as f64;
@@ -262,7 +262,7 @@ fn ease(result: &PlayerResult, longest: f64) -> f64 {
     terms.iter().map(|(weight, term)| weight * term.unwrap_or_default()).sum::<f64>() / weight
 }
 
-/// The win rate of some episodes, with their scores.
+/// The win rate over some episodes, with their scores.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// The number of episodes won.
@@ -271,14 +271,14 @@ pub struct Rate {
     pub plays: u64,
     /// The 95% Wilson score interval of the win rate.
     pub interval: [f64; 2],
-    /// The total number of forward-model calls of all episodes.
+    /// The total number of forward-model calls over all episodes.
     pub calls: u64,
     /// The mean final score.
     pub mean_score: f64,
 }
 
 impl Rate {
-    /// Computes the rate of some episodes.
+    /// Computes the rate over some episodes.
     pub fn of<'a>(plays: impl IntoIterator<Item = &'a Play>) -> Rate {
         let plays: Vec<&Play> = plays.into_iter().collect();
         let wins = plays.iter().filter(|play| play.episode.outcome == Outcome::Won).count() as u64;

@@ -1,4 +1,4 @@
-//! Measures of a level in play, which are the axes of archives and of expressive range.
+//! Measures of a level in play: the axes of archives and of expressive range.
 
 use crate::criterion::Criterion;
 use crate::measures::ladder::{Ladder, PlayerResult, Rate};
@@ -12,57 +12,55 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The measures of a level with a win. The first six are computed from the witness. They describe one way to win the
-/// level, which is the shortest that was found. `shortest` and `skill` describe the level itself.
+/// The measures of a level with a win. The first six measures are computed from the witness, and describe the shortest
+/// win found. `shortest` and `skill` describe the level itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measures {
-    /// The number of ticks of the witness.
+    /// The number of ticks in the witness.
     pub ticks: usize,
-    /// The number of times that a sprite was pushed and moved, or was removed by the push. In Sokoban, these are the
-    /// pushes of the solution.
+    /// The number of pushes that moved or removed a sprite. In Sokoban, this is the number of pushes in the solution.
     pub pushes: usize,
-    /// The effect of choices, from 0 to 1. It is the fraction of the actions at a tick of the witness that lead to
-    /// distinct states ([`State::search_key`]), averaged over the ticks of the witness. With 1, every action matters.
-    /// With 1 / actions, no action matters.
+    /// The effect of choices, from 0 to 1: the fraction of actions that lead to distinct states
+    /// ([`State::search_key`]), averaged over the witness's ticks. At 1, every action matters. At 1 / actions, no
+    /// action matters.
     pub branching: f64,
-    /// The mechanics used, from 0 to 1, as the fraction of the game's interactions that the witness executes.
-    /// Interactions with the edge of the screen do not count, because walls can make these guards idle.
+    /// The mechanics used, from 0 to 1: the fraction of the game's interactions executed by the witness. Interactions
+    /// with the screen edge do not count, because walls can make these guards idle.
     pub mechanics: f64,
-    /// The interactions that the witness executes, as returned by [`used_rules`].
+    /// The interactions executed by the witness, as returned by [`used_rules`].
     pub rules: Vec<usize>,
-    /// The risk of losing along the witness, from 0 to 1. It is the probability that a random action at a tick of the
-    /// witness, followed by [`FORESIGHT`] − 1 more random actions, loses the game. The risk is averaged over the ticks
-    /// of the witness.
+    /// The risk of losing along the witness, from 0 to 1: the probability that a random action, followed by
+    /// [`FORESIGHT`] − 1 more random actions, loses the game, averaged over the witness's ticks.
     pub pressure: f64,
-    /// The number of ticks of the shortest win, if it is proved to be the shortest.
+    /// The number of ticks in the shortest win, if the win is proved to be the shortest.
     pub shortest: Option<usize>,
     /// The advantage of looking ahead, if a ladder was played.
     pub skill: Option<SkillGap>,
 }
 
-/// The advantage of players that look ahead over players that do not (`random`, `do-nothing`). The advantage is a mean
-/// over the players of each kind, including held-out players.
+/// The advantage of players that look ahead over players that do not (`random`, `do-nothing`). The advantage is
+/// computed from the mean over the players of each kind, including held-out players.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkillGap {
     /// The difference between the win rates, from −1 to 1.
     pub wins: f64,
-    /// The difference between the rewards ([`PlayerResult::reward`]), from −1 to 1; `None` if all episodes scored the
-    /// same.
+    /// The difference between the rewards ([`PlayerResult::reward`]), from −1 to 1; `None` if all episodes had the same
+    /// score.
     pub reward: Option<f64>,
 }
 
-/// The number of ticks that pressure looks ahead.
+/// The number of ticks by which pressure looks ahead.
 pub const FORESIGHT: usize = 8;
 /// The number of random futures per action.
 const FUTURES: u64 = 3;
-/// The maximum number of ticks of a witness that are sampled, evenly spread.
+/// The maximum number of evenly spaced witness ticks to sample.
 const MOMENTS: usize = 60;
 
 impl Measures {
-    /// Measures a level that was judged, and whose ladder may have been played. Returns `None` if the report has no
-    /// witness. The same arguments give the same numbers on every machine. Cost: a replay of the witness, and trials of
+    /// Measures a judged level, with or without a played ladder. Returns `None` if the report does not contain a
+    /// witness. The same arguments give the same numbers on every machine. Costs a replay of the witness, and trials of
     /// every action at up to 60 of its ticks. Each action is tried once for branching, and three times for up to
     /// [`FORESIGHT`] ticks for pressure. With five actions, the trials take at most 7,500 forward-model calls.
     pub fn of(
@@ -81,7 +79,7 @@ impl Measures {
         })
     }
 
-    /// Measures one way to play a level, without `shortest` and `skill`. Cost: that of [`Measures::of`].
+    /// Measures one episode on a level, without `shortest` and `skill`. Costs as much as [`Measures::of`].
     pub fn of_episode(analysis: &Analysis, level: &Level, episode: &Episode, seed: Seed) -> Measures {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
@@ -116,7 +114,7 @@ impl Measures {
 }
 
 impl SkillGap {
-    /// Compares the players of a ladder. Returns `None` unless some players look ahead and some do not.
+    /// Compares a ladder's players. Returns `None` unless some players look ahead and some do not.
     pub fn of(ladder: &Ladder) -> Option<SkillGap> {
         let players = || ladder.rungs.iter().chain(&ladder.held_out);
         let gap = |value: &dyn Fn(&PlayerResult) -> Option<f64>| {
@@ -132,8 +130,8 @@ impl SkillGap {
     }
 }
 
-/// Returns the interactions that an episode executes, as indices into
-/// [`Description::interactions`](engine::Description) in ascending order. Cost: that of the episode.
+/// Returns the interactions executed in an episode, as indices into [`Description::interactions`](engine::Description)
+/// in ascending order. Costs one episode.
 pub fn used_rules(game: &Game, level: &Level, episode: &Episode) -> Vec<usize> {
     let mut recorder = MeetingRecorder::new(game);
     let mut state = game.start(level, episode.seed);
@@ -143,10 +141,10 @@ pub fn used_rules(game: &Game, level: &Level, episode: &Episode) -> Vec<usize> {
     recorder.executed()
 }
 
-/// The name of the edge of the screen in interactions.
+/// The name of the screen edge in interactions.
 pub(crate) const EDGE: &str = "EOS";
 
-/// Returns `true` if an interaction is with the edge of the screen.
+/// Returns `true` if an interaction is with the screen edge.
 pub fn is_guard(game: &Game, line: usize) -> bool {
     let written = &game.description().interactions[line];
     written.first.text == EDGE || written.second.iter().any(|word| word.text == EDGE)
@@ -159,7 +157,7 @@ pub(crate) fn actions(game: &Game, state: &State) -> Vec<Action> {
     known.iter().copied().chain(idle).collect()
 }
 
-/// Returns the fraction of the actions that lead to distinct states with the same random draws.
+/// Returns the fraction of actions that lead to distinct states under the same random draws.
 fn different(game: &Game, state: &State) -> f64 {
     let actions = actions(game, state);
     let after = |&action: &Action| {
@@ -194,8 +192,8 @@ fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
     lost as f64 / all.max(1) as f64
 }
 
-/// Returns the number of sprites that were pushed in a tick and moved, or were removed. A push against an obstacle is
-/// undone in the same tick, and does not count.
+/// Returns the number of sprites moved or removed by a push in a tick. A push against an obstacle is undone in the same
+/// tick, and does not count.
 fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &State) -> usize {
     let pushes = |meeting: &&Meeting| {
         let of_line = analysis.encounters().iter().filter(|encounter| encounter.line == meeting.line);
@@ -214,7 +212,7 @@ fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &Sta
     moved.min(types.len())
 }
 
-/// Returns the number of pushes of an episode, as [`Measures::pushes`] counts them. Cost: that of the episode.
+/// Returns the number of pushes in an episode, counted as in [`Measures::pushes`]. Costs one episode.
 pub(crate) fn pushes_of(analysis: &Analysis, level: &Level, episode: &Episode) -> usize {
     let game = analysis.game();
     let mut state = game.start(level, episode.seed);
@@ -229,9 +227,9 @@ pub(crate) fn pushes_of(analysis: &Analysis, level: &Level, episode: &Episode) -
     pushes
 }
 
-/// Plays the reference's tree search ([`Mcts`]) on a level that has a win, and returns its win rate. An episode is
-/// stopped after [`Criteria::patience`] times the ticks of the witness plus 50. Cost: `mcts_plays` episodes with
-/// `decision` calls per tick.
+/// Runs the reference's tree search ([`Mcts`]) on a level with a witness, and returns its win rate. An episode is
+/// stopped after [`Criteria::patience`] times the witness's ticks plus 50. Cost: `mcts_plays` episodes with `decision`
+/// calls per tick.
 pub fn mcts_rate(game: &Game, level: &Level, witness: &Episode, criteria: &Criteria, seed: Seed) -> Rate {
     let ticks = witness.actions.len().saturating_mul(criteria.patience).saturating_add(50);
     let limits = Limits { ticks, ..Limits::default() };
@@ -246,7 +244,7 @@ pub fn mcts_rate(game: &Game, level: &Level, witness: &Episode, criteria: &Crite
     Rate::of(&plays)
 }
 
-/// A recorder of the executed interactions, and of the meetings of the current tick.
+/// A recorder for executed interactions, and for the current tick's meetings.
 pub(crate) struct MeetingRecorder {
     lines: Vec<bool>,
     pub(crate) meetings: Vec<Meeting>,
@@ -280,7 +278,7 @@ impl Watch for MeetingRecorder {
     }
 }
 
-/// A running mean, which is 0 if no values were added.
+/// A running mean; 0 if no values were added.
 #[derive(Default)]
 pub(crate) struct Mean {
     sum: f64,

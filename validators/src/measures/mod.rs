@@ -1,4 +1,4 @@
-//! Measures of games, levels and play, for the axes of archives and the lines of reports.
+//! Measures of games, levels and play, for archive axes and report lines.
 
 pub(crate) mod comparison;
 pub(crate) mod demand;

@@ -10,55 +10,54 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The measures of a game in play, as means over its levels with one episode per level. This is the first won episode,
-/// or the first episode of all if no episode is won.
+/// A game's measures in play, as means over its levels with one episode per level: the first won episode or, if no
+/// episode is won, the first episode.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlayMeasures {
     /// The pace, from 0 to 1: the fraction of ticks in which something other than the avatar moves, turns, appears,
     /// disappears or changes.
     pub pace: f64,
-    /// The number of executed interactions per tick, not counting guards ([`Guards`]). An interaction that puts the
-    /// same sprite back to the same position tick after tick counts once.
+    /// The number of executed interactions per tick, not counting guards ([`Guards`]). An interaction that returns the
+    /// same sprite to the same position tick after tick counts once.
     pub density: f64,
     /// The randomness, from 0 to 1: the fraction of actions, at some ticks, whose result differs between random seeds.
     pub chance: f64,
-    /// The total number of different interactions, not counting guards, that won episodes execute.
+    /// The total number of different interactions, not counting guards, executed in won episodes.
     pub mechanics: usize,
-    /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT). It is the look-ahead from a moment that shows
-    /// that the episode is better than careless play, because the episode wins, does not lose, or scores more. Careless
-    /// play presses random keys, except those that lose at once. A game that pays for every step, or kills a player who
-    /// does not act, has a low value. A game in which the good move looks like any other for a long time, or worse than
-    /// a greedy move, has a high value. The measure shows how far away the consequences are. Unlike the look-ahead that
-    /// a planner needs, its cost does not grow with the branching factor. Moments from which careless play also wins do
-    /// not count. The value is 0 if no moment counts.
+    /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT). From a given moment, this is the look-ahead
+    /// needed to see that the episode is better than careless play: that the episode wins, does not lose, or scores
+    /// more. Careless play presses random keys, except keys that lose immediately. The value is low in a game that
+    /// rewards every step or kills an inactive player. The value is high in a game where, for a long time, the good
+    /// move looks like any other or worse than a greedy move. The measure shows how far away the consequences are.
+    /// Unlike a planner's required look-ahead, its cost does not grow with the branching factor. Moments from which
+    /// careless play also wins do not count. The value is 0 if no moment counts.
     pub sight: f64,
     /// The despair on the way to a win, from 0 to 1. The lead at a moment is the fraction of careless futures that win
-    /// minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean over the moments of the
-    /// square root of the deficit if the game leads, or of 0 otherwise. This is the measure of Browne and Maire
+    /// minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean, over all moments, of the
+    /// square root of the deficit if the game leads, and of 0 otherwise. The measure follows Browne and Maire
     /// ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with three changes. The game is the opponent, careless
     /// futures give the value of a position, and the mean is taken over all moments, so that a single bad moment does
     /// not make a drama. A game that careless play can neither win nor lose has a drama of 0.
     pub drama: f64,
-    /// The number of times that the lead changes sides on the way to the win, at which the player leads, as a mean over
-    /// the episodes. This is the *lead change* of Browne and Maire, not divided by the number of moves.
+    /// The mean number of times that the lead changes sides on the way to the win, at which point the player leads. The
+    /// measure is Browne and Maire's *lead change*, not divided by the number of moves.
     pub lead_changes: f64,
     /// The number of levels with a measured episode.
     pub levels: usize,
 }
 
-/// The maximum number of moments of an episode from which futures start, evenly spread.
+/// The maximum number of evenly spaced moments per episode from which futures start.
 const MOMENTS: usize = 12;
 /// The number of random seeds with which to try an action.
 const CHANCES: u64 = 3;
-/// The maximum number of won episodes of a level to search for mechanics.
+/// The maximum number of won episodes per level to search for mechanics.
 const WINS: usize = 12;
 
 impl PlayMeasures {
-    /// Measures the recorded episodes of a game. Returns `None` if there are no recorded episodes. The same arguments
-    /// give the same numbers on every machine. Cost: a replay of the episodes, and some milliseconds of forward-model
-    /// calls per level. Futures take 12 × 8 × 64 calls, and at most three times as many. Randomness takes 12 × 6 × 3
-    /// calls.
+    /// Measures a game's recorded episodes. Returns `None` if there are no recorded episodes. The same arguments give
+    /// the same numbers on every machine. Costs a replay of the episodes, and a few milliseconds of forward-model calls
+    /// per level. Futures take 12 × 8 × 64 calls, and at most three times as many. Randomness takes 12 × 6 × 3 calls.
     pub fn of(analysis: &Analysis, recording: &[Recorded<'_>], seed: Seed) -> Option<PlayMeasures> {
         let game = analysis.game();
         let guards = Guards::of(analysis);
@@ -87,8 +86,8 @@ impl PlayMeasures {
     }
 }
 
-/// Returns the interactions that an episode executes, not counting guards, as indices into
-/// [`Description::interactions`](engine::Description). Cost: that of the episode.
+/// Returns the interactions executed in an episode, not counting guards, as indices into
+/// [`Description::interactions`](engine::Description). Costs one episode.
 pub(crate) fn mechanics(game: &Game, guards: &Guards, level: &Level, episode: &Episode) -> BTreeSet<usize> {
     let mut counter = Counter::new(guards);
     let mut state = game.start(level, episode.seed);
@@ -98,7 +97,7 @@ pub(crate) fn mechanics(game: &Game, guards: &Guards, level: &Level, episode: &E
     counter.lines
 }
 
-/// The pace, density, chance, sight, drama and lead changes of an episode.
+/// An episode's pace, density, chance, sight, drama and lead changes.
 struct Measured([Option<f64>; 6]);
 
 impl Measured {
@@ -160,8 +159,8 @@ fn others(game: &Game, state: &State) -> Vec<SpriteRecord> {
     records
 }
 
-/// Returns the fraction of the actions whose result differs between random seeds. Cost: actions × [`CHANCES`] calls, or
-/// no calls in a game in which randomness decides nothing.
+/// Returns the fraction of actions whose result differs between random seeds. Cost: actions × [`CHANCES`] calls, or no
+/// calls in a game without effective randomness.
 fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     if !analysis.is_stochastic() {
         return 0.0;
@@ -181,7 +180,7 @@ fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     unsure as f64 / actions.len() as f64
 }
 
-/// A counter of the executed interactions that are not guards.
+/// A counter for executed interactions other than guards.
 struct Counter<'a> {
     guards: &'a Guards,
     executions: u64,

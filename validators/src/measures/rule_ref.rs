@@ -1,12 +1,11 @@
-//! A reference to a rule of a game in the notation of its users: `box hole`, `box hole killSprite`, or the number of
-//! the rule's line.
+//! A user-written reference to a game rule: `box hole`, `box hole killSprite`, or the rule's line number.
 
 use crate::evidence::Line;
 use crate::measures::EDGE;
 use engine::{Analysis, EFFECTS, Episode, Level, Meeting, SpriteType, Watch, nearest};
 use itertools::Itertools;
 
-/// The interactions of one game that match a written name.
+/// The interactions in a game that match a written name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleRef {
     text: String,
@@ -15,31 +14,31 @@ pub struct RuleRef {
     meant: Vec<(usize, Option<Pair>)>,
 }
 
-/// The sprite that is acted upon, and its partner; `None` for the edge of the screen.
+/// The sprite that is acted upon, and its partner; `None` for the screen edge.
 type Pair = (SpriteType, Option<SpriteType>);
 
-/// The error for a name that refers to no rule.
+/// The error for a name that does not refer to any rule.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{text}` isn't an interaction of the game: {reason}")]
 pub struct RuleRefError {
-    /// The text of the reference, as written.
+    /// The reference, as written.
     pub text: String,
     /// The problem, possibly with a suggestion.
     pub reason: String,
 }
 
-/// The maximum number of interactions that a message lists.
+/// The maximum number of interactions listed in a message.
 const MAX_LISTED: usize = 4;
 
 impl RuleRef {
-    /// Parses the name of a rule. The name is either the number of the rule's line in the InteractionSet, counted from
-    /// 1, or the two sprites. The sprites are written as in the line or as types below those. The effect is needed if
-    /// the two sprites meet in more than one way. `box hole > killSprite` is equivalent to `box hole killSprite`. If
-    /// only an interaction in the opposite order has the two sprites, the name refers to that interaction.
+    /// Parses a rule name. The name is either the number of the rule's line in the InteractionSet, counted from 1, or
+    /// the names of the two sprites. Each sprite is named as in the line, or by a type below it. The effect is needed
+    /// if the two sprites meet in more than one way. `box hole > killSprite` is equivalent to `box hole killSprite`.
+    /// If the two sprites occur only in the opposite order, the name refers to that interaction.
     ///
     /// # Errors
-    /// Returns an error if the number is too large, or if the game has no such interaction, sprite or effect. The
-    /// message suggests alternatives.
+    /// Returns an error if the number is too large, or if the game does not contain the interaction, sprite or effect.
+    /// The message suggests alternatives.
     pub fn parse(analysis: &Analysis, text: &str) -> Result<RuleRef, RuleRefError> {
         let game = analysis.game();
         let wrong = |reason: String| Err(RuleRefError { text: text.to_owned(), reason });
@@ -105,8 +104,7 @@ impl RuleRef {
         self.meant.iter().map(|(line, _)| *line)
     }
 
-    /// Returns `true` if an episode executes one of the interactions on sprites of the given types. Cost: that of the
-    /// episode.
+    /// Returns `true` if an episode executes one of the interactions on sprites of the given types. Costs one episode.
     pub fn is_used(&self, analysis: &Analysis, level: &Level, episode: &Episode) -> bool {
         let game = analysis.game();
         let mut recorder = MeetingRecorder { rule: self, analysis, heard: false };
@@ -118,7 +116,7 @@ impl RuleRef {
     }
 }
 
-/// A watcher for executions of a rule.
+/// A watcher for a rule's executions.
 struct MeetingRecorder<'a> {
     rule: &'a RuleRef,
     analysis: &'a Analysis,
@@ -174,7 +172,7 @@ fn quoted(words: &[&str]) -> String {
     words.iter().map(|word| format!("`{word}`")).join(" and ")
 }
 
-/// Describes the interactions of a sprite.
+/// Describes a sprite's interactions.
 fn meetings_of(analysis: &Analysis, name: &str) -> String {
     let game = analysis.game();
     let lines = &game.description().interactions;

@@ -1,4 +1,4 @@
-//! Colour refinement, in which nodes are distinguished by their neighbours (Weisfeiler and Leman 1968).
+//! Colour refinement: distinguishes nodes by their neighbours (Weisfeiler and Leman 1968).
 //!
 //! A colour is a hash of the structure that it represents, so that the colours of different games can be compared.
 
@@ -6,7 +6,7 @@ use super::graph::RuleGraph;
 use base::Digest;
 use itertools::Itertools;
 
-/// The colour of a node.
+/// A node's colour.
 pub(super) type Colour = u64;
 
 /// Returns the colour that represents `bytes`.
@@ -15,10 +15,9 @@ pub(super) fn colour(bytes: &[u8]) -> Colour {
     Colour::from_le_bytes(digest.as_bytes()[..8].try_into().expect("eight of 32 bytes"))
 }
 
-/// The adjacency lists of a graph, for refinement.
+/// A graph's adjacency lists, for refinement.
 pub(super) struct Neighbours {
-    /// For each node, its neighbours. Each neighbour comes with the role that links the two nodes, including the
-    /// direction of the link.
+    /// For each node, its neighbours, each with the role that links the two nodes, including the link's direction.
     of: Vec<Vec<(Colour, usize)>>,
 }
 

@@ -1,10 +1,10 @@
-//! The rules of a game as a graph: nodes for types, rules and the objects that level characters place, and edges from a
-//! rule to the types that it names.
+//! The rules of a game as a graph: nodes for types, rules and the objects that level characters place, and edges from
+//! each rule to the types named in it.
 
 use crate::measures::EffectFamily;
 use engine::{Analysis, Clauses, Game, InteractionClause, Party, SpriteType, Term, Terms, TypeClause};
 
-/// The level of detail of a label.
+/// A label's level of detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Grain {
     /// Families of classes and effects, without parameters.
@@ -19,29 +19,29 @@ impl Grain {
     pub(super) const ALL: [Grain; 3] = [Grain::Coarse, Grain::Medium, Grain::Fine];
 }
 
-/// A node of the graph.
+/// A node in the graph.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     /// The labels, by grain, without type names.
     pub(super) labels: [String; 3],
-    /// The weight of the node in the distance.
+    /// The node's weight in the distance.
     pub(super) weight: u32,
-    /// The types that the node refers to, each with its role.
+    /// The types to which the node refers, each with its role.
     pub(super) edges: Vec<(String, usize)>,
 }
 
-/// The graph of a game, in which the nodes of types come first.
+/// A game's graph. Type nodes come first.
 #[derive(Clone, Debug)]
 pub(super) struct RuleGraph {
     pub(super) nodes: Vec<Node>,
-    /// The number of nodes that are types.
+    /// The number of type nodes.
     pub(super) types: usize,
-    /// The game's types that these nodes represent.
+    /// The game's types represented by the type nodes.
     pub(super) stypes: Vec<SpriteType>,
 }
 
-/// The weights of nodes. Rules that frame nearly every game weigh least, which are blocking at walls and at the edge of
-/// the screen, and the placement of a character. Terminations weigh most.
+/// The weights of nodes. Rules found in nearly every game weigh least: blocking at walls and at the screen edge, and
+/// the placement of a character. Terminations weigh most.
 const FRAME: u32 = 1;
 const TYPE: u32 = 2;
 const RULE: u32 = 4;
@@ -123,8 +123,8 @@ impl RuleGraph {
     }
 }
 
-/// Returns, for each type, `true` if a rule names it or a character places it. `wall` and `avatar`, which every game
-/// has, are not part of a game's rules if the file does not use them.
+/// Returns, for each type, `true` if a rule names the type or a character places it. `wall` and `avatar`, which exist
+/// in every game, are not part of a game's rules if the file does not use them.
 fn used(clauses: &Clauses) -> Vec<bool> {
     let mut used = vec![false; clauses.types.len()];
     let mut named = |terms: &Terms| {
@@ -147,8 +147,8 @@ fn used(clauses: &Clauses) -> Vec<bool> {
     used
 }
 
-/// Returns `true` for a rule that nearly every game has, which is blocking without a price or reward, or handling of
-/// the edge of the screen.
+/// Returns `true` for a rule found in nearly every game: blocking without a price or reward, or handling of the screen
+/// edge.
 fn is_frame(clause: &InteractionClause) -> bool {
     let blocks = EffectFamily::of(clause.effect) == Some(EffectFamily::Block);
     clause.second == Party::Edge || (blocks && clause.terms.is_empty())
@@ -184,7 +184,7 @@ fn labels_of_interaction(clause: &InteractionClause) -> [String; 3] {
 const COMPARED_PARAMETERS: [&str; 5] =
     ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
 
-/// Spells the parameters in the order of their keys, each after a space. Types are edges and are left out.
+/// Writes the parameters in key order, each after a space. Types are represented by edges, and are omitted.
 fn spell(terms: &Terms, grain: Grain) -> String {
     let mut spelled: Vec<String> = Vec::new();
     for (key, term) in terms {

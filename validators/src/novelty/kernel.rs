@@ -1,22 +1,22 @@
 //! The similarity of two rule graphs: a Weisfeiler–Lehman kernel.
 //!
-//! After each of a few rounds of colour refinement, the colours of the nodes are counted. A colour after h rounds
-//! represents the subtree of depth h below a node (Shervashidze et al., "Weisfeiler–Lehman graph kernels", JMLR 12,
-//! 2011). Counts are compared by intersection, as in the optimal-assignment form of the kernel (Kriege, Giscard and
-//! Wilson, "On valid optimal assignment kernels", NIPS 2016). With products of counts, ten walls would outweigh
-//! everything else. The intersection is divided by the union, which makes the distance a metric on the counts. It is 0
-//! only for equal counts.
+//! After each of several rounds of colour refinement, the node colours are counted. A colour after h rounds represents
+//! the subtree of depth h below a node (Shervashidze et al., "Weisfeiler–Lehman graph kernels", JMLR 12, 2011). Counts
+//! are compared by intersection, as in the optimal-assignment form of the kernel (Kriege, Giscard and Wilson, "On
+//! valid optimal assignment kernels", NIPS 2016). With products of counts, ten walls would outweigh everything else.
+//! The intersection is divided by the union, which makes the distance a metric on the counts. The distance is 0 only
+//! for equal counts.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 use itertools::Itertools;
 
-/// The rounds of refinement for each grain, and the weight of a colour in each round. Early rounds weigh more, because
-/// one changed rule alters the late colours of everything near it.
+/// The refinement rounds for each grain, and a colour's weight in each round. Early rounds weigh more, because one
+/// changed rule alters the late colours of all nearby nodes.
 const ROUNDS: [(Grain, &[u32]); 3] =
     [(Grain::Coarse, &[4, 4, 2]), (Grain::Medium, &[4, 4, 2]), (Grain::Fine, &[1, 1, 0, 1])];
 
-/// The colours of a game with their weights, sorted by colour.
+/// A game's colours with their weights, sorted by colour.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Features(Vec<(Colour, u32)>);
 

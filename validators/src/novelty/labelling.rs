@@ -1,27 +1,26 @@
-//! Canonical labelling, which gives one text for all games that differ only in names and order.
+//! Canonical labelling: produces the same text for all games that differ only in names and order.
 //!
 //! Colours are refined. While several types share a colour, one of them is individualized and the colours are refined
 //! again. The smallest of all texts produced in this way is the canonical text (McKay and Piperno, "Practical graph
-//! isomorphism, II", 2014). Types that can be exchanged without changing the rules, and branches found to be
-//! equivalent to an earlier one, are individualized only once.
+//! isomorphism, II", 2014). Types that can be exchanged without changing the rules, and branches found equivalent to
+//! an earlier branch, are individualized only once.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 use itertools::Itertools;
 
-/// The maximum number of texts to write. Games whose types are distinguished by colours, or are alike because they can
-/// be exchanged, need far fewer. Beyond the limit, the first of the types with equal colours represents all of them.
-/// That makes no difference if the types are equivalent, as they are unless the graph of the rules is adversarial. In
-/// an adversarial graph, two spellings of the same rules may get different texts. Different rules never get the same
-/// text.
+/// The maximum number of texts to write. Games need far fewer texts if their types are distinguished by colours or can
+/// be exchanged. Beyond the limit, the first type with a given colour represents all types with this colour. The
+/// result is the same if these types are equivalent, which is the case unless the rule graph is adversarial. In an
+/// adversarial graph, two versions of the same rules may get different texts. Different rules never get the same text.
 const MAX_LABELLINGS: usize = 200;
 
-/// The canonical text, with the types in the order of the text. It is equal for all graphs that differ only in names
-/// and order.
+/// The canonical text, with the types in text order. The text is equal for all graphs that differ only in names and
+/// order.
 #[derive(Clone, Debug)]
 pub(super) struct Labelled {
     pub(super) text: String,
-    /// The types of the graph, in the order of the text.
+    /// The graph's types, in text order.
     pub(super) order: Vec<usize>,
 }
 
@@ -48,7 +47,7 @@ struct Labelling<'a> {
 }
 
 impl Labelling<'_> {
-    /// Returns the smallest text that the given colours can be refined to.
+    /// Returns the smallest text to which the given colours can be refined.
     fn smallest(&mut self, colours: &[Colour]) -> Labelled {
         let first_cell = self.first_cell(colours);
         let Some((&first, others)) = first_cell.split_first() else { return self.write(colours) };
@@ -70,8 +69,8 @@ impl Labelling<'_> {
         best
     }
 
-    /// Returns the types with the first colour that several types share, without types that can be exchanged for an
-    /// earlier one.
+    /// Returns the types with the first colour shared by several types, without types that can be exchanged for an
+    /// earlier type.
     fn first_cell(&self, colours: &[Colour]) -> Vec<usize> {
         let types = &colours[..self.graph.types];
         let Some(&twice) = types.iter().duplicates().min() else { return Vec::new() };
@@ -109,7 +108,7 @@ impl Labelling<'_> {
         Labelled { text: types.join("\n") + "\n\n" + &rules.join("\n"), order }
     }
 
-    /// Returns the nodes as text, with types named by position. The types are in this order, and all other nodes are
+    /// Returns the nodes as text, with types named by position. Types are in the given order, and all other nodes are
     /// sorted.
     fn lines(&self, place: &[usize]) -> (Vec<String>, Vec<String>) {
         let line = |at: usize| {
@@ -124,7 +123,7 @@ impl Labelling<'_> {
         (types, rules.collect())
     }
 
-    /// Returns `true` if the rules stay the same when the two types are exchanged.
+    /// Returns `true` if exchanging the two types leaves the rules unchanged.
     fn can_be_exchanged(&self, one: usize, two: usize) -> bool {
         let same: Vec<usize> = (0..self.graph.types).collect();
         let mut exchanged = same.clone();

@@ -1,4 +1,4 @@
-//! The distance between two games by their rules, independent of names and the order of lines
+//! The distance between two games by their rules, independent of names and line order
 //! ([measurements](../../../docs/explanation/novelty.md)).
 
 mod colours;
@@ -16,11 +16,11 @@ use kernel::Features;
 ///
 /// The following parts of a game's text do not count:
 ///
-/// - the names and looks of sprite types;
-/// - the characters that levels are written in, except that the form includes which types are placed together;
+/// - the names and appearance of sprite types;
+/// - the level characters, except that the form includes which types are placed together;
 /// - the order of lines, and of partners on a line;
 /// - whether a parameter is inherited, written, or written with its default value;
-/// - types without sprites that only serve as parents and have no class of their own;
+/// - types without sprites that only serve as parents and do not have a class of their own;
 /// - lines that are not enabled;
 /// - `wall` and `avatar`, if neither the file declares them nor a rule names them.
 ///
@@ -31,33 +31,32 @@ pub struct GameForm {
     features: Features,
 }
 
-/// The distance below which two games are duplicates, which have the same rules with different numbers or in a
+/// The distance below which two games are duplicates. Duplicates have the same rules with different numbers or in a
 /// different theme.
 pub const NEAR: f64 = 0.3;
 
 impl GameForm {
-    /// Computes the form of a game. Cost: about a millisecond, and no forward-model calls.
+    /// Computes a game's form. Cost: about a millisecond, and no forward-model calls.
     pub fn of(game: &Game) -> GameForm {
         let graph = RuleGraph::of(game);
         let digest = Digest::of(labelling::canonical(&graph).text.as_bytes());
         GameForm { digest, features: Features::of(&graph) }
     }
 
-    /// Returns the digest, which is equal for games that differ only in parts that do not count. Different rules never
-    /// share a digest. The converse holds except for games with many types that look alike but are not equivalent, as
-    /// the source of `labelling` explains.
+    /// Returns the digest: equal for games that differ only in parts that do not count. Different rules never share a
+    /// digest. The converse holds except for games with many types that look alike but are not equivalent, as the
+    /// source of `labelling` explains.
     pub fn digest(&self) -> Digest {
         self.digest
     }
 
-    /// Returns the index and the distance of the nearest form. Among equally near forms, returns the first. Cost:
-    /// O(rules) per form.
+    /// Returns the index and distance of the nearest form. Ties go to the first form. Cost: O(rules) per form.
     pub fn nearest<'a>(&self, forms: impl IntoIterator<Item = &'a GameForm>) -> Option<(usize, f64)> {
         let apart = forms.into_iter().map(|form| distance(self, form)).enumerate();
         apart.reduce(|best, next| if next.1 < best.1 { next } else { best })
     }
 
-    /// Returns `true` if the two games are duplicates, which means that they are nearer than [`NEAR`].
+    /// Returns `true` if the two games are duplicates: their distance is less than [`NEAR`].
     pub fn is_near(&self, other: &GameForm) -> bool {
         distance(self, other) < NEAR
     }
@@ -69,9 +68,9 @@ pub fn distance(one: &GameForm, two: &GameForm) -> f64 {
     one.features.distance(&two.features)
 }
 
-/// Returns the types of a game in a canonical order, independent of names and of the order in the file. In games with
-/// equal forms, types at the same position correspond to each other. Types that can be exchanged without changing the
-/// rules may trade positions. Types that no rule names and no character places are left out. Cost: that of
+/// Returns the types of a game in a canonical order, independent of names and file order. In games with equal forms,
+/// types at the same position correspond to each other. Types that can be exchanged without changing the rules may
+/// trade positions. Types not named in any rule or placed by any character are omitted. Costs as much as
 /// [`GameForm::of`].
 pub fn canonical_types(game: &Game) -> Vec<SpriteType> {
     let graph = RuleGraph::of(game);
@@ -82,7 +81,7 @@ pub fn canonical_types(game: &Game) -> Vec<SpriteType> {
 mod tests {
     use super::*;
 
-    /// Returns the form of a game in which types chase each other as specified, and all of them kill the avatar.
+    /// Returns the form of a game in which types chase each other as specified, and all types kill the avatar.
     fn chase(chases: &[usize]) -> GameForm {
         let name = |number: usize| format!("t{number}");
         let sprites: String = chases
@@ -139,7 +138,7 @@ mod tests {
         assert_eq!(ring.nearest([]), None);
         assert!(ring.is_near(&ring) && distance(&ring, &pairs) > 0.0);
     }
-    /// Corresponding types have the same position, regardless of their names and their order.
+    /// Corresponding types have the same position, regardless of names and order.
     #[test]
     fn canonical_positions_are_distinct() {
         let game = |names: [&str; 3], order: [usize; 3]| {

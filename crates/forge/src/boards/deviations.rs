@@ -4,7 +4,7 @@ use super::shortest::{Limits, shortest_win};
 use base::Seed;
 use engine::{Action, Analysis, Level, Outcome};
 
-/// The minimum and maximum number of key presses in a deviation.
+/// The minimum and maximum number of key presses per deviation.
 const KEYS: (usize, usize) = (3, 5);
 
 /// The consequences of deviations from a win.
@@ -18,8 +18,8 @@ pub(super) struct Costs {
     pub(super) calls: u64,
 }
 
-/// Deviates from a win at `deviations` evenly spread ticks, and searches for a win after each deviation within the
-/// limits. Each deviation presses one different key a few times.
+/// Deviates from a win at `deviations` evenly spaced ticks, and then searches for a win within the limits. Each
+/// deviation presses one different key a few times.
 pub(super) fn deviate(
     analysis: &Analysis,
     level: &Level,

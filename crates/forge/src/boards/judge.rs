@@ -1,5 +1,4 @@
-//! The judge of a search for a board: it checks constraints, from cheapest to most expensive, and then measures the
-//! quality.
+//! The judge in a board search. Checks constraints, from cheapest to most expensive, and then measures the quality.
 
 use super::deviations::deviate;
 use super::likeness::are_one_board;
@@ -16,9 +15,9 @@ use std::collections::BTreeSet;
 use std::slice;
 use validators::{Criterion, CriterionSet, Gates, Judging, NotInstant, Panel, Report};
 
-/// The number of ticks that a player who does nothing must survive.
+/// The number of ticks that an idle player must survive.
 const GRACE: usize = 10;
-/// The number of ticks in which doing nothing must not win.
+/// The number of ticks within which an idle player must not win.
 const IDLE: usize = 200;
 /// The number of episodes with random actions.
 const RANDOM_PLAYS: u64 = 24;
@@ -26,11 +25,12 @@ const RANDOM_PLAYS: u64 = 24;
 const LUCKY: u64 = 1;
 /// The length of an episode with random actions, in ticks.
 const RANDOM_TICKS: usize = 400;
-/// The number of ticks by which a search for a win exceeds the longest wanted win.
+/// The number of ticks that a win search allows beyond the longest win requested.
 const BEYOND: usize = 20;
 /// The minimum and maximum fraction of deviations that should have a cost.
 pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
-/// The fraction of deviations that should kill the player, because players do not notice the cost of a mere dead end.
+/// The desired fraction of fatal deviations. Some deviations must be fatal because players do not notice the cost of a
+/// mere dead end.
 const DEATHS: f64 = 0.15;
 /// The number of cells that a mover should sweep.
 const SWEEP: f64 = 5.0;
@@ -40,20 +40,20 @@ const EMPTY: f64 = 0.25;
 const DEAD: f64 = 0.4;
 /// The weight of deviations in the quality.
 const TRAPS_WEIGHT: f64 = 0.24;
-/// The difference from the best quality beyond which a board is not examined closely.
+/// The distance from the best quality beyond which a board is not examined closely.
 const MARGIN: f64 = 0.05;
-/// The number of other futures in which a win is replayed.
+/// The number of alternative random futures in which a win is replayed.
 const FUTURES: u64 = 6;
-/// The number of constraints that are checked before a win is searched for.
+/// The number of constraints checked before the win search.
 const SEARCHED: f64 = 3.0;
-/// The fraction of its quality that a board loses if it meets no gate.
+/// The fraction of its quality that a board loses if it fails every gate.
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 8.0;
-/// The minimum fraction of the ordered uses that a win needs.
+/// The minimum fraction of the requested uses that a win must need.
 const LEAST_USES: f64 = 0.6;
 
-/// The judge of a search for a board.
+/// The judge in a board search.
 pub(super) struct Judge<'a> {
     pub(super) analysis: &'a Analysis,
     pub(super) order: &'a BoardOrder,
@@ -65,20 +65,20 @@ pub(super) struct Judge<'a> {
     pub(super) seed: Seed,
 }
 
-/// The judgement on a board.
+/// A judge's verdict on a board.
 #[derive(Clone, Debug)]
 pub(super) struct Judged {
     pub(super) evaluation: Evaluation,
     pub(super) calls: u64,
-    /// `true` if a win was searched for.
+    /// `true` if a win search was run.
     pub(super) is_searched: bool,
     /// The win of a feasible board, with its measures.
     pub(super) won: Option<(Episode, BoardMeasures)>,
 }
 
 impl Judged {
-    /// Returns the judgement on an infeasible board, from the number of constraints that it meets, and the degree to
-    /// which it meets the next constraint.
+    /// Returns the judgement on an infeasible board, from the number of constraints it meets and the degree to which
+    /// it meets the next.
     fn failed(met: f64, degree: f64, calls: u64) -> Judged {
         let feasibility = ((met + degree.clamp(0.0, 1.0)) / CONSTRAINTS).min(0.999);
         Judged {
@@ -91,8 +91,8 @@ impl Judged {
 }
 
 impl Judge<'_> {
-    /// Judges a board. The deviations of a board that is clearly worse than the best quality so far are not tried,
-    /// because no cost of deviations could change that. Such deviations count as costing nothing.
+    /// Judges a board. Skips the deviations if the board is clearly worse than the best so far, because no deviation
+    /// cost could change that. Skipped deviations count as costing nothing.
     pub(super) fn judge(&self, level: &Level, best: f64) -> Judged {
         if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
             return Judged::failed(0.0, 0.0, 0);
@@ -146,8 +146,8 @@ impl Judge<'_> {
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
 
-    /// Returns `None` if a player who does nothing neither wins nor loses soon. Otherwise returns how close the level
-    /// comes to that, from 0 to 0.5.
+    /// Returns `None` if an idle player does not win or lose soon. Otherwise returns how nearly the level meets this
+    /// condition, from 0 to 0.5.
     fn idle_fault(&self, level: &Level, calls: &mut u64) -> Option<f64> {
         let game = self.analysis.game();
         let mut state = game.start(level, self.seed);
@@ -163,7 +163,7 @@ impl Judge<'_> {
         None
     }
 
-    /// Counts the winning episodes with random actions, and stops once there are too many.
+    /// Counts the winning random episodes, and stops at the first one over the limit.
     fn lucky_plays(&self, level: &Level, calls: &mut u64) -> u64 {
         let game = self.analysis.game();
         let mut wins = 0;
@@ -267,7 +267,7 @@ impl Judge<'_> {
 }
 
 impl Judge<'_> {
-    /// Returns the fraction of the ordered uses that the win needs.
+    /// Returns the fraction of the requested uses that the win needs.
     fn needed_uses(&self, needed: &[usize]) -> f64 {
         let is_needed = |lines: &&Vec<usize>| lines.iter().any(|line| needed.contains(line));
         match self.order.uses.len() {
@@ -276,7 +276,7 @@ impl Judge<'_> {
         }
     }
 
-    /// Returns the fraction of the gates that a single board meets.
+    /// Returns the fraction of the single-board gates that the board meets.
     fn gates(&self, level: &Level, win: &Episode) -> f64 {
         let Some(panel) = &self.panel else { return 1.0 };
         let report = Report { judgements: Vec::new(), witness: Some(win.clone()) };
@@ -287,7 +287,7 @@ impl Judge<'_> {
         if judged.is_empty() { 1.0 } else { met as f64 / judged.len() as f64 }
     }
 
-    /// Returns the fraction of other futures in which the same actions win.
+    /// Returns the fraction of alternative random futures in which the same actions win.
     fn steady(&self, level: &Level, win: &[Action]) -> f64 {
         let game = self.analysis.game();
         let wins = (0..FUTURES).filter(|&future| {
@@ -302,8 +302,8 @@ impl Judge<'_> {
 pub(super) const ALONE: CriterionSet =
     CriterionSet::of(&[Criterion::Drama, Criterion::NoDeadTime, Criterion::ActorsMatter, Criterion::Tight]);
 
-/// Returns the quality of a won board. Necessity weighs most, followed by wrong choices that have a cost. Missed gates
-/// lower the total.
+/// Returns the quality of a won board. Necessity weighs most, followed by costly wrong choices. Missed gates lower the
+/// total.
 fn quality(measures: &BoardMeasures) -> f64 {
     let (low, high) = TRAPS;
     let traps = match measures.traps {
@@ -327,7 +327,7 @@ fn quality(measures: &BoardMeasures) -> f64 {
     own * (1.0 - GATES_WEIGHT * (1.0 - measures.gates))
 }
 
-/// Returns `true` if a board has every property that the search looks for.
+/// Returns `true` if the board has every property that the search requires.
 pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
         && measures.uses >= 1.0

@@ -1,10 +1,9 @@
-//! The likeness of two boards up to mirroring and rotation. It ensures that a course does not show the same board
-//! twice.
+//! The similarity of two boards, up to mirroring and rotation. Prevents a course from showing the same board twice.
 
 use engine::Level;
 
-/// The likeness at which two levels of a course count as the same board. The median of the highest likeness within a
-/// hand-written game is 0.54. Two of 27 such games have levels above this threshold.
+/// The similarity at which two levels of a course count as the same board. The median of the highest similarity within
+/// each hand-written game is 0.54. Two of 27 such games have levels above this threshold.
 const ONE_BOARD: f64 = 0.75;
 /// The symbol of bare floor in the levels of courses.
 const FLOOR: u8 = b'.';
@@ -23,9 +22,8 @@ pub(crate) fn are_one_board(one: &Level, other: &Level) -> bool {
     likeness(&Board::of(one), &Board::of(other)) >= ONE_BOARD
 }
 
-/// Returns the likeness of two boards, from 0 to 1. It is the fraction of equal cells among all cells that are not bare
-/// floor on both boards, for the best position of the second board. Cost: half a million comparisons for the largest
-/// boards of courses.
+/// Returns the similarity of two boards, from 0 to 1: the fraction of equal cells, ignoring cells that are bare floor
+/// on both boards, at the best alignment. Costs half a million comparisons for the largest course boards.
 fn likeness(one: &Board, other: &Board) -> f64 {
     let shifts = |a: usize, b: usize| {
         let spare = a as isize - b as isize;
@@ -60,8 +58,8 @@ impl Board {
         self.cells.iter().filter(|&&symbol| symbol != FLOOR).count()
     }
 
-    /// Returns the fraction of equal cells among all cells that are not bare floor on both boards. The second board is
-    /// shifted.
+    /// Returns the fraction of equal cells with the second board shifted, ignoring cells that are bare floor on both
+    /// boards.
     fn overlap(&self, other: &Board, (dx, dy): (isize, isize)) -> f64 {
         let (mut equal, mut shared) = (0, 0);
         for (at, &symbol) in other.cells.iter().enumerate().filter(|(_, symbol)| **symbol != FLOOR) {

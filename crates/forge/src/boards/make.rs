@@ -1,4 +1,4 @@
-//! The search for a board.
+//! The board search.
 
 use super::judge::{ALONE, Judge, Judged, is_complete};
 use super::necessity::Ablations;
@@ -9,17 +9,17 @@ use generators::boards::BoardVariation;
 use generators::{Annealing, AnnealingConfig, Search};
 use validators::{Effort, Panel};
 
-/// The number of boards to request per board of the budget. The budget counts only boards for which a win is searched.
+/// The number of boards to request per board in the budget. The budget counts only boards that reach the win search.
 const CHEAP: usize = 3;
-/// The maximum number of tidied boards that are judged at the end.
+/// The maximum number of tidied boards to judge at the end.
 const TIDIED: usize = 12;
 /// The maximum number of boards in the final judging.
 const SCRUTINIZED: usize = 3;
-/// The maximum quality that tidying may cost.
+/// The maximum loss of quality from tidying.
 const TIDY_LOSS: f64 = 0.01;
 
-/// Makes a board for any game: composes boards, anneals the best of them, and tidies the result. Returns `None` if no
-/// board was won as ordered within the budget, or if no character of the game places exactly one avatar.
+/// Generates a board for any game: composes boards, anneals the best of them, and tidies the result. Returns `None` if
+/// no board within the budget had a win that met the order, or if no character of the game places exactly one avatar.
 ///
 /// The same arguments make the same board on every machine. Cost: up to about [`BoardBudget::total`] forward-model calls.
 pub fn make_board(
@@ -31,18 +31,19 @@ pub fn make_board(
     search_boards(analysis, order, seed, budget).made
 }
 
-/// The result of a search for a board, whether or not one was found.
+/// The result of a board search, with or without a board.
 #[derive(Default)]
 pub(crate) struct BoardSearch {
     /// The board as returned by [`make_board`].
     pub(crate) made: Option<MadeBoard>,
-    /// The fraction of the constraints met by the board that is closest to being won as ordered; 1.0 if a board is won.
+    /// The fraction of constraints met by the board closest to a win that meets the order; 1.0 if a board has such a
+    /// win.
     pub(crate) feasibility: f64,
     /// The number of forward-model calls.
     pub(crate) calls: u64,
 }
 
-/// Makes a board like [`make_board`], and also returns how close the search came if no board was made.
+/// Generates a board like [`make_board`], and also returns how close the search came if it failed.
 pub(crate) fn search_boards(
     analysis: &Analysis,
     order: &BoardOrder,
@@ -85,13 +86,13 @@ pub(crate) fn search_boards(
     BoardSearch { feasibility, calls: best.calls, made: best.into_board() }
 }
 
-/// The best boards so far, and the cost.
+/// The best boards so far, and the cost of the search.
 #[derive(Default)]
 struct Best {
-    /// The boards in the order found. Each board is better or tidier than the board before it.
+    /// The boards, in the order found. Each board is better or tidier than the board before it.
     boards: Vec<(Level, Episode, BoardMeasures)>,
     evaluations: usize,
-    /// The number of boards for which a win was searched for.
+    /// The number of boards that reached the win search.
     searched: usize,
     /// The number of boards judged since the best board was found.
     stale: usize,
@@ -99,14 +100,15 @@ struct Best {
 }
 
 impl Best {
-    /// Returns `true` if a board was won, and neither the compositions nor many later changes have been better.
+    /// Returns `true` if a board was won, and neither the compositions nor many later changes have improved on the best
+    /// board.
     fn is_stale(&self, budget: &BoardBudget) -> bool {
         !self.boards.is_empty()
             && self.stale >= budget.patience
             && self.evaluations >= budget.compositions + budget.patience
     }
 
-    /// Returns `true` if many boards were searched, and none was won as ordered.
+    /// Returns `true` if many boards were searched, and no win met the order.
     fn is_hopeless(&self, budget: &BoardBudget) -> bool {
         self.boards.is_empty() && self.searched >= budget.hopeless
     }
@@ -119,7 +121,7 @@ impl Best {
         self.boards.last().map_or(0.0, |(.., measures)| measures.quality)
     }
 
-    /// Counts a judged board, and keeps the board if it is the best so far.
+    /// Counts a judged board, and stores it if it is the best so far.
     fn note(&mut self, level: &Level, judged: Judged) {
         self.evaluations += 1;
         self.calls += judged.calls;
@@ -157,8 +159,8 @@ impl Best {
         }
     }
 
-    /// Judges the best board again, with more calls. If its shortest win turns out to be too short, the previous best
-    /// board replaces it and is judged again.
+    /// Judges the best board again, with a larger budget in calls. If its shortest win turns out to be too short, the
+    /// previous best board replaces it and is judged again.
     fn scrutinize(&mut self, judge: &Judge<'_>) {
         let last = self.boards.len().saturating_sub(SCRUTINIZED);
         self.boards.drain(..last);

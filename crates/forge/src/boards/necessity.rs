@@ -1,29 +1,29 @@
-//! The interactions without which a board cannot be won, or not as quickly.
+//! The interactions without which a board cannot be won, or cannot be won as quickly.
 
 use super::shortest::{Limits, shortest_win};
 use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};
 use std::collections::BTreeMap;
 
-/// The minimum length of a win without an interaction at which the win counts as different, in hundredths of the ticks
-/// of the known win.
+/// The minimum length, as a percentage of the known win's ticks, at which a win without an interaction counts as
+/// different.
 const LONGER: usize = 115;
 
-/// Variants of a game, each without one of the interactions, with their analyses.
+/// Variants of a game with their analyses. Each variant omits one interaction.
 pub(crate) struct Ablations {
     without: BTreeMap<usize, Analysis>,
 }
 
 impl Ablations {
-    /// Analyses the games. Cost: one analysis per interaction.
+    /// Analyses the variants. Costs one analysis per interaction.
     pub(crate) fn of(analysis: &Analysis) -> Ablations {
         let game = analysis.game();
         let lines = 0..game.description().interactions.len();
         Ablations { without: lines.map(|line| (line, Analysis::of(&game.without(line)))).collect() }
     }
 
-    /// Returns the interactions, among those given, that a win of a level needs. Also returns the number of calls. Each
-    /// search for a different win may make `calls` calls.
+    /// Returns which of the given interactions a level's win needs, and the number of calls. Each search for a
+    /// different win may make `calls` calls.
     pub(crate) fn needed(
         &self,
         lines: impl IntoIterator<Item = usize>,
@@ -40,8 +40,8 @@ impl Ablations {
         (needed, all)
     }
 
-    /// Returns whether a win of a level needs an interaction. A win needs an interaction if its actions do not win
-    /// without the interaction, and no win of about the same length is found. Also returns the number of calls.
+    /// Returns whether a level's win needs an interaction, and the number of calls. The win needs the interaction if
+    /// its actions do not win without the interaction, and no other win of similar length is found.
     fn needs(&self, line: usize, level: &Level, win: &[Action], seed: Seed, calls: u64) -> (bool, u64) {
         let Some(analysis) = self.without.get(&line) else { return (false, 0) };
         let game = analysis.game();

@@ -1,18 +1,18 @@
-//! Orders of boards, search budgets, and search results.
+//! Board orders, search budgets and search results. An order states the requirements for a board.
 
 use engine::{Episode, Level};
 use generators::boards::BoardBrief;
 use validators::CheckedCriteria;
 
-/// The minimum and maximum length of a shortest win by slot, in ticks.
+/// The minimum and maximum length of a shortest win in ticks, by slot.
 const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
 
-/// An order for a board.
+/// The requirements for a board.
 #[derive(Clone, Debug)]
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The uses of types that a win must need. Each use is a set of interactions, as indices into
+    /// The type uses that a win must need. Each use is a set of interactions, as indices into
     /// [`Description::interactions`](engine::Description). A win needs a use if it needs one of the use's interactions.
     pub uses: Vec<Vec<usize>>,
     /// Earlier boards that the new board must not resemble.
@@ -21,12 +21,12 @@ pub struct BoardOrder {
     pub known: Vec<Vec<usize>>,
     /// The minimum and maximum number of ticks of the shortest win.
     pub ticks: (usize, usize),
-    /// The criteria whose gates the board should meet by itself, as far as a single level can meet them.
+    /// The criteria whose gates the board should meet on its own, as far as a single level can.
     pub gates: Option<CheckedCriteria>,
 }
 
 impl BoardOrder {
-    /// Creates an order with the usual contents and length for the brief's slot.
+    /// Creates an order with the default contents and length for the brief's slot.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
         BoardOrder { brief, uses: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
@@ -34,28 +34,27 @@ impl BoardOrder {
 }
 
 base::with_defaults! {
-    /// The budget of a search for a board. It contains no times, so the result is the same on every machine.
+    /// The budget of a board search. The budget contains no durations, so the result is the same on every machine.
     #[derive(Clone, Debug, PartialEq)]
     pub struct BoardBudget {
-        /// The number of compositions to begin with. The search then changes the best composition.
+        /// The number of initial compositions. The search then changes the best composition.
         pub compositions: usize = 24,
-        /// The total number of boards for which a win is searched, including compositions.
+        /// The total number of boards that reach the win search, including compositions.
         pub evaluations: usize = 60,
-        /// The number of boards without an improvement after which the search ends, once a board is won.
+        /// The number of boards without improvement after which the search ends, once a board is winnable.
         pub patience: usize = 24,
-        /// The number of boards for which a win is searched without success after which the search ends.
+        /// The number of boards without a win after which the search ends.
         pub hopeless: usize = 32,
-        /// The maximum number of forward-model calls of a search for the shortest win.
+        /// The maximum number of forward-model calls in a search for the shortest win.
         pub calls: u64 = 40_000,
-        /// The maximum number of forward-model calls of a search for a win without one of the interactions, or after a
-        /// deviation.
+        /// The maximum number of forward-model calls in a search for a win without an interaction or after a deviation.
         pub small_calls: u64 = 5_000,
-        /// The factor by which `calls` and `small_calls` grow for the final judging of the best board. With a factor of
-        /// 1, there is no final judging.
+        /// The factor by which `calls` and `small_calls` are multiplied for the final judging of the best board. With a
+        /// factor of 1, there is no final judging.
         pub scrutiny: u64 = 8,
         /// The number of deviations from the win to try.
         pub deviations: usize = 10,
-        /// The total number of forward-model calls after which no further board is judged.
+        /// The total number of forward-model calls after which no more boards are judged.
         pub total: u64 = 4_000_000,
     }
 }
@@ -69,7 +68,7 @@ pub struct MadeBoard {
     pub win: Episode,
     /// The properties of the board.
     pub measures: BoardMeasures,
-    /// `true` if the board has every property that the search looks for.
+    /// `true` if the board has every property that the search requires.
     pub is_complete: bool,
     /// The number of boards judged in the search.
     pub evaluations: usize,
@@ -84,13 +83,13 @@ pub struct BoardMeasures {
     pub quality: f64,
     /// The number of ticks of the win.
     pub ticks: usize,
-    /// `true` if it is proved that no win takes fewer ticks.
+    /// `true` if the win is proved to be the shortest.
     pub is_shortest: bool,
-    /// The fraction of other futures of the game in which the same actions win; 1.0 in deterministic games.
+    /// The fraction of alternative random futures in which the same actions win; 1.0 in deterministic games.
     pub steady: f64,
-    /// The interactions without which there is no win, or only a clearly longer win.
+    /// The interactions without which every win is clearly longer or does not exist.
     pub needed: Vec<usize>,
-    /// The fraction of the ordered uses that the win needs; 1.0 if no use was ordered.
+    /// The fraction of the requested uses that the win needs; 1.0 if no uses were requested.
     pub uses: f64,
     /// The fraction of deviations from the win after which the player is dead or no win is found.
     pub traps: f64,
@@ -98,18 +97,18 @@ pub struct BoardMeasures {
     pub deaths: f64,
     /// The fraction of placed types, not counting walls and floor, that take part in the win.
     pub used: f64,
-    /// The fraction of the gates that the board meets by itself; 1.0 if no gates were ordered.
+    /// The fraction of the gates that the board meets on its own; 1.0 if no gates were requested.
     pub gates: f64,
     /// The longest stretch of the win without an event, as a fraction of its ticks.
     pub dead: f64,
-    /// The mean number of cells swept by sprites that move by themselves; `None` without such sprites.
+    /// The mean number of cells swept by self-moving sprites; `None` without such sprites.
     pub sweep: Option<f64>,
     /// The area of the largest empty rectangle, as a fraction of the area within the border.
     pub emptiness: f64,
-    /// The interactions of the win, except those that only stop or turn something, in the order of their first
+    /// The interactions of the win, except those that only stop or turn a sprite, in the order of their first
     /// executions.
     pub firsts: Vec<usize>,
-    /// `true` if no known win has the same order of first executions.
+    /// `true` if no known win has the same order of first interactions.
     pub is_new: bool,
 }
 

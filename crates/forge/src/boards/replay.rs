@@ -7,17 +7,17 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The events of a win.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Events {
-    /// The interactions that did more than stop or turn something, in the order of their first executions.
+    /// The interactions that did more than stop or turn a sprite, in the order of their first executions.
     pub(super) firsts: Vec<usize>,
     /// The fraction of placed types, not counting walls and floor, that took part.
     pub(super) used: f64,
     /// The longest stretch without an interaction of `firsts`, as a fraction of the win's ticks.
     pub(super) dead: f64,
-    /// The mean number of cells swept by sprites that move by themselves.
+    /// The mean number of cells swept by self-moving sprites.
     pub(super) sweep: Option<f64>,
 }
 
-/// Returns `true` if an interaction only stops or turns its first sprite, and so is a guard.
+/// Returns `true` if an interaction only stops or turns its first sprite, which makes it a guard.
 pub(super) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     let idle = |effect: &EffectSummary| {
         matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_) | EffectSummary::Turn)
@@ -26,13 +26,13 @@ pub(super) fn is_guard(analysis: &Analysis, line: usize) -> bool {
     own.all(|met| met.effects.iter().all(idle))
 }
 
-/// Replays a win and returns the interactions that do more than stop or turn something, in the order in which they are
-/// first executed. Cost: that of the win's ticks.
+/// Replays a win and returns the interactions that do more than stop or turn a sprite, in the order in which they are
+/// first executed. Costs one replay of the win.
 pub(crate) fn first_executions(analysis: &Analysis, level: &Level, win: &Episode) -> Vec<usize> {
     events(analysis, level, win).firsts
 }
 
-/// Replays a win and returns its events. Cost: that of the win's ticks.
+/// Replays a win and returns its events. Costs one replay of the win.
 pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Events {
     let game = analysis.game();
     let mut state = game.start(level, win.seed);
@@ -69,7 +69,7 @@ pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Event
     }
 }
 
-/// Returns the types on a board that could take part.
+/// Returns the types on a board that could participate.
 fn placed(game: &Game, analysis: &Analysis, level: &Level) -> BTreeSet<SpriteType> {
     let types = level.cells().iter().flat_map(|&symbol| game.places(symbol)).copied();
     let plays = |stype: &SpriteType| {

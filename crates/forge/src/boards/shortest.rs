@@ -1,11 +1,11 @@
-//! Layered breadth-first search for a shortest win, which narrows its layers when calls run low.
+//! Layered breadth-first search for a shortest win, with layers that narrow when calls run low.
 
 use engine::analysis::{Goal, StateAbstraction};
 use engine::{Action, Analysis, Outcome, SearchKey, State};
 use std::collections::BTreeMap;
 use std::mem;
 
-/// The minimum number of states that a narrowed layer keeps.
+/// The minimum number of states in a narrowed layer.
 const LEAST_WIDTH: u64 = 40;
 
 /// The limits of a search.
@@ -22,21 +22,21 @@ pub(super) struct Limits {
 pub(super) struct Found {
     /// The actions of a win.
     pub(super) win: Option<Vec<Action>>,
-    /// `true` if the result is proved: no win is shorter than the one found, or no win exists within the maximum
+    /// `true` if the result is proved: either the win found is the shortest, or no win exists within the maximum
     /// number of ticks.
     pub(super) is_proved: bool,
     pub(super) calls: u64,
-    /// The minimum number of sprites that must still be removed or created for a win, over all states found.
+    /// The minimum number of sprites that must still be removed or created for a win, across all states found.
     pub(super) missing: u32,
 }
 
-/// The keys of the states met so far.
+/// The keys of the visited states.
 #[expect(clippy::disallowed_types, reason = "the map is used for look-ups and never iterated")]
 type Met = std::collections::HashSet<SearchKey>;
 
-/// Searches for a shortest win layer by layer. Once half of the calls are spent, only the most promising states of a
-/// layer are kept, spread over the positions of the avatar. In a stochastic game, the future of the start state
-/// represents all futures, and states are distinguished without their randomness. Such a search proves nothing.
+/// Searches for a shortest win layer by layer. Once half of the calls are spent, keeps only the most promising states
+/// per layer, spread over the avatar's positions. In a stochastic game, the future of the start state represents all
+/// futures, and states are distinguished without their randomness. Such a search proves nothing.
 pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -> Found {
     let is_certain = analysis.is_deterministic_from(start);
     let abstraction = analysis.abstraction(start).without_chance();
@@ -80,7 +80,7 @@ struct Search<'a> {
     /// For each node, the parent and the action that leads from the parent to the node.
     steps: Vec<(u32, Action)>,
     met: Met,
-    /// The states of expanded layers, whose buffers are used again.
+    /// The states of expanded layers, kept to reuse their buffers.
     spare: Vec<State>,
     found: Found,
     limits: Limits,
@@ -133,8 +133,8 @@ impl Search<'_> {
         (left / (6 * ticks.max(1) as u64)).max(LEAST_WIDTH)
     }
 
-    /// Returns the most promising states of a layer: states with the least missing, alternating between the positions
-    /// of the avatar.
+    /// Returns the most promising states of a layer: the fewest missing sprites first, alternating between the
+    /// avatar's positions.
     fn narrowed(&mut self, layer: Vec<(u32, State)>, width: usize) -> Vec<(u32, State)> {
         let mut turns: BTreeMap<(u32, Option<(i32, i32)>), u32> = BTreeMap::new();
         let mut ranked: Vec<(u32, usize)> = Vec::with_capacity(layer.len());
@@ -152,7 +152,7 @@ impl Search<'_> {
         kept.into_iter().map(|(state, _)| state).collect()
     }
 
-    /// Returns the actions that lead to a node, followed by one more action.
+    /// Returns the actions that lead to a node, followed by a final action.
     fn way(&self, mut node: u32, last: Action) -> Vec<Action> {
         let mut actions = vec![last];
         while node != 0 {

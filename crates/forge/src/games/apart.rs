@@ -5,17 +5,17 @@ use generators::Variation;
 use generators::invention::{Census, Invention, InventionConfig, InventionVariation};
 use validators::novelty::{GameForm, distance};
 
-/// The distance to every known game at which a draw is accepted at once.
+/// The distance to every known game at which a draw is accepted immediately.
 const FAR: f64 = 0.6;
-/// The maximum number of draws that are compared.
+/// The maximum number of draws to compare.
 const DRAWS: u64 = 12;
 
-/// The number of attempts at a game after which a different mechanic leads the draws.
+/// The number of attempts per game after which a different mechanic takes the lead in the draws.
 const PATIENCE: u32 = 6;
-/// The number of turns by which the lead then advances, which exceeds the number of games in a month.
+/// The number of turns by which the lead then advances. The stride exceeds the number of games in a month.
 const STRIDE: usize = 31;
 
-/// Inventions as candidates of a search, drawn at a large distance from known games. [`InventionVariation`] makes the
+/// Inventions as search candidates, drawn at a large distance from known games. [`InventionVariation`] makes the
 /// changes.
 pub(crate) struct FarInventions<'a> {
     variation: InventionVariation,
@@ -25,7 +25,7 @@ pub(crate) struct FarInventions<'a> {
 
 impl<'a> FarInventions<'a> {
     /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics with the lowest counts in
-    /// the census. If all games of an order use the same `seed`, different mechanics lead their draws.
+    /// the census. If all games in an order use the same `seed`, their draws are led by different mechanics.
     pub(crate) fn new(
         census: &Census,
         known: &'a [GameForm],
@@ -39,7 +39,7 @@ impl<'a> FarInventions<'a> {
     }
 
     /// Returns the child, or its parent if the child has lost the lead mechanic. Otherwise, searches for different
-    /// games would end at the mechanics that pass most easily.
+    /// games would converge on the mechanics that pass most easily.
     fn led(&self, child: Invention, parent: &Invention) -> Invention {
         let has_lead = |invention: &Invention| invention.mechanics().any(|name| name == self.lead);
         if has_lead(parent) && !has_lead(&child) { parent.clone() } else { child }
@@ -49,8 +49,8 @@ impl<'a> FarInventions<'a> {
 impl Variation for FarInventions<'_> {
     type Candidate = Invention;
 
-    /// Returns the first draw that lies far from every known game. If none of [`DRAWS`] draws does, returns the
-    /// farthest draw.
+    /// Returns the first draw that is far from every known game. If none of the [`DRAWS`] draws is far enough, returns
+    /// the farthest.
     fn create(&self, seed: Seed) -> Option<Invention> {
         let mut farthest: Option<(f64, Invention)> = None;
         for draw in 0..DRAWS {

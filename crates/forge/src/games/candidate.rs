@@ -8,41 +8,41 @@ use engine::{Analysis, Description, Episode, Game, syntax};
 use generators::games::GeneratedGame;
 use validators::Judgement;
 
-/// A candidate before it has levels.
+/// A candidate game without levels.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The rules of the game.
+    /// The game's rules.
     pub game: Game,
-    /// The title in the game's own theme.
+    /// The title in the game's theme.
     pub title: String,
     /// A description of the game for players.
     pub description: String,
-    /// The way to win, for players.
+    /// The way to win, as explained to players.
     pub goal: String,
     /// The kind of game.
     pub kind: String,
-    /// `true` if anything moves even while the player does nothing.
+    /// `true` if sprites move even while the player does nothing.
     pub real_time: bool,
-    /// The origin of the game.
+    /// The game's origin.
     pub origin: Origin,
 }
 
-/// A game with its levels, all of which were accepted by its judges.
+/// A game with levels that its judges accepted.
 #[derive(Clone, Debug)]
 pub struct MadeGame {
-    /// The rules of the game.
+    /// The game's rules.
     pub game: Game,
     /// The rules as text, headed by title and canary.
     pub text: String,
-    /// The card of the game.
+    /// The game's card.
     pub card: Card,
     /// The levels, from easiest to hardest.
     pub levels: Vec<FoundLevel>,
-    /// The findings about all levels together.
+    /// The findings about all levels as a whole.
     pub together: Vec<Judgement>,
     /// The episode that wins each level.
     pub witnesses: Vec<Episode>,
-    /// The seed of the levels and of the judges.
+    /// The seed for levels and judges.
     pub seed: SeedPath,
 }
 
@@ -56,7 +56,7 @@ impl Candidate {
         Candidate { game, title, description: summary, goal, kind, real_time, origin }
     }
 
-    /// Returns the game with its levels; `None` if the judges did not provide everything that a card contains.
+    /// Returns the game with its levels; `None` if the judges' results are not sufficient for a card.
     pub fn finish(self, found: FoundLevels, canary: &str) -> Option<MadeGame> {
         let Candidate { game, title, description, goal, kind, real_time, origin } = self;
         let mut tree = game.description().clone();
@@ -84,7 +84,7 @@ impl Candidate {
     }
 }
 
-/// Returns the text of a game headed by its title. A release's canary follows the title unless the canary is empty.
+/// Returns a game's text, headed by its title and a release's canary. An empty canary is omitted.
 pub fn marked(titled: &Description, canary: &str) -> String {
     let mut tree = titled.clone();
     if !canary.is_empty() {
@@ -94,7 +94,7 @@ pub fn marked(titled: &Description, canary: &str) -> String {
     syntax::print(&tree)
 }
 
-/// Converts a title to a folder name of lower-case letters, digits and single dashes.
+/// Converts a title to a folder name consisting of lower-case letters, digits and single dashes.
 pub fn slug(title: &str) -> String {
     let mut slug = String::new();
     for c in title.chars() {

@@ -17,15 +17,15 @@ pub struct FoundLevel {
     pub asks: Option<String>,
     /// The difficulty requested from the generator, from 0 to 1.
     pub difficulty: f64,
-    /// The level's index among the candidates for its place, from 0.
+    /// The level's index among the candidates for its position, from 0.
     pub candidate: u32,
-    /// The seed of the candidate.
+    /// The candidate's seed.
     pub seed: SeedPath,
-    /// The level's demands on a player, if it was made to a tier.
+    /// The level's demands on a player, if the level was made for a tier.
     pub demand: Option<Demand>,
 }
 
-/// Returns the seed for the judges of a candidate.
+/// Returns the seed for a candidate's judges.
 pub(crate) fn judges_seed(candidate: &SeedPath) -> SeedPath {
     candidate.child("judges", 0)
 }

@@ -1,4 +1,4 @@
-//! Making invented games by each method.
+//! Generates invented games by each method.
 
 use super::apart::FarInventions;
 use super::attempt::Attempted;
@@ -19,19 +19,18 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// The divisor of an attempt's looks that gives the looks of a further round of an archive. Such a round follows when
-/// the judges have rejected the elites.
+/// The divisor of an attempt's looks that determines the number of looks in a further archive round. Such a round
+/// follows if the judges have rejected the elites.
 const MENDING: usize = 3;
-/// The maximum number of games in a round. The resulting games depend on this number.
+/// The maximum number of games in a round. Changing this number changes the generated games.
 const ROUND: usize = 4;
-/// The maximum number of attempted games per ordered game.
+/// The maximum number of attempts per requested game.
 const ROUNDS: u32 = 4;
-/// The maximum number of elites that are judged in a round of an archive.
+/// The maximum number of elites to judge per archive round.
 const ELITES: usize = 3;
 
-/// Invents game `number` of an order, and makes the game within the order's attempts if possible. Prefers the mechanics
-/// with the lowest counts in the census, and keeps the game apart from known games only. Cost: minutes of one core per
-/// game.
+/// Invents game `number` of an order, if the order's number of attempts suffices. Prefers the mechanics with the lowest
+/// counts in the census, and keeps the game apart from known games only. Cost: several core minutes per game.
 pub fn invent_one(
     order: &GameOrder,
     census: &Census,
@@ -47,12 +46,12 @@ pub fn invent_one(
 /// Invents the games of an order in rounds. Each round knows the games of all earlier rounds. Any two of the games and
 /// the `known` games are at least [`NEAR`](validators::novelty::NEAR) apart, and no two games share a title or most of
 /// their names. `canary` marks the games' files. The same order, known games and seed give the same games on any number
-/// of threads. Cost: minutes of one core per game, on all threads of the current rayon pool.
+/// of threads. Cost: several core minutes per game, on all threads of the current rayon pool.
 ///
-/// If too few games succeed, the set has fewer games than ordered.
+/// If too few games succeed, the set contains fewer games than requested.
 ///
 /// # Errors
-/// Returns an error if games are ordered but no game is accepted.
+/// Returns an error if games are requested but no game is accepted.
 pub fn invent_games(
     order: &GameOrder,
     known: &[GameForm],
@@ -102,8 +101,8 @@ impl Maker<'_> {
         }
     }
 
-    /// Draws inventions, or anneals them, until one is accepted. If a search finds no invention, the judges see the
-    /// drawn one.
+    /// Draws inventions, or anneals them, until one is accepted. If a search finds no invention, the judges receive the
+    /// drawn invention.
     fn invent_in_attempts<'a>(&self, variation: impl Fn(u32) -> FarInventions<'a>, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         for attempt in 0..self.order.effort.attempts {
@@ -123,7 +122,7 @@ impl Maker<'_> {
         attempted
     }
 
-    /// Fills an archive with different inventions, and judges elites that lie far apart until one is accepted. Each
+    /// Fills an archive with diverse inventions, and judges elites that are far apart until one is accepted. Each
     /// attempt is a round. The first round fills the archive, and later rounds refill the cells that the judges
     /// rejected.
     fn invent_from_archive(&self, variation: &FarInventions<'_>, number: u32) -> Attempted {
@@ -151,8 +150,8 @@ impl Maker<'_> {
     }
 }
 
-/// Returns the axes of an archive of inventions: the number of ports filled by types with opposed uses, the main thing
-/// that the player does, and the fraction of types that move by themselves.
+/// Returns the axes of an invention archive: the number of ports filled by types with opposed uses, the player's main
+/// activity, and the fraction of types that move by themselves.
 fn axes() -> Vec<Axis> {
     vec![
         Axis::new("coupling", (2.0, 10.0), 4),
@@ -167,7 +166,7 @@ mod tests {
     use crate::pipeline::tests::order;
     use base::Seed;
 
-    /// Runs one round with few looks, and with judges that accept whatever is won.
+    /// Runs one round with few looks, and with judges that accept every winnable game.
     fn invent(method: Method, threads: usize) -> (Option<String>, Tally) {
         let order = GameOrder { method, levels: 1, level_tries: 1, ..order() };
         let order =

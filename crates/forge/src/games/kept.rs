@@ -1,4 +1,4 @@
-//! Results of attempts as texts, which are saved to disk so that an interrupted run can continue with the same bytes.
+//! Attempt results as text, saved to disk so that an interrupted run can be resumed with byte-identical output.
 
 use super::attempt::Attempted;
 use super::candidate::MadeGame;
@@ -26,16 +26,16 @@ pub struct Kept {
 pub struct KeptGame {
     /// The rules, headed by title and canary.
     pub text: String,
-    /// The game's card.
+    /// The game card.
     pub card: Card,
-    /// The texts of the levels.
+    /// The level texts.
     pub levels: Vec<String>,
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,
 }
 
 impl Kept {
-    /// Converts the result of an attempt to texts.
+    /// Converts an attempt's result to text.
     pub(super) fn of(attempted: &Attempted) -> Kept {
         let game = attempted.made.as_ref().map(|made| KeptGame {
             text: made.text.clone(),
@@ -46,7 +46,7 @@ impl Kept {
         Kept { game, tally: attempted.tally.clone() }
     }
 
-    /// Restores the result; `None` if the texts do not form a game. The judges' reports are not kept.
+    /// Restores the result; `None` if the texts do not form a game. The judges' reports are not restored.
     pub(super) fn restored(self) -> Option<Attempted> {
         let made = match self.game {
             Some(game) => Some(game.restored()?),

@@ -1,4 +1,4 @@
-//! The levels of a game, and the request for them.
+//! A game's levels, and the request for them.
 
 use crate::card::LevelCard;
 use crate::games::found_level::{FoundLevel, judges_seed};
@@ -13,7 +13,7 @@ use validators::{
     used_rules,
 };
 
-/// A candidate for a place, before it is judged.
+/// An unjudged candidate for a level.
 #[derive(Clone)]
 pub(crate) struct Drawn {
     pub(crate) level: Level,
@@ -21,23 +21,23 @@ pub(crate) struct Drawn {
     pub(crate) difficulty: f64,
     /// The candidate's index among the candidates for its position, from 0.
     pub(crate) candidate: u32,
-    /// The seed of the candidate.
+    /// The candidate's seed.
     pub(crate) seed: SeedPath,
     /// A known win; `None` if no win is known.
     pub(crate) win: Option<Episode>,
 }
 
-/// The levels of a game, and the findings about all of them together.
+/// The levels of a game, and the findings about them as a whole.
 #[derive(Clone, Debug)]
 pub struct FoundLevels {
-    /// The levels in the order of the game. If a ladder played, the levels go from easiest to hardest for the
-    /// ladder. Otherwise they have the requested order.
+    /// The levels in the order of the game. If a ladder played, the levels are sorted from easiest to hardest
+    /// for the ladder. Otherwise they are in the requested order.
     pub levels: Vec<FoundLevel>,
     /// The win rate of plain tree search on each level.
     pub mcts: Vec<Rate>,
-    /// The findings of the judges of the whole game.
+    /// The findings of the judges for the whole game.
     pub together: Vec<Judgement>,
-    /// The seed of candidates and judges.
+    /// The seed for candidates and judges.
     pub seed: SeedPath,
 }
 
@@ -54,17 +54,17 @@ pub struct Levels<'a> {
     pub criteria: &'a CheckedCriteria,
     /// The judges of these criteria.
     pub panel: &'a Panel,
-    /// The seed of candidates and judges.
+    /// The seed for candidates and judges.
     pub seed: &'a SeedPath,
 }
 
 impl Levels<'_> {
-    /// Returns the judges of those requested criteria that are in a set.
+    /// Returns the judges of the requested criteria in a set.
     pub(crate) fn panel_of(&self, set: CriterionSet) -> Panel {
         Panel::new(self.criteria.only(set), Effort::Sequential)
     }
 
-    /// Judges a candidate. Returns `None` if it does not meet all criteria.
+    /// Judges a candidate. Returns `None` if the candidate fails a criterion.
     pub(crate) fn judge_drawn(
         &self,
         panel: &Panel,
@@ -103,8 +103,8 @@ impl FoundLevel {
         self.report.ladder().and_then(|ladder| ladder.ease).unwrap_or_default()
     }
 
-    /// Returns the card of the level and the winning episode; `None` unless the judges include those for idle
-    /// play, random play and winning.
+    /// Returns the level's card and the winning episode; `None` unless the judges include those for idle play,
+    /// random play and winning.
     pub(crate) fn card(&self, number: usize, mcts: &Rate) -> Option<(LevelCard, Episode)> {
         let report = &self.report;
         let rate = |criterion: Criterion| -> Option<Rate> { report.finding(criterion)?.measured.clone() };

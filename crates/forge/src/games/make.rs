@@ -1,4 +1,4 @@
-//! Making games of kernels.
+//! Builds games from kernels.
 
 use super::attempt::Attempted;
 use super::candidate::{Candidate, MadeGame};
@@ -14,16 +14,16 @@ use generators::kernels::KernelGenome;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// The games made for an order.
+/// The games generated for an order.
 #[derive(Clone, Debug, Default)]
 pub struct GameSet {
-    /// The games that could be made, ordered by number.
+    /// The successfully generated games, ordered by number.
     pub games: Vec<MadeGame>,
     /// The numbers of candidates tried, and the reasons why some failed.
     pub tally: Tally,
 }
 
-/// The errors of making games.
+/// The errors of game generation.
 #[derive(Debug, thiserror::Error)]
 pub enum GamesError {
     /// No candidate passed all judges.
@@ -31,22 +31,22 @@ pub enum GamesError {
         "no game was accepted ({looks} inspected, {} judged): {}", .tally.games_tried, .tally.reasons(), looks = .tally.looks()
     )]
     NoneAccepted {
-        /// The candidates that a search looked at, the candidates that were judged, and the reasons why they failed.
+        /// The numbers of candidates searched and judged, and the reasons for failures.
         tally: Box<Tally>,
     },
 }
 
-/// Makes the games of an order from kernels. `canary` marks their files. The same order, known games and seed give the
-/// same games on any number of threads.
+/// Builds an order's games from kernels. `canary` marks their files. The same order, known games and seed give the same
+/// games on any number of threads.
 ///
 /// - Any two of the games and the `known` games are at least [`NEAR`](validators::novelty::NEAR) apart.
 /// - No two games share a title or most of their names.
-/// - Each kernel has one game before any kernel has two.
+/// - Each kernel is used once before any kernel is used twice.
 /// - At most three games of twenty are of the same kind.
 ///
-/// Cost: 20 to 30 seconds of one core per game, on all threads of the current rayon pool.
+/// Cost: 20 to 30 core seconds per game, on all threads of the current rayon pool.
 ///
-/// Games that could not be made are missing from the set.
+/// Games that could not be generated are missing from the set.
 ///
 /// # Errors
 /// Returns [`GamesError::NoneAccepted`] if not a single game was accepted.
@@ -60,9 +60,9 @@ pub fn make_games(
     Maker::of_kernels(order, known, canary, seed.into(), progress).make_in_rounds().unless_empty(order)
 }
 
-/// Makes game `number` of an order whose games are made one by one, from the [rules](RuleSets) assigned to that number.
-/// The game is kept apart from known games only, and does not depend on the other games of the order. Returns no game
-/// if all attempts fail. Cost and reproducibility are those of [`make_games`].
+/// Builds game `number` of an order whose games are generated one by one, from the [rules](RuleSets) assigned to that
+/// number. The game is kept apart from known games only, and does not depend on the other games of the order. Returns
+/// no game if all attempts fail. Cost and reproducibility are as for [`make_games`].
 pub fn make_one(
     order: &GameOrder,
     sets: &RuleSets,
@@ -74,9 +74,9 @@ pub fn make_one(
     (made, tally)
 }
 
-/// Attempts to make a game of a kernel, in one of the open forms. This function is meant for authors of kernels.
-/// `number` is the number of the attempt. Cost: 1 to 15 seconds of one core. Returns no game if there is no such kernel
-/// or form, or if the attempt fails for a reason in the tally.
+/// Attempts to build a game from a kernel, in one of the open forms. This function is meant for kernel authors.
+/// `number` is the number of the attempt. Cost: 1 to 15 core seconds. Returns no game if the kernel or form does not
+/// exist, or if the attempt fails for a reason in the tally.
 pub fn attempt_kernel(
     order: &GameOrder,
     kernel: &str,
@@ -97,7 +97,7 @@ pub fn attempt_kernel(
 /// The reason for leaving a position empty because no rules are left for it.
 pub const NO_RULES: &str = "no rules left";
 
-/// A maker of games by any of the methods.
+/// A game maker that supports every method.
 pub(super) struct Maker<'a> {
     pub(super) order: &'a GameOrder,
     pub(super) gate: GameGate<'a>,
@@ -106,7 +106,7 @@ pub(super) struct Maker<'a> {
 }
 
 impl GameSet {
-    /// Returns the set, or an error if it is empty although games were ordered.
+    /// Returns the set, or an error if it is empty although games were requested.
     pub(super) fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
         match self.games.is_empty() && order.count > 0 {
             true => Err(GamesError::NoneAccepted { tally: Box::new(self.tally) }),
@@ -116,7 +116,7 @@ impl GameSet {
 }
 
 impl<'a> Maker<'a> {
-    /// Creates a maker of games of kernels. Such games are drawn, regardless of the method of the order.
+    /// Creates a maker that builds games from kernels. Such games are drawn, regardless of the order's method.
     fn of_kernels(
         order: &'a GameOrder,
         known: &'a [GameForm],
@@ -128,13 +128,13 @@ impl<'a> Maker<'a> {
         Maker { order, gate, seed, progress }
     }
 
-    /// Returns the seed for one attempt at making a set.
+    /// Returns the seed for one attempt at generating a set.
     pub(super) fn seed_of(&self, number: u32) -> SeedPath {
         self.seed.child("game", u64::from(number))
     }
 
-    /// Returns the result of an attempt. If an interrupted run has kept the result, returns that result. Otherwise
-    /// makes the attempt and keeps its result.
+    /// Returns the result of an attempt. Reuses the result saved by an interrupted run, if there is one. Otherwise
+    /// makes the attempt and saves its result.
     pub(super) fn kept_or_made(&self, attempt: &str, make: impl FnOnce() -> Attempted) -> Attempted {
         if let Some(attempted) = self.progress.kept(attempt).and_then(Kept::restored) {
             return attempted;
@@ -163,7 +163,7 @@ impl<'a> Maker<'a> {
         }
     }
 
-    /// Attempts to make the game for a position, until a game is accepted.
+    /// Attempts to generate the game for a position, until a game is accepted.
     fn attempt(&self, sets: &RuleSets, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         let GameEffort { attempts, patience, .. } = self.order.effort;
@@ -191,7 +191,7 @@ mod tests {
     use super::*;
     use crate::pipeline::tests::order;
 
-    /// A chain of releases that has used up all rules ends in this situation.
+    /// A chain of releases ends in this situation once it has used up all rules.
     #[test]
     fn no_rules_are_no_games() {
         let (order, seed) = (order(), SeedPath::from(Seed::from_text("none")));

@@ -1,4 +1,4 @@
-//! Puzzles for one game, made to a tier: pushing puzzles with or without strays, lock puzzles, and yards.
+//! Puzzles for one game, generated for a tier: pushing puzzles with or without strays, lock puzzles, and yards.
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
 use base::{Seed, SeedPath};
@@ -12,7 +12,7 @@ use generators::levels::{
 use std::ops::Range;
 use validators::Tier;
 
-/// The request for the puzzles of a game.
+/// The request for a game's puzzles.
 #[derive(Clone, Debug)]
 pub struct PuzzleLevels {
     /// The configuration of the levels, with the board sizes.
@@ -21,7 +21,7 @@ pub struct PuzzleLevels {
     pub tiers: Vec<Tier>,
     /// The rules of the puzzles.
     pub rules: PuzzleRules,
-    /// The number of things to push in tiers 3 and 4.
+    /// The number of pushable objects in tiers 3 and 4.
     pub things: usize,
 }
 
@@ -32,30 +32,30 @@ pub enum PuzzleRules {
     Pushing,
     /// Lock puzzles, in which doors use up keys.
     Locks(Retold<LockRules>),
-    /// Yards, in which parcels are carried between carts.
+    /// Yards, in which the player carries parcels between carts.
     Yards(Retold<YardRules>),
-    /// Pushing puzzles among strays.
+    /// Pushing puzzles among strays (sprites that wander at random and kill).
     Strays(Retold<PushRules>),
 }
 
 impl PuzzleRules {
-    /// Returns the rules of lock puzzles for a game that has these rules in a different theme.
+    /// Returns the rules of lock puzzles for a game with these rules in a different theme.
     pub fn locks(rules: LockRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Locks(Retold::of(rules, LockRules::SYMBOLS, retold))
     }
 
-    /// Returns the rules of yards for a game that has these rules in a different theme.
+    /// Returns the rules of yards for a game with these rules in a different theme.
     pub fn yards(rules: YardRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Yards(Retold::of(rules, YardRules::SYMBOLS, retold))
     }
 
-    /// Returns the rules of pushing puzzles among strays for a game that has these rules in a different theme.
+    /// Returns the rules of pushing puzzles among strays for a game with these rules in a different theme.
     pub fn strays(rules: PushRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Strays(Retold::of(rules, PushRules::SYMBOLS, retold))
     }
 }
 
-/// Rules of puzzles, and the characters of their levels in the theme of a game.
+/// Puzzle rules, and their level characters in a game's theme.
 #[derive(Clone, Debug)]
 pub struct Retold<Rules> {
     rules: Rules,
@@ -80,11 +80,12 @@ impl<Rules> Retold<Rules> {
     }
 }
 
-/// A generator of puzzles for one position.
+/// A puzzle generator for one position.
 pub(crate) enum PuzzleGenerator<'a> {
     /// Generates pushing puzzles that meet a target.
     Pushing(Box<PuzzleVariation<'a>>),
-    /// Generates pushing puzzles without a target. The range is the number of actions in a win that the tier requires.
+    /// Generates pushing puzzles without a target. The range limits the number of actions in a win, as the tier
+    /// requires.
     Easy(Box<PuzzleVariation<'a>>, Range<usize>),
     Locks(LockConfig, &'a Retold<LockRules>),
     Yards(YardConfig, &'a Retold<YardRules>),
@@ -92,8 +93,8 @@ pub(crate) enum PuzzleGenerator<'a> {
 }
 
 impl PuzzleGenerator<'_> {
-    /// Generates the level for a seed, with actions that win it. The actions win either with the randomness of the
-    /// seed `of_win`, or if no stray is in the way.
+    /// Generates the level for a seed, with a winning sequence of actions. The actions win with the random draws of
+    /// the seed `of_win`, or as long as no stray is in the way.
     pub(crate) fn create_solved(
         &self,
         game: &Game,
@@ -133,13 +134,13 @@ impl PuzzleGenerator<'_> {
     }
 }
 
-/// The exclusive maximum number of actions in a win among strays. The longest fuse allows half as many actions again.
+/// The exclusive maximum number of actions in a win among strays. The longest fuse allows 50% more actions.
 const MOST_ACTIONS: usize = 160;
-/// The maximum number of floor plans to examine for a level.
+/// The maximum number of floor plans to examine per level.
 const FLOOR_PLANS: usize = 20_000;
 /// The maximum number of floor plans without a target.
 const FEW_FLOOR_PLANS: usize = 60;
-/// The number of levels to draw to find one with the number of actions that the tier requires.
+/// The number of levels to draw in search of one with the number of actions that the tier requires.
 const DRAWS: u64 = 40;
 
 impl PuzzleLevels {
@@ -202,7 +203,7 @@ impl PuzzleLevels {
     }
 }
 
-/// Returns the fraction of dead ends that a lock puzzle is made for. It is above the tier's threshold because a
+/// Returns the target fraction of dead ends in a lock puzzle. The target exceeds the tier's threshold because a
 /// bounded search does not prove all dead ends.
 fn dead_ends(tier: Tier) -> f64 {
     match tier {
@@ -212,8 +213,8 @@ fn dead_ends(tier: Tier) -> f64 {
     }
 }
 
-/// Returns the number of carts in a yard, and the fraction of the win's ticks at which the carts make it deadly to
-/// stay.
+/// Returns the number of carts in a yard, and the fraction of the win's ticks during which staying in place would be
+/// fatal.
 fn traffic(tier: Tier) -> (usize, f64) {
     match tier {
         Tier::One => (1, 0.0),
@@ -225,7 +226,7 @@ fn traffic(tier: Tier) -> (usize, f64) {
 
 /// Returns the target for a tier; `None` for tiers without a target. The generator counts the actions of a win with
 /// the minimum number of pushes. The shortest win has fewer actions, so there is a margin. Puzzles with more than
-/// three things require more pushes and actions.
+/// three pushable objects require more pushes and actions.
 fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     let pushes = match tier {
         Tier::One | Tier::Two => return None,
@@ -240,10 +241,9 @@ fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     })
 }
 
-/// Returns the win of a puzzle. This is the shortest win if `calls` forward-model calls suffice to prove that it is
-/// the shortest, and otherwise the win that the generator knows. In stochastic games nothing can be proved, so no
-/// search improves a known win. Also returns whether the win is proved to be the shortest, and the number of calls.
-/// Returns `None` if the known actions do not win.
+/// Returns a puzzle's win, whether the win is proved to be the shortest, and the number of calls. Returns the shortest
+/// win if `calls` forward-model calls suffice for the proof, and otherwise the generator's own win. In stochastic
+/// games nothing can be proved, so no search improves a known win. Returns `None` if the known actions do not win.
 pub(crate) fn win(
     analysis: &Analysis,
     level: &Level,
@@ -278,7 +278,7 @@ mod tests {
     use super::*;
     use validators::GameForm;
 
-    /// No two games of a release are duplicates.
+    /// No two games in a release are duplicates.
     #[test]
     fn rules_of_puzzles_differ() {
         let pushing = PushRules::ALL.iter().map(|rules| (rules.name(), rules.game()));
@@ -335,7 +335,7 @@ mod tests {
         }
     }
 
-    /// In a different theme too, a thing that is pushed off a mat lands on floor, so no cell is bare.
+    /// In a different theme, too, an object pushed off a mat lands on floor, so every cell has ground.
     #[test]
     fn puzzles_have_floor_under_every_theme() {
         for rules in PushRules::ALL.into_iter().filter(|rules| rules.name().contains("mat")).take(2) {

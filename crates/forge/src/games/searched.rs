@@ -1,4 +1,4 @@
-//! Searches for invented games: looks at inventions, and passes the best of them to the judges.
+//! Searches for invented games: evaluates inventions quickly, and passes the best to the judges.
 
 use super::attempt::Attempted;
 use super::make::Maker;
@@ -9,11 +9,11 @@ use base::Seed;
 use generators::invention::{Invention, Profile};
 use generators::{Annealing, AnnealingConfig, Evaluation, Search, Variation};
 
-/// The feasibility of a game that passed a look and was rejected by the final judges.
+/// The feasibility of a game that passed a quick evaluation and was rejected by the final judges.
 pub(super) const REFUSED: f64 = 0.95;
 
-/// Looks at an invention cheaply. Returns the evaluation and the number of forward-model calls. Cost: that of the stage
-/// `quick look`.
+/// Evaluates an invention cheaply. Returns the evaluation and the number of forward-model calls. Costs one `quick look`
+/// stage.
 fn look(invention: &Invention, seed: Seed) -> (Evaluation, u64) {
     let Profile { coupling, verb, pace } = invention.profile();
     let measures = vec![coupling as f64, verb.number() as f64, pace];
@@ -26,7 +26,7 @@ fn look(invention: &Invention, seed: Seed) -> (Evaluation, u64) {
 }
 
 impl Maker<'_> {
-    /// Runs a search for a number of looks.
+    /// Runs a search with a given number of looks.
     pub(super) fn search(
         &self,
         search: &mut impl Search<Candidate = Invention>,
@@ -45,7 +45,7 @@ impl Maker<'_> {
         });
     }
 
-    /// Returns the best games of a search.
+    /// Returns the best games found by a search.
     pub(super) fn annealed(
         &self,
         variation: &impl Variation<Candidate = Invention>,

@@ -1,11 +1,11 @@
-//! The objective of a search for levels.
+//! The objective of a level search.
 
 use super::order::{LevelOrder, Method};
 use engine::{Analysis, Level};
 use generators::levels::{LevelMeasure, LevelMeasures};
 use validators::{Case, CheckedCriteria, Difficulty, Ladder, LadderConfig, Measures, RuleRef};
 
-/// The aim of a search.
+/// The aim of a level search.
 pub(super) struct Aim<'a> {
     analysis: &'a Analysis,
     order: &'a LevelOrder,
@@ -14,7 +14,7 @@ pub(super) struct Aim<'a> {
     climb: Option<LadderConfig>,
 }
 
-/// The aim's assessment of a level that can be won.
+/// The aim's assessment of a winnable level.
 pub(super) struct Told {
     /// The degree to which the win meets the order's demands, from 0.0 to 1.0.
     pub(super) constraint: f64,
@@ -26,21 +26,20 @@ pub(super) struct Told {
     pub(super) calls: u64,
 }
 
-/// The number of episodes of each ladder player in a look.
+/// The number of episodes per ladder player in a quick evaluation.
 const PLAYS: u64 = 6;
-/// The margin within a label's range of eases, next to other labels, that searches avoid. A second look may measure
-/// such a level beyond the boundary.
+/// The margin at the boundaries of a label's ease range that searches avoid. A second measurement may place a level in
+/// this margin beyond the boundary.
 const MARGIN: f64 = 0.08;
-/// The margin that an archive avoids. Levels outside the remaining range count for at most nine tenths.
+/// The margin that an archive avoids. Levels outside the remaining range count for at most 90%.
 const KEPT: f64 = 0.03;
 const CLOSE: f64 = 0.9;
-/// The win rate over all episodes of a ladder at which a second ladder will almost certainly have a winner too.
+/// The win rate over all ladder episodes above which a second ladder is almost certain to have a winner too.
 const SURELY_BEATEN: f64 = 0.05;
-/// The length at which a level is long enough, given as the number of times that the avatar could cross the board
-/// during the win.
+/// The required win length, as the number of times that the avatar could cross the board during the win.
 const CROSSINGS: f64 = 2.5;
 
-/// The measures that an archive may have as axes: the measures of the win, then [`LevelMeasure::ALL`].
+/// The measures available as archive axes: the measures of the win, then [`LevelMeasure::ALL`].
 pub(super) const OF_PLAY: [&str; 4] = ["solution length", "branching", "mechanics", "pressure"];
 
 /// Returns the names of all measures, in the order of [`Aim::measures`].
@@ -58,7 +57,7 @@ impl<'a> Aim<'a> {
         Aim { analysis, order, layout: LevelMeasures::new(analysis), climb }
     }
 
-    /// Assesses a level that its witness wins. Cost: a few replays of the witness, and the episodes of a ladder if a
+    /// Assesses a level with a winning witness. Costs a few replays of the witness, and a ladder's episodes if a
     /// difficulty is requested.
     pub(super) fn tell(&self, case: Case<'_>) -> Told {
         let witness = case.witness.expect("a level that can be won");
@@ -88,9 +87,8 @@ impl<'a> Aim<'a> {
         Told { constraint, objective, measures, calls }
     }
 
-    /// Returns the quality of a level, regardless of what is requested. A good level has a win that is long for the
-    /// board and in which most rules take part, choices that matter, losing never far away, and walls that are built
-    /// rather than scattered.
+    /// Returns a level's quality, regardless of the request. A good level's win is long for the board and involves
+    /// most rules. Its choices matter, a loss is never far away, and its walls form structures rather than noise.
     fn quality(&self, level: &Level, measures: &Measures) -> f64 {
         let sides = (level.columns() + level.rows()) as f64;
         let length = (measures.ticks as f64 / (CROSSINGS * sides)).min(1.0);
@@ -112,8 +110,8 @@ impl<'a> Aim<'a> {
     }
 }
 
-/// Returns how close a level is to a label. The value is 1.0 if the level is within the label's eases by a margin, and
-/// 0.0 if it is as far away as possible.
+/// Returns how close a level is to a label: 1.0 if the level is within the label's ease range by a margin, and 0.0 if
+/// it is as far away as possible.
 fn closeness(ladder: &Ladder, asked: Difficulty, margin: f64) -> f64 {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return 0.0 };
     let beyond = (low - ease).max(ease - high).max(0.0);
@@ -122,19 +120,19 @@ fn closeness(ladder: &Ladder, asked: Difficulty, margin: f64) -> f64 {
     (1.0 - beyond).max(0.0) * (0.8 + 0.2 * beaten)
 }
 
-/// Returns the part of a label's range of eases that is more than a margin away from any other label.
+/// Returns the part of a label's ease range that is more than a margin away from any other label.
 fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
     let [low, high] = label.eases()?;
     Some([if low > 0.0 { low + margin } else { low }, if high < 1.0 { high - margin } else { high }])
 }
 
-/// Returns `true` if a ladder measured a label with a margin.
+/// Returns `true` if a ladder's measurement confirms a label with a margin.
 pub(crate) fn bears(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return false };
     ladder.difficulty == asked && (low..=high).contains(&ease)
 }
 
-/// Returns the fraction of all episodes of a ladder that were won.
+/// Returns the fraction of a ladder's episodes that were won.
 pub(crate) fn wins(ladder: &Ladder) -> f64 {
     let plays: u64 = ladder.rungs.iter().map(|fared| fared.rate.plays).sum();
     let wins: u64 = ladder.rungs.iter().map(|fared| fared.rate.wins).sum();

@@ -1,4 +1,4 @@
-//! The measures by which an archive distinguishes levels.
+//! The measures by which an archive tells levels apart.
 
 use super::aim::{OF_PLAY, names};
 use super::look::Look;
@@ -8,23 +8,23 @@ use generators::Axis;
 const AXES: usize = 2;
 /// The minimum number of bins of an axis.
 const LEAST_BINS: usize = 8;
-/// The number of cells in an archive per level that it should yield.
+/// The number of archive cells per requested level.
 const ROOM: usize = 6;
-/// The number of won levels that a sample needs before measures of wins distinguish levels.
+/// The number of won levels that a sample must contain before win measures are used to distinguish levels.
 const LEAST_WON: usize = 4;
 
-/// The axes of an archive, and their positions among all measures.
+/// An archive's axes, and their indices among all measures.
 pub(super) struct Axes {
     pub(super) axes: Vec<Axis>,
     chosen: Vec<usize>,
 }
 
 impl Axes {
-    /// Chooses two axes: the length of the solution and, among all other measures, the one in which the won levels of a
-    /// sample differ most. If hardly any level was won, chooses the two measures of the board in which all levels
-    /// differ most. The ranges are those of the sample without its outliers, extended by half on either side.
+    /// Chooses two axes: the solution length and the other measure in which a sample's won levels differ most. If
+    /// hardly any level was won, chooses the two board measures in which all levels differ most. The ranges are those
+    /// of the sample without outliers, extended by half at both ends.
     ///
-    /// The looks of the sample contain all measures, in the order of [`names`].
+    /// The sample's looks contain all measures, in the order of [`names`].
     pub(super) fn of<'a>(sample: impl Iterator<Item = &'a Look> + Clone, wanted: usize) -> Axes {
         let won: Vec<&Look> = sample.clone().filter(|look| look.is_won).collect();
         let is_enough = won.len() >= LEAST_WON;
@@ -50,7 +50,7 @@ impl Axes {
         Axes { axes: chosen.iter().map(axis).collect(), chosen }
     }
 
-    /// Picks the measures of these axes from all measures.
+    /// Picks this archive's axes from all measures.
     pub(super) fn pick(&self, measures: &[f64]) -> Vec<f64> {
         self.chosen.iter().map(|&at| measures[at]).collect()
     }
@@ -61,8 +61,8 @@ mod tests {
     use super::*;
     use generators::Evaluation;
 
-    /// Returns a look at a level whose board differs in measures 5 and 6. If the level has a win, its length also
-    /// differs.
+    /// Returns a look at a level whose board differs in measures 5 and 6. For a won level, the win's length differs
+    /// too.
     fn look(at: usize, is_won: bool) -> Look {
         let mut measures = vec![0.5; names().count()];
         measures[..OF_PLAY.len()].fill(0.0);
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(Axes::of([].iter(), 1000).axes[0].range, (0.0, 1.5));
     }
 
-    /// Levels that nobody has won have no length, and would all share one bin.
+    /// Unwon levels have no length, and would all share one bin.
     #[test]
     fn levels_without_a_win_are_told_apart_by_their_boards() {
         let names: Vec<&str> = names().collect();

@@ -1,4 +1,4 @@
-//! Searches guided by judges: either one search per level, or an archive of different levels.
+//! Searches guided by judges: either one search per level, or a diverse archive of levels.
 
 use super::aim::Aim;
 use super::axes::Axes;
@@ -17,19 +17,19 @@ use generators::{Annealing, AnnealingConfig, MapElites, MapElitesConfig, Search}
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// The feasibility of a level that passed a look and was rejected by the panel.
+/// The feasibility of a level that passed a quick evaluation and was rejected by the panel.
 const REFUSED: f64 = 0.95;
-/// The fraction of an archive's effort that goes into new levels before breeding starts, because levels differ more
-/// than edits can change them.
+/// The fraction of an archive's effort spent on new levels before breeding starts, because new levels differ more than
+/// edited levels do.
 const CREATION: f64 = 0.4;
 /// The fraction of new levels after breeding has started.
 const FRESH: f64 = 0.1;
-/// The number of rounds in which nearly equal levels are not both taken. After these rounds, a nearly equal level is
-/// better than no level.
+/// The number of initial rounds that never accept two nearly equal levels. After these rounds, a nearly equal level is
+/// better than none.
 const CHOOSY: u32 = 2;
 
 impl Maker<'_> {
-    /// Anneals a level until the panel accepts a result. Each round is a separate search, and there are more rounds if
+    /// Anneals a level until the panel accepts a result. Each round is a separate search. There are more rounds if
     /// most looks are cheap.
     pub(super) fn search_level(
         &self,
@@ -79,7 +79,7 @@ impl Maker<'_> {
         (None, tally)
     }
 
-    /// Fills an archive and picks different levels from it, until the panel has accepted enough.
+    /// Fills an archive and picks diverse levels from it, until the panel has accepted enough.
     pub(super) fn evolve_levels(&self, variation: &LevelSearch<'_>) -> LevelSet {
         let aim = Aim::new(self.analysis, self.order, &self.criteria);
         let looker = Looker::new(self.analysis, self.order, aim, self.seed.child("look", 0));
@@ -142,8 +142,8 @@ impl Maker<'_> {
         set
     }
 
-    /// Creates levels until an effort is spent. These levels show in which measures the game's levels differ, and they
-    /// start an archive.
+    /// Creates levels until the effort is spent. These levels show by which measures the game's levels differ, and
+    /// seed an archive.
     fn create_levels(
         &self,
         variation: &LevelSearch<'_>,
@@ -180,8 +180,8 @@ impl Maker<'_> {
         found
     }
 
-    /// Runs a search, looks at its proposals on all threads, and reports the results to the search. Returns `true` if
-    /// the search proposed as many levels as requested.
+    /// Runs a search, evaluates its proposals on all threads, and reports the results to the search. Returns `true` if
+    /// the search proposed the requested number of levels.
     fn run_search<S: Search<Candidate = Level>>(
         &self,
         search: &mut S,

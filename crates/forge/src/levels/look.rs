@@ -1,4 +1,4 @@
-//! A quick look at a candidate, and the evaluation for a search.
+//! A quick evaluation of a candidate for a search.
 
 use super::aim::{Aim, Told};
 use super::order::LevelOrder;
@@ -11,23 +11,23 @@ use validators::{
     Case, Criteria, Criterion, Finding, NoEarlyDeath, NotIdle, NotRandom, Validator, Verdict, WellFormed,
 };
 
-/// The number of episodes in stochastic games in which the player does nothing.
+/// The number of idle episodes in stochastic games.
 const IDLE_PLAYS: u32 = 2;
 /// The number of episodes of random play.
 const RANDOM_PLAYS: u32 = 24;
-/// The number of further random episodes if one of the first episodes was won. They correct for the selection of lucky
-/// levels.
+/// The number of additional random episodes after a win among the first episodes. The additional episodes correct for
+/// the selection of lucky levels.
 const MORE_RANDOM_PLAYS: u32 = 48;
-/// The maximum fraction of random episodes that may be won, which is one of the first [`RANDOM_PLAYS`]. The panel, with
-/// other seeds, is stricter.
+/// The maximum fraction of won random episodes: one of the first [`RANDOM_PLAYS`]. The panel, with other seeds, is
+/// stricter.
 const RANDOM_WINS: f64 = 0.05;
-/// The number of futures of a stochastic game in which the first ticks must be survived.
+/// The number of random futures in a stochastic game in which the player must survive the first ticks.
 const CHANCES: u32 = 4;
-/// The divisor of a look's calls that gives the call budget for each of these futures.
+/// The divisor that derives each future's call budget from a look's calls.
 const EARLY: u64 = 50;
 
-/// Cheap looks at candidates for one order, with few episodes and a small budget. Candidates that pass must still be
-/// accepted by the panel.
+/// Cheap evaluations of candidates for one order, with few episodes and a small budget. Passing candidates must still
+/// be accepted by the panel.
 pub(super) struct Looker<'a> {
     game: &'a Game,
     analysis: &'a Analysis,
@@ -36,19 +36,19 @@ pub(super) struct Looker<'a> {
     seed: Seed,
 }
 
-/// The result of a look.
+/// The result of a quick evaluation.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
     /// The evaluation for the search.
     pub(super) evaluation: Evaluation,
     /// The first unmet constraint.
     pub(super) obstacle: Option<&'static str>,
-    /// `true` if a win, and therefore the measures of a win, is known.
+    /// `true` if a win, and therefore its measures, is known.
     pub(super) is_won: bool,
     /// The number of forward-model calls.
     pub(super) calls: u64,
-    /// The effort, as a number of looks of usual cost. It is [`LEAST_EFFORT`] if no win was searched for. Otherwise it
-    /// is one for every [`super::Effort::calls`] that the search for a win took, and at least one.
+    /// The effort, in looks of typical cost. Without a win search, the effort is [`LEAST_EFFORT`]. Otherwise the effort
+    /// is one per [`super::Effort::calls`] calls of the win search, with a minimum of one.
     pub(super) effort: f64,
 }
 
@@ -60,7 +60,7 @@ impl Look {
     }
 }
 
-/// The effort of a look that ends with the first, cheap judges.
+/// The effort of a look that ends at the first, cheap judges.
 pub(super) const LEAST_EFFORT: f64 = 1.0 / 8.0;
 
 /// The cost of a look so far.
@@ -68,7 +68,7 @@ pub(super) const LEAST_EFFORT: f64 = 1.0 / 8.0;
 struct Spent {
     /// The number of forward-model calls.
     calls: u64,
-    /// The number of calls of the search for a win; `None` if no win was searched for.
+    /// The number of calls in the win search; `None` if no win search was run.
     searched: Option<u64>,
 }
 
@@ -78,11 +78,11 @@ impl Spent {
     }
 }
 
-/// The relative loss of objective per unit of the random win rate. One win in 24 episodes costs a third.
+/// The relative loss of objective per unit of random win rate. One win in 24 episodes costs a third.
 const LUCK: f64 = 8.0;
-/// The number of calls per tick of an episode, which allows a few decisions by several players.
+/// The number of calls per episode tick, enough for a few decisions by several players.
 const TICK: u64 = 500;
-/// The maximum calls of a search for a win, as a multiple of the calls of the effort.
+/// The maximum calls of a win search, as a multiple of the effort's calls.
 const MOST: u64 = 4;
 
 /// Graded constraints, each with a value from 0.0 to 1.0.
@@ -92,7 +92,7 @@ struct Constraints {
 }
 
 const CONSTRAINTS: usize = NAMES.len();
-/// The names of the constraints. The last constraint is the order's demand on the win.
+/// The names of the constraints. The last constraint is the order's requirement for the win.
 const NAMES: [&str; 6] = [
     Criterion::WellFormed.name(),
     Criterion::NotIdle.name(),
@@ -115,7 +115,7 @@ impl Constraints {
         self.values.iter().position(|&value| value < 1.0).map(|at| NAMES[at])
     }
 
-    /// Returns the mean of the constraints, which is 1.0 only if all of them are met.
+    /// Returns the mean of the constraints: 1.0 only if all of them are met.
     fn feasibility(&self) -> f64 {
         if self.values.iter().all(|&value| value >= 1.0) {
             return 1.0;
@@ -129,8 +129,8 @@ impl<'a> Looker<'a> {
         Looker { game: analysis.game(), analysis, order, aim, seed }
     }
 
-    /// Looks at a level. The same level always gets the same look. Cost: a few hundred random episodes,
-    /// [`super::Effort::calls`] forward-model calls, and the calls of a ladder if a difficulty is requested.
+    /// Evaluates a level quickly. The same level always gets the same result. Cost: a few hundred random episodes,
+    /// [`super::Effort::calls`] forward-model calls, and a ladder's calls if a difficulty is requested.
     pub(super) fn look(&self, level: &Level) -> Look {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };
@@ -219,8 +219,8 @@ impl<'a> Looker<'a> {
         Case { game: self.game, level, seed, analysis: self.analysis, witness }
     }
 
-    /// Returns the number of forward-model calls for a search for a win. It is larger if episodes are long, because
-    /// each tick takes a decision.
+    /// Returns the number of forward-model calls for a win search. The number is larger for long episodes, because each
+    /// tick requires a decision.
     fn budget(&self, random: &Finding) -> u64 {
         let calls = self.order.effort.calls;
         let longest = random.episodes.iter().map(|episode| episode.actions.len()).max().unwrap_or_default();
@@ -238,7 +238,7 @@ impl<'a> Looker<'a> {
         solve(self.analysis, level, &config, seed)
     }
 
-    /// Returns the progress of the best episode towards a win, from 0.0 (none) to 1.0.
+    /// Returns the best episode's progress towards a win, from 0.0 (none) to 1.0.
     fn nearness(&self, level: &Level, solved: &Solved) -> f64 {
         let wins: Vec<_> = self.analysis.goals().iter().filter(|goal| goal.win).collect();
         let missing =

@@ -1,4 +1,4 @@
-//! Making levels by each method.
+//! Generates levels by each method.
 
 use super::order::{LevelOrder, MadeLevel, Method};
 use crate::pipeline::{DIFFICULTY, LevelGate};
@@ -12,16 +12,16 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::{CheckedCriteria, CriteriaError, Criterion, Difficulty};
 
-/// The levels made for an order.
+/// The levels generated for an order.
 #[derive(Clone, Debug)]
 pub struct LevelSet {
-    /// The levels that could be made, ordered by number.
+    /// The successfully generated levels, ordered by number.
     pub levels: Vec<MadeLevel>,
-    /// The cost of making the levels.
+    /// The cost of generating the levels.
     pub tally: Tally,
 }
 
-/// The errors of making levels.
+/// The errors of level generation.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LevelsError {
@@ -34,21 +34,21 @@ pub enum LevelsError {
     /// No candidate passed all judges.
     #[error("no level was accepted ({looks} inspected, {judged} judged): {why}{}", .hint.as_ref().map_or(String::new(), |hint| format!("; {hint}")))]
     NoneAccepted {
-        /// The number of candidates that a search looked at.
+        /// The number of candidates that a search evaluated.
         looks: u64,
         /// The number of candidates that reached the panel.
         judged: u64,
         /// The reasons why the candidates failed.
         why: String,
-        /// The consequence of the most frequent obstacle for the game or the order, if the obstacle has one.
+        /// The implication of the most frequent obstacle for the game or the order, if any.
         hint: Option<String>,
     },
-    /// Not a single board could be furnished.
+    /// Not a single board could be filled.
     #[error("no board has room for the requested sprites: {0}")]
     NoBoard(String),
 }
 
-/// Returns the consequence of the most frequent rejection for the game or the order.
+/// Returns what the most frequent rejection implies for the game or the order.
 fn hint(tally: &Tally) -> Option<String> {
     if tally.unbeaten > 0 && Some(&tally.unbeaten) >= tally.rejections.get(DIFFICULTY) {
         let unbeaten = tally.unbeaten;
@@ -75,10 +75,10 @@ fn hint(tally: &Tally) -> Option<String> {
     Some(hint.to_owned())
 }
 
-/// Makes the levels of an order for one game. The same game, order and seed give the same levels on any number of
+/// Generates an order's levels for one game. The same game, order and seed give the same levels on any number of
 /// threads. Cost: [`LevelOrder::effort`], on all threads of the current rayon pool.
 ///
-/// Levels that could not be made are missing from the set.
+/// Levels that could not be generated are missing from the set.
 ///
 /// # Errors
 /// Returns an error if the generator does not support the game, if the criteria are invalid, or if no level was
@@ -122,13 +122,13 @@ pub fn make_levels(
     Ok(set)
 }
 
-/// A level, if one was made, and the cost.
+/// A level, if one was generated, and the cost.
 pub(super) type Attempt = (Option<MadeLevel>, Tally);
 
 pub(super) struct Maker<'a> {
     pub(super) analysis: &'a Analysis,
     pub(super) order: &'a LevelOrder,
-    /// The checked criteria of the order.
+    /// The order's criteria, after checking.
     pub(super) criteria: CheckedCriteria,
     generator: ConstructiveLevels<'a>,
     pub(super) likeness: LevelSimilarity,
@@ -137,7 +137,7 @@ pub(super) struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// Draws levels that nobody judges.
+    /// Draws levels without judging them.
     fn draw_unjudged(&self) -> LevelSet {
         self.make_by_number(|number, refused| {
             let mut tally = Tally::default();
@@ -179,7 +179,8 @@ impl Maker<'_> {
         (None, tally)
     }
 
-    /// Makes all levels at once, each by itself. Then makes any level again that is too similar to an earlier level.
+    /// Generates all levels in parallel and independently. Then regenerates any level that is too similar to an
+    /// earlier level.
     fn make_by_number(&self, make: impl Fn(u32, &BTreeSet<Digest>) -> Attempt + Sync) -> LevelSet {
         let attempts: Vec<Attempt> = (0..self.order.count)
             .into_par_iter()
@@ -209,8 +210,8 @@ impl Maker<'_> {
         set
     }
 
-    /// Returns `true` if no ladder player has won any of the levels judged for a difficulty at which players must win
-    /// often. The next levels will then hardly be easier.
+    /// Returns `true` if no ladder player has won any of the judged levels, although the requested difficulty
+    /// requires frequent wins. The next levels are then unlikely to be easier.
     pub(super) fn is_hopeless(&self, tally: &Tally) -> bool {
         let by_difficulty = tally.rejections.get(DIFFICULTY).copied().unwrap_or_default();
         let often =
@@ -223,18 +224,18 @@ impl Maker<'_> {
     }
 }
 
-/// The number of levels without a win by any ladder player after which no win is expected.
+/// The number of levels unwon by every ladder player after which no win is expected.
 const HOPELESS: u64 = 6;
 
-/// The number of boards that are drawn for a level that nobody judges.
+/// The number of boards to draw for an unjudged level.
 const DRAWS: u64 = 20;
-/// The reasons why a candidate does not become a level of the set.
+/// A reason why a candidate does not become a level of the set.
 pub(super) const TWICE: &str = "the same level twice";
 pub(super) const NO_BOARD: &str = "no board has room";
 
-/// Generates levels without a requested difficulty, evenly from the easiest to the hardest that the constructive
-/// generator aims at. They form the pool to pick from if a difficulty could not be requested. Levels that cannot be
-/// made are left out. Cost: about a millisecond per level.
+/// Generates levels without a requested difficulty, spread evenly from the easiest to the hardest target of the
+/// constructive generator. The levels form the pool that would be available without requesting a difficulty. Levels
+/// that cannot be generated are omitted. Cost: about a millisecond per level.
 ///
 /// # Errors
 /// Returns an error if the generator does not support the game.

@@ -1,4 +1,4 @@
-//! Orders of levels, and the levels made for them.
+//! Level orders, and the levels generated for them.
 
 use engine::{Analysis, Level, SpriteType};
 use generators::levels::{LevelConfig, PuzzleConfig};
@@ -9,21 +9,21 @@ use validators::{
 };
 
 base::named_enum! {
-    /// The method of making levels or games.
+    /// The method of generating levels or games.
     pub enum Method {
         /// Draws walls, then furniture by role. This method takes almost no time, and levels are judged only if the
-        /// request contains something that must be measured.
+        /// request requires measurements.
         Constructive = "constructive",
         /// Changes each level step by step, independently of other levels and guided by judges.
         Search = "search",
-        /// Evolves an archive of different levels, guided by judges, and picks the levels from it.
+        /// Evolves a diverse archive of levels, guided by judges, and picks the final levels from it.
         Evolutionary = "evolutionary",
     }
 }
 
-/// The number of floor plans for each puzzle of a search that improves the levels itself.
+/// The number of floor plans per puzzle in a search that itself improves the levels.
 const PLANS_OF_ARCHIVE: usize = 40;
-/// The range of distances to a solution, as fractions of the longest distance, for a level whose difficulty is
+/// The range of distances from a solution, as fractions of the longest distance, for a level whose difficulty will be
 /// measured.
 const ANY_WAY: (f64, f64) = (0.05, 1.0);
 
@@ -44,19 +44,19 @@ impl FromStr for Method {
     }
 }
 
-/// An order for levels.
+/// A level order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelOrder {
-    /// The method of making the levels.
+    /// The method of generating the levels.
     pub method: Method,
     /// The number of levels.
     pub count: u32,
-    /// The size, and the other settings of the constructive generator. If [`LevelOrder::difficulty`] is set, it
-    /// replaces the configuration's difficulty.
+    /// The size, and the other settings of the constructive generator. If [`LevelOrder::difficulty`] is set, that value
+    /// overrides the configuration's difficulty.
     pub config: LevelConfig,
     /// The difficulty of each level, measured with the ladder of the criteria.
     pub difficulty: Option<Difficulty>,
-    /// The minimum number of ticks of the shortest win that is found.
+    /// The minimum number of ticks of the shortest win found.
     pub min_solution: Option<usize>,
     /// The rules that the win must use. All of them are required.
     pub uses: Vec<RuleRef>,
@@ -67,28 +67,27 @@ pub struct LevelOrder {
 }
 
 base::with_defaults! {
-    /// The effort of a search for one level, or for one level of an archive.
+    /// The effort of a search for a single level, or for one level in an archive.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Effort {
-        /// The number of candidates that are looked at between two attempts to get the best of them accepted.
+        /// The number of candidates to evaluate between two attempts to get the best candidate accepted.
         pub looks: u32 = 32,
-        /// The number of candidates that are looked at together, on all threads. The resulting bytes depend on this
-        /// number.
+        /// The number of candidates evaluated together, on all threads. Changing this number changes the generated
+        /// bytes.
         pub batch: usize = 8,
         /// The number of attempts. A single level gets more attempts if most looks are cheap.
         pub rounds: u32 = 6,
-        /// The maximum number of forward-model calls of a search for a win. If episodes are long, the maximum is up to
-        /// four times as high.
+        /// The maximum number of forward-model calls per win search; up to four times this number if episodes are long.
         pub calls: u64 = 100_000,
     }
 }
 
-/// A level that was made.
+/// A generated level.
 #[derive(Clone, Debug)]
 pub struct MadeLevel {
     /// The level's number in the order.
     pub number: u32,
-    /// The level itself.
+    /// The level.
     pub level: Level,
     /// The findings of the level's judges; `None` if the level was not judged.
     pub report: Option<Report>,
@@ -111,10 +110,10 @@ impl LevelOrder {
         }
     }
 
-    /// Returns the criteria of a release for levels, with a stricter limit for random play. Random play may win at most
-    /// 1 of 40 episodes, so that a second look with other seeds finds a win rate of 10% or less.
+    /// Returns a release's level criteria, with a stricter limit for random play. Random play may win at most 1 of 40
+    /// episodes, so that a second measurement with different seeds finds a win rate of 10% or less.
     ///
-    /// `readable` is left out because it is a property of the rules.
+    /// `readable` is omitted because it depends only on the rules.
     pub fn criteria_by_default() -> Criteria {
         let default = Criteria::default();
         let ask = default.ask.without(CriterionSet::of(&[Criterion::Readable]));
@@ -127,8 +126,8 @@ impl LevelOrder {
         Criteria { least_ticks, ..self.criteria.clone() }.check()
     }
 
-    /// Returns the configuration of the constructive generator, with the requested difficulty converted to the
-    /// generator's scale.
+    /// Returns the constructive generator's configuration, with the requested difficulty converted to the generator's
+    /// scale.
     pub fn config(&self) -> LevelConfig {
         let labels = Difficulty::LABELS.iter().map(|(label, _)| label);
         let place = self.difficulty.and_then(|asked| labels.clone().position(|label| *label == asked));
@@ -136,7 +135,7 @@ impl LevelOrder {
         LevelConfig { difficulty, ..self.config.clone() }
     }
 
-    /// Returns the configuration of puzzles, with the number of things to push taken from the order's configuration. An
+    /// Returns the configuration of puzzles, with the number of pushable objects from the order's configuration. An
     /// archive improves its levels one by one, so it needs few floor plans. If a difficulty is requested, the farthest
     /// position is seldom suitable, because few of the players that measure the difficulty win such long puzzles.
     pub(super) fn puzzle(&self, analysis: &Analysis) -> PuzzleConfig {
@@ -153,7 +152,7 @@ impl LevelOrder {
         }
     }
 
-    /// Returns `true` if the order requests something that can be measured only by playing.
+    /// Returns `true` if the order contains a requirement that can be measured only by playing.
     pub fn has_to_be_measured(&self) -> bool {
         self.difficulty.is_some() || self.min_solution.is_some() || !self.uses.is_empty()
     }

@@ -1,4 +1,4 @@
-//! The stage that sets the time limit of a game.
+//! The stage that sets a game's time limit.
 
 use super::game::Trial;
 use super::stage::{Passage, Refusal, Stage, walk};
@@ -7,12 +7,12 @@ use crate::tally::Tally;
 use engine::{Episode, Game, Level, Outcome};
 use validators::{Cost, Criterion, CriterionSet, Effort, Judgement, Panel, Verdict, ended_share};
 
-/// The numbers of ticks at which games are lost. They are round numbers, as authors choose them.
+/// The numbers of ticks at which games are lost. All are round numbers, as an author would choose.
 const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
-/// The minimum time limit, as a multiple of the longest known win of the levels.
+/// The minimum time limit, as a multiple of the longest known win.
 const TIME_PER_WIN: f64 = 2.5;
-/// The minimum fraction of careless episodes that end by the rules for a game without a time limit, averaged over the
-/// levels.
+/// The minimum fraction of careless episodes that must end by the rules in a game without a time limit, averaged over
+/// the levels.
 const ENDED_PLAYS: f64 = 0.5;
 /// The entry in tallies for failed attempts to omit the time limit.
 const NO_CLOCK: &str = "no time limit";
@@ -45,7 +45,7 @@ impl<'a> Trial<'a> {
         self.pass_under_own_limit(later, tally)
     }
 
-    /// Takes the game through the later stages with the limit that its longest win requires.
+    /// Takes the game through the later stages with the time limit required by its longest win.
     fn pass_under_own_limit(&mut self, later: &[Stage<Self>], tally: &mut Tally) -> Passage {
         let wins = self.found.iter().filter_map(|found| found.report.witness.as_ref());
         let longest = wins.map(|win| win.actions.len()).max().ok_or("time limit")?;
@@ -54,7 +54,7 @@ impl<'a> Trial<'a> {
         Ok(())
     }
 
-    /// Takes a version of the game through the later stages with the found levels, which are judged again.
+    /// Takes a version of the game through the later stages with the levels already found, after judging them again.
     fn pass_with(
         &self,
         candidate: Candidate,
@@ -68,7 +68,7 @@ impl<'a> Trial<'a> {
         Ok(version)
     }
 
-    /// Returns `true` if careless episodes of a game without a time limit are ended by its rules.
+    /// Returns `true` if the rules of a game without a time limit end careless episodes.
     fn ends_without_limit(&self, candidate: &Candidate) -> bool {
         let Levels { criteria, seed, .. } = self.levels;
         let share = |(number, found): (u64, &FoundLevel)| {
@@ -90,8 +90,8 @@ pub(super) fn time_limit(longest: usize) -> u32 {
 }
 
 impl Levels<'_> {
-    /// Judges a level that was found for the game with a different time limit, by all judges except the ladder. The
-    /// search for a win is carried over if the win still wins. The seeds are the same, so a replay ends as before.
+    /// Judges a level found for the game under a different time limit, by all judges except the ladder. Reuses the
+    /// search result if its win is still valid. The seeds are unchanged, so a replay ends as before.
     fn rejudge(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let witness = replayed(game, &level, found.report.witness.as_ref()?);

@@ -8,11 +8,11 @@ use crate::tally::Tally;
 use engine::{Analysis, Game, Level};
 use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Report, SkillOverall};
 
-/// The number of levels of a course that are found first: the first two levels and the last level.
+/// The number of levels to find first in a course: the first two and the last.
 const OUTLINE: usize = 3;
 
-/// The number of further candidates for a course's first level if the first level leaves no mechanic for later
-/// levels. If all of these candidates have the same fault, any other candidate is likely to have it too.
+/// The number of additional candidates for a course's first level if that level leaves no mechanic for later levels.
+/// If all of these candidates share the fault, further candidates are likely to share it too.
 const INTRODUCTIONS: u32 = 3;
 
 /// The levels found so far for a game, in the order in which they were found.
@@ -70,7 +70,7 @@ impl<'a> Begun<'a> {
         ..Stage::once(Self::ask_for_a_chance_of_skill)
     };
 
-    /// Finds a level for each position, and returns the levels from easiest to hardest.
+    /// Finds a level for each position, and returns them sorted from easiest to hardest.
     fn find_all(
         levels: &'a Levels<'a>,
         game: &'a Game,
@@ -149,8 +149,7 @@ impl<'a> Begun<'a> {
     }
 }
 
-/// Replaces a first level that leaves no new mechanic for later levels: returns one of the next candidates that does
-/// leave one.
+/// Replaces a first level that leaves no new mechanic for later levels with one of the next candidates that does.
 pub(super) fn another_introduction(
     levels: &Levels<'_>,
     game: &Game,

@@ -1,4 +1,4 @@
-//! A game as it passes through the stages.
+//! A game during its passage through the stages.
 
 use super::sources::Rules;
 use super::stage::{Refusal, Stage, walk};
@@ -9,24 +9,24 @@ use base::SeedPath;
 use validators::novelty::GameForm;
 use validators::{CheckedCriteria, Cost, CriterionSet, Effort, Judgement, Panel};
 
-/// A game and the findings of the stages.
+/// A game and the stages' findings.
 pub(crate) struct Trial<'a> {
     pub(super) candidate: Candidate,
-    /// The request for the game's levels, with the judges that run first.
+    /// The request for the game's levels, including the judges that run first.
     pub(super) levels: Levels<'a>,
     pub(super) demands: Demands<'a>,
     pub(super) found: Vec<FoundLevel>,
-    /// The findings about all levels together.
+    /// The findings about all levels as a whole.
     pub(super) together: Vec<Judgement>,
     pub(super) made: Option<MadeGame>,
 }
 
-/// The demands on generated rules in addition to the criteria, and the facts about them.
+/// The requirements for generated rules beyond the criteria, and facts about the rules.
 #[derive(Clone, Copy)]
 pub(crate) struct Demands<'a> {
-    /// The games that other games must differ from.
+    /// The known games from which new games must differ.
     pub(super) known: &'a [GameForm],
-    /// Returns the objection of a set to a game, regardless of the game's levels.
+    /// Returns a set's objection to a game, regardless of the game's levels.
     pub(super) objection: &'a dyn Fn(&Candidate) -> Option<&'static str>,
     pub(super) least_interactions: usize,
     pub(super) least_mechanics: usize,
@@ -45,7 +45,7 @@ impl<'a> Trial<'a> {
         Trial { candidate, levels, demands, found: Vec::new(), together: Vec::new(), made: None }
     }
 
-    /// Takes the game through the stages. Returns `None`, with the reason in the tally, if a stage rejects it.
+    /// Takes the game through the stages. Returns `None`, with the reason in the tally, if a stage rejects the game.
     pub(super) fn pass(mut self, stages: &[Stage<Self>], tally: &mut Tally) -> Option<MadeGame> {
         match walk(stages, &mut self, tally) {
             Ok(()) => tally.game_accepted(),
@@ -57,8 +57,8 @@ impl<'a> Trial<'a> {
 }
 
 impl Levels<'_> {
-    /// Makes a game from known rules: finds levels that meet the criteria individually and together. Returns `None`,
-    /// with the reason in the tally, if a stage rejects it.
+    /// Builds a game from known rules: finds levels that meet the criteria individually and together. Returns `None`,
+    /// with the reason in the tally, if a stage rejects the game.
     pub fn make(&self, candidate: Candidate, tally: &mut Tally) -> Option<MadeGame> {
         let demands = Demands {
             known: &[],
@@ -79,12 +79,12 @@ impl Levels<'_> {
 /// The final decision on games, made with fresh seeds.
 pub(crate) struct GameGate<'a> {
     order: &'a GameOrder,
-    /// The method that cards state.
+    /// The method recorded on cards.
     method: Method,
-    /// The games that new games must differ from.
+    /// The known games from which new games must differ.
     known: &'a [GameForm],
     canary: &'a str,
-    /// The criteria of the order, with a margin for answers that depend on randomness.
+    /// The order's criteria, with a margin for verdicts that depend on randomness.
     criteria: CheckedCriteria,
     /// The judges of all criteria.
     panel: Panel,
@@ -106,8 +106,8 @@ impl<'a> GameGate<'a> {
         GameGate { order, method, known, canary, criteria, panel, cheap }
     }
 
-    /// Takes a game through the stages. Returns `None`, with the reason in the tally, if a stage rejects it. The card
-    /// contains `number`.
+    /// Takes a game through the stages. Returns `None`, with the reason in the tally, if a stage rejects the game.
+    /// `number` is recorded on the card.
     pub(crate) fn judge<R: Rules>(
         &self,
         rules: &R,
@@ -183,7 +183,7 @@ pub(crate) mod tests {
         GameOrder { levels: 2, least_interactions: 4, least_mechanics: 1, criteria, ..order }
     }
 
-    /// Returns the order with different criteria.
+    /// Returns the order with modified criteria.
     fn altered(order: GameOrder, alter: &dyn Fn(&mut Criteria)) -> GameOrder {
         let mut criteria = (*order.criteria).clone();
         alter(&mut criteria);
@@ -306,7 +306,7 @@ pub(crate) mod tests {
         );
     }
 
-    /// Returns a stochastic game with two levels, and the seed of its judges.
+    /// Returns a stochastic game with two levels, and its judges' seed.
     fn made() -> (MadeGame, SeedPath) {
         // In deterministic games, a player that knows the win counts as skilled.
         let has_chance = |made: &MadeGame| {

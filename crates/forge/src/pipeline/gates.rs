@@ -1,4 +1,4 @@
-//! The stage that judges all levels of a game together.
+//! The stage that judges a game's levels as a whole.
 
 use super::course::another_introduction;
 use super::game::Trial;
@@ -22,7 +22,7 @@ impl Trial<'_> {
         ..Stage::once(Self::judge_all_levels)
     };
 
-    /// Returns the seed for the judges of all levels together.
+    /// Returns the seed for judging the levels as a whole.
     pub(super) fn judges(&self) -> Seed {
         self.levels.seed.seed().child("judges of the game", 0)
     }
@@ -48,10 +48,10 @@ impl Trial<'_> {
 }
 
 impl Levels<'_> {
-    /// Returns the findings of the judges of the game.
+    /// Returns the findings of the game's judges.
     ///
     /// # Errors
-    /// Returns the first criterion that is not met.
+    /// Returns the first unmet criterion.
     pub(super) fn judge_together(
         &self,
         game: &Game,

@@ -12,28 +12,28 @@ use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention, JointType};
 use validators::CheckedCriteria;
 
-/// The demand of a board at difficulty 1.
+/// The demand on a board at difficulty 1.
 const DEMANDS: u8 = 4;
 
-/// The minimum demand at which a board must need both uses of a type.
+/// The minimum demand at which a board's win must need both uses of a type.
 const OPPOSED: u8 = 2;
 
-/// The demand of the boards of a quick look.
+/// The demand on a quick look's boards.
 const LOOK_DEMAND: u8 = 1;
-/// The number of boards of a quick look.
+/// The number of boards in a quick look.
 const LOOKS: usize = 24;
-/// The number of boards of a quick look after which a game without a won board is rejected. Good rules have a win on every
-/// fifth composition or more often.
+/// The number of boards in a quick look after which a game without a winnable board is rejected. With good rules, at
+/// least one in five compositions is winnable.
 const HOPELESS: usize = 12;
-/// The number of forward-model calls for all boards of a quick look.
+/// The total number of forward-model calls for a quick look's boards.
 const LOOK_CALLS: u64 = 1_500_000;
-/// The forward-model calls of the search for a board whose win needs the opposed uses.
+/// The number of forward-model calls in the search for a board whose win needs the opposed uses.
 const USES_CALLS: u64 = 2_000_000;
 /// The reason for rejecting a game without a board whose win needs the opposed uses.
 pub(super) const USELESS: &str = "no win needs the opposed uses";
-/// The minimum fraction of necessary interactions on the best board of a quick look.
+/// The minimum fraction of necessary interactions on a quick look's best board.
 const LEAST_NECESSITY: f64 = 0.4;
-/// The minimum fraction of wrong choices that have a cost, on the best board of a quick look.
+/// The minimum fraction of costly wrong choices, on a quick look's best board.
 const LEAST_TRAPS: f64 = 0.1;
 /// The maximum value of an unmet condition.
 const NEARLY: f64 = 0.999;
@@ -103,11 +103,11 @@ impl BoardSource for InventedBoards {
     }
 }
 
-/// The result of a quick look at an invented game.
+/// The result of a quick look at an invented game. A quick look is a cheap evaluation on a few boards.
 pub(crate) struct QuickLook {
-    /// The measures of the best of a few boards; `None` if no board was won.
+    /// The best board's measures; `None` if no board is winnable.
     board: Option<BoardMeasures>,
-    /// The fraction of the board constraints met by the board that is closest to being won.
+    /// The fraction of board constraints met by the board closest to a win.
     nearness: f64,
     /// The number of forward-model calls.
     pub(crate) calls: u64,
@@ -133,7 +133,7 @@ impl QuickLook {
         [1.0, necessity, (board.traps / LEAST_TRAPS).min(1.0), deaths]
     }
 
-    /// Returns the degree to which all conditions are met: 1.0 if and only if there is no obstacle.
+    /// Returns the degree to which all conditions are met: 1.0 exactly if there is no obstacle.
     pub(crate) fn feasibility(&self) -> f64 {
         let constraints = self.constraints();
         constraints.iter().sum::<f64>() / constraints.len() as f64
@@ -146,8 +146,8 @@ impl QuickLook {
 }
 
 impl InventedBoards {
-    /// Returns a brief for boards. Exits, and types whose idiom does not follow from the rules alone, get the
-    /// invention's idiom.
+    /// Returns a brief for composing boards. Exits, and types whose idiom does not follow from the rules alone, are
+    /// given the invention's idiom.
     fn brief(&self, analysis: &Analysis, demand: u8) -> BoardBrief {
         let game = analysis.game();
         let named = self.idioms.iter().filter_map(|(name, idiom)| Some((game.sprite_type(name)?, *idiom)));
@@ -169,12 +169,12 @@ impl InventedBoards {
         make_board(&analysis, &order, seed, &budget).is_some()
     }
 
-    /// Returns the uses of all types with opposed uses.
+    /// Returns the uses of all types whose uses are opposed.
     fn uses(&self) -> Vec<Vec<usize>> {
         self.joint.iter().flat_map(|stype| stype.uses.clone()).collect()
     }
 
-    /// Composes a few boards of a game and measures the best board.
+    /// Composes a few boards for a game and measures the best one.
     pub(crate) fn look_quickly(&self, game: &Game, seed: Seed) -> QuickLook {
         let analysis = Analysis::of(game);
         let order = BoardOrder::of(self.brief(&analysis, LOOK_DEMAND));
@@ -192,7 +192,7 @@ impl InventedBoards {
     }
 }
 
-/// The boards for one position in an invented game.
+/// The boards for one position of an invented game.
 struct PlaceBoards<'a> {
     source: &'a InventedBoards,
     analysis: Analysis,
@@ -203,8 +203,8 @@ struct PlaceBoards<'a> {
 }
 
 impl PlaceBoards<'_> {
-    /// Returns the types that the board of a candidate lacks. Introductions leave out a mechanic, and each candidate
-    /// leaves out a different one.
+    /// Returns the types to omit from a candidate's board. Introductions omit one mechanic, and each candidate omits a
+    /// different one.
     fn left_out(&self, candidate: &SeedPath) -> Vec<SpriteType> {
         let optional: Vec<&Vec<String>> =
             self.source.own_types.iter().filter(|own| !own.is_empty()).collect();
@@ -234,7 +234,7 @@ impl PlaceBoards<'_> {
         }
     }
 
-    /// Returns, for each win of another level, the order in which it first executes each interaction.
+    /// Returns the order of first executions of interactions for each win of another level.
     fn known(&self) -> Vec<Vec<usize>> {
         let firsts = |(_, found): &(u32, FoundLevel)| {
             let win = found.report.witness.as_ref()?;
@@ -243,7 +243,7 @@ impl PlaceBoards<'_> {
         self.others.iter().filter_map(firsts).collect()
     }
 
-    /// Narrows the usual length of a win to what the criteria and the wins of other levels allow.
+    /// Narrows the default win length to the range allowed by the criteria and by the wins of other levels.
     fn ticks(&self, (low, high): (usize, usize)) -> (usize, usize) {
         let (mut low, mut high) = (low.max(self.criteria.least_ticks), high.min(self.criteria.most_ticks));
         for (number, found) in self.others {

@@ -1,4 +1,4 @@
-//! The stage that requires wins of a game to need merged types in two roles.
+//! The stage that requires a game's wins to need merged types in two roles.
 
 use super::game::Trial;
 use super::stage::{Passage, Stage};
@@ -7,18 +7,17 @@ use crate::tally::Tally;
 use engine::Analysis;
 use std::collections::BTreeSet;
 
-/// The reason for rejecting a game in which a type has opposed uses, but too few wins need two of them.
+/// The reason for rejecting a game in which a type has opposed uses, but too few wins need two of its uses.
 const JOINT: &str = "joint use";
 
-/// The minimum number of levels whose wins need a merged type in two roles. The minimum is one for a game of one
-/// or two levels.
+/// The minimum number of levels whose wins need a merged type in two roles. For a game with one or two levels,
+/// the minimum is one.
 const LEVELS: usize = 2;
 
-/// The number of roles of a type that a win must need, if the type has that many roles. Some roles replace each
-/// other.
+/// The number of a type's roles that a win must need, if the type has that many. Some roles are interchangeable.
 const ROLES: usize = 2;
 
-/// The forward-model calls of a search for a win without an interaction.
+/// The number of forward-model calls in the search for a win without an interaction.
 const CALLS: u64 = 40_000;
 
 impl Trial<'_> {

@@ -1,4 +1,4 @@
-//! The stage in which a ladder of players plays the levels of a game.
+//! The stage in which a ladder of players plays a game's levels.
 
 use super::game::Trial;
 use super::level::Place;
@@ -9,7 +9,7 @@ use crate::tally::Tally;
 use engine::Game;
 use validators::{Cost, Criterion, CriterionSet, Judging};
 
-/// The number of levels of a course that may fail the ladder before the game is rejected.
+/// The number of course levels that may fail the ladder before the game is rejected.
 const MISFITS: u32 = 5;
 
 impl Trial<'_> {
@@ -37,12 +37,12 @@ impl Trial<'_> {
 }
 
 impl Levels<'_> {
-    /// Judges the levels of a course by the ladder of players. The next passing candidate for the same position
-    /// replaces a level that fails.
+    /// Judges a course's levels with the player ladder. The next passing candidate for the same position replaces a
+    /// failing level.
     ///
     /// # Errors
-    /// Returns an error if there is no such candidate for a position, or if so many levels fail that the game must be
-    /// at fault.
+    /// Returns an error if no candidate for a position passes, or if so many levels fail that the game itself is
+    /// likely to be at fault.
     pub(super) fn judge_by_ladder(
         &self,
         game: &Game,

@@ -1,4 +1,4 @@
-//! The stages of a candidate level for one position in a game.
+//! The stages of a candidate level for one position of a game.
 
 use super::sources::seed_of_win;
 use super::stage::{Passage, Refusal, Stage};
@@ -13,31 +13,31 @@ use validators::{
     Verdict,
 };
 
-/// The minimum number of ticks of a later level's win, as a fraction of the ticks of an earlier level's win. The
-/// order of a course allows no large step back.
+/// The minimum length of a later level's win, as a fraction of the length of an earlier level's win. A course must
+/// not become much shorter again.
 pub(super) const LATER_SHARE: f64 = 0.6;
 
-/// The position of a level in a game, and the levels at other positions.
+/// The position of a level within its game, and the levels at other positions.
 pub(super) struct Place<'a> {
     pub(super) levels: &'a Levels<'a>,
     pub(super) game: &'a Game,
     pub(super) number: u32,
-    /// The levels at other positions, each with its number.
+    /// The levels at other positions, with their numbers.
     pub(super) others: &'a [(u32, FoundLevel)],
 }
 
-/// A candidate for one position in a game.
+/// A candidate for one position of a game.
 pub(super) struct LevelTrial<'a> {
     pub(super) place: &'a Place<'a>,
     pub(super) drawn: Drawn,
-    /// The actions of a win that the generator knows; `None` if it knows no win.
+    /// The actions of a win known to the generator; `None` if the generator knows no win.
     pub(super) known: Option<Vec<Action>>,
     proof: Option<Proof>,
-    /// The level with its findings, once its judges have accepted it.
+    /// The level with its findings, after acceptance by its judges.
     pub(super) found: Option<FoundLevel>,
 }
 
-/// The win of a level, if its generator knows one.
+/// A level's win, if the generator knows one.
 struct Proof {
     win: Episode,
     is_shortest: bool,
@@ -218,7 +218,7 @@ impl LevelTrial<'_> {
         if is_early { Err(Criterion::NotInstant.into()) } else { Ok(()) }
     }
 
-    /// Rejects a level that fails the gate against dead time when judged alone.
+    /// Rejects a level that, judged alone, fails the gate against dead time.
     fn refuse_dead_time(&mut self, tally: &mut Tally) -> Passage {
         let Some(found) = self.found_of_course() else { return Ok(()) };
         let panel = self.place.levels.panel_of(CriterionSet::of(&[Criterion::NoDeadTime]));
@@ -278,8 +278,8 @@ fn takes_as_long(found: &FoundLevel, earlier: &FoundLevel) -> bool {
     ticks(found) as f64 >= LATER_SHARE * ticks(earlier) as f64
 }
 
-/// Returns `true` if the win of a later level needs a mechanic that the win of the first level does not need, or if
-/// no such mechanic is required.
+/// Returns `true` if the win of a later level needs a mechanic that the first level's win does not need, or if no
+/// new mechanic is required.
 pub(super) fn leaves_something(
     levels: &Levels<'_>,
     game: &Game,

@@ -1,11 +1,11 @@
 //! The stages that a candidate passes through, as data: each stage's question, its cost, and what it can reject and
 //! replace.
 //!
-//! The lists below define the order in which `stage::walk` runs the stages. Each stage is in a file of this folder,
+//! The lists below define the order in which `stage::walk` runs the stages. Each stage is in a file in this folder,
 //! with its tuning constants next to its code. To add a stage, write a `Stage` there and add it to a list. The table
 //! in `docs/explanation/generate-games.md` must agree.
 //!
-//! The stages do not depend on the source of a candidate: `sources.rs` has the traits for sources of rules and of
+//! The stages do not depend on a candidate's source. `sources.rs` contains the traits for sources of rules and
 //! boards.
 
 mod clock;
@@ -37,7 +37,7 @@ pub(crate) use sources::Rules;
 pub use sources::{Board, BoardSource, Boards, PlaceBrief};
 
 impl Trial<'_> {
-    /// The stages of a game whose rules were generated.
+    /// The stages for a game with generated rules.
     const GENERATED: [Stage<Self>; 12] = [
         Self::NEW_RULES,
         Self::INTERACTIONS,
@@ -53,17 +53,17 @@ impl Trial<'_> {
         Self::CARD,
     ];
 
-    /// The stages of a game whose rules are known, because the game comes from the corpus or is a puzzle game.
+    /// The stages for a game with known rules: a corpus game or a puzzle game.
     const KNOWN_RULES: [Stage<Self>; 3] = [Self::LEVELS, Self::GATES, Self::CARD];
 }
 
 impl Begun<'_> {
-    /// The stages of a game after each level found for it.
+    /// The stages that a game passes after each level found for it.
     const STAGES: [Stage<Self>; 3] = [Self::INTRODUCTION, Self::OUTLINE, Self::SKILL];
 }
 
 impl LevelTrial<'_> {
-    /// The stages of a level for one position in a game.
+    /// The stages of a level for one position of a game.
     const STAGES: [Stage<Self>; 11] = [
         Self::NEW_LEVEL,
         Self::NEW_BOARD,
@@ -80,7 +80,7 @@ impl LevelTrial<'_> {
 }
 
 impl RequestTrial<'_> {
-    /// The stages of a level on request.
+    /// The stages of a requested level.
     const STAGES: [Stage<Self>; 4] = [Self::PANEL, Self::RANDOM_PLAY, Self::RULES_USED, Self::DIFFICULTY];
 }
 
@@ -91,7 +91,7 @@ fn table<T>(stages: &[Stage<T>]) -> String {
 }
 
 /// Returns the tables for the documentation, each with its heading: the stages of a generated game, the stages after
-/// each of its levels, the stages of each level, and the stages of a level on request.
+/// each of its levels, the stages of each level, and the stages of a requested level.
 pub fn tables() -> [(&'static str, String); 4] {
     [
         ("Stages of a game", table(&Trial::GENERATED)),

@@ -1,5 +1,4 @@
-//! The search for a level for one position in a game, which tries candidates until one passes and fits the other
-//! levels.
+//! The search for a level for one position of a game. Tries candidates until one passes and fits the other levels.
 
 use super::level::{LevelTrial, Place};
 use super::sources::{Board, Boards, PlaceBrief};
@@ -7,15 +6,15 @@ use super::stage::{Refusal, walk};
 use crate::games::{Drawn, FoundLevel, Levels};
 use crate::tally::Tally;
 
-/// The number of extra candidates that a failed search for a win counts as.
+/// The number of extra candidates that a failed win search counts as.
 const VAIN_SEARCH: u32 = 1;
 /// The number of extra candidates that a failed search counts as while the game has fewer than [`STAKE`] levels, so
-/// that little is lost. After two failed searches, one of four further searches succeeds.
+/// that little effort is lost. After two failed searches, one in four further searches succeeds.
 const EARLY_VAIN_SEARCH: u32 = 5;
 const STAKE: usize = 2;
 
 impl Place<'_> {
-    /// Returns the rejection of a game for which no level is found at this position.
+    /// Returns the rejection of a game without a level for this position.
     pub(super) fn refusal(&self) -> Refusal {
         Refusal::Because(format!("no level {}", self.number).into())
     }
@@ -60,13 +59,13 @@ impl Place<'_> {
         None
     }
 
-    /// Returns the difficulty that the level should have, from 0 to 1.
+    /// Returns the target difficulty of the level, from 0 to 1.
     fn difficulty(&self) -> f64 {
         f64::from(self.number) / f64::from((self.levels.count - 1).max(1))
     }
 
-    /// Takes candidate number `candidate` through the stages of a level. Returns `None`, with the reason in the tally,
-    /// if it does not pass.
+    /// Takes candidate number `candidate` through a level's stages. Returns `None`, with the reason in the tally, if
+    /// the candidate does not pass.
     fn judge_candidate(&self, boards: &dyn Boards, candidate: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let places = self.levels.seed.child("level", u64::from(self.number));
         let seed = places.child("candidate", u64::from(candidate));

@@ -1,5 +1,5 @@
-//! Stages that run other judges, with other seeds, on a game that its first judges accepted, and the stage that makes
-//! the game's card.
+//! Stages that judge an accepted game again with different judges and seeds, and the stage that creates the game's
+//! card.
 
 use super::game::Trial;
 use super::stage::{Passage, Stage};
@@ -9,15 +9,15 @@ use base::Seed;
 use engine::{Game, Level};
 use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Rate, Report, mcts_rate};
 
-/// The criteria whose answers do not depend on randomness once there is a witness. Second judges skip these criteria.
+/// The criteria whose verdicts do not depend on randomness once a witness exists. Second judges skip these criteria.
 const CERTAIN: CriterionSet =
     CriterionSet::of(&[Criterion::WellFormed, Criterion::Readable, Criterion::Winnable, Criterion::Length]);
 
 /// The reason for rejecting a game that its first judges accepted by luck.
 const SECOND_JUDGES: &str = "second judges";
-/// The reason for rejecting a game that passes the gates with some seeds and fails with others.
+/// The reason for rejecting a game that passes the gates with some seeds but not with others.
 const FURTHER_JUDGES: &str = "further judges";
-/// The reason for rejecting a game whose judges did not provide everything that a card contains.
+/// The reason for rejecting a game whose judges' results are not sufficient for a card.
 const NO_CARD: &str = "no card";
 
 impl Trial<'_> {
@@ -81,7 +81,7 @@ impl Trial<'_> {
 }
 
 impl Levels<'_> {
-    /// Returns `true` if judges with a different seed accept the same levels, as far as the judges' answers depend on
+    /// Returns `true` if judges with a different seed accept the same levels by all criteria that depend on
     /// randomness.
     pub(super) fn passes_with(
         &self,
@@ -109,8 +109,8 @@ impl Levels<'_> {
         together.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 
-    /// Returns `true` if the game passes the gates with each of `times` further seeds, with the witness as the only
-    /// known win of each level.
+    /// Returns `true` if the game passes the gates with each of `times` further seeds. Each level's only known win is
+    /// then its witness.
     fn passes_gates_with(
         &self,
         game: &Game,

@@ -1,4 +1,4 @@
-//! The stages of a level on request: the panel, and the order's demands in addition to the criteria.
+//! The stages of a requested level: the panel, and the order's requirements beyond the criteria.
 
 use super::stage::{Passage, Refusal, Stage, walk};
 use crate::levels::aim::{bears, wins};
@@ -11,24 +11,24 @@ use validators::{
     NotRandom, Panel, Report, Validator,
 };
 
-/// The factor by which the number of random episodes is increased for a second test.
+/// The factor by which a second test increases the number of random episodes.
 const LUCK_PLAYS: u32 = 5;
-/// The factor by which the allowed fraction of won random episodes is increased for the second test. The panel's test
-/// has few episodes and is therefore strict.
+/// The factor by which the second test increases the allowed fraction of won random episodes. The panel's test uses
+/// few episodes and is therefore strict.
 const LUCK_WINS: f64 = 1.6;
 
-/// The ladders that measure the difficulty of a level. Each has a multiple of the criteria's number of episodes, and a
-/// minimum distance of the ease from any other label. The first ladder rejects most levels. The second ladder has more
-/// episodes, which corrects for the selection of lucky levels.
+/// The ladders that measure a level's difficulty. For each ladder, the factor applied to the criteria's number of
+/// episodes, and the minimum distance of the ease from any other label. The first ladder rejects most levels. The
+/// second ladder plays more episodes, to correct for the selection of lucky levels.
 const LADDERS: [(u64, f64); 2] = [(1, 0.03), (3, 0.045)];
-/// The minimum fraction of all episodes of a ladder that must be won. A rarely won level may have no win in a second
+/// The minimum fraction of all ladder episodes that must be won. A rarely won level might have no win on a second
 /// ladder.
 const BEATEN: f64 = 0.02;
 
 /// The reason for rejecting a level whose difficulty differs from the requested one.
 pub(crate) const DIFFICULTY: &str = "difficulty";
 
-/// The final decision on levels of an order, made with fresh seeds.
+/// The final decision on an order's levels, made with fresh seeds.
 pub(crate) struct LevelGate<'a> {
     analysis: &'a Analysis,
     order: &'a LevelOrder,
@@ -37,11 +37,11 @@ pub(crate) struct LevelGate<'a> {
     seed: Seed,
 }
 
-/// A level on request, and the findings of the stages.
+/// A requested level, and the stages' findings.
 pub(super) struct RequestTrial<'a> {
     gate: &'a LevelGate<'a>,
     level: &'a Level,
-    /// The seed for judging the level. The same level always gets the same answer.
+    /// The seed for judging the level. The same level always gets the same verdict.
     seed: Seed,
     report: Report,
     /// The ladder that measures the difficulty; `None` if no difficulty was requested.
@@ -60,7 +60,7 @@ impl<'a> LevelGate<'a> {
         LevelGate { analysis, order, panel, climb, seed }
     }
 
-    /// Takes a level through the stages. Returns `None`, with the reason in the tally, if a stage rejects it.
+    /// Takes a level through the stages. Returns `None`, with the reason in the tally, if a stage rejects the level.
     pub(crate) fn judge(&self, number: u32, level: &Level) -> (Option<MadeLevel>, Tally) {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let report = Report { judgements: Vec::new(), witness: None };

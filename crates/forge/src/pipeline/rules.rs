@@ -1,4 +1,4 @@
-//! Stages about the rules of a game, which check whether they are new, and whether enough happens.
+//! Stages that check whether a game's rules are new, and whether the rules produce enough interactions.
 
 use super::game::Trial;
 use super::invented::USELESS;
@@ -78,7 +78,7 @@ impl Trial<'_> {
     }
 }
 
-/// Counts the interactions that the wins of the levels execute, not counting guards.
+/// Counts the interactions that the levels' wins execute, not counting guards.
 fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
     let guards = Guards::of(&Analysis::of(game));
     levels.iter().flat_map(|found| found.mechanics(game, &guards)).collect::<BTreeSet<usize>>().len()

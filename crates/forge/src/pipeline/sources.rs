@@ -1,4 +1,4 @@
-//! The sources of candidates. To add a source, implement [`Rules`] for its rules, or [`BoardSource`] for its boards.
+//! The sources of candidates. To add a source, implement [`Rules`] for rules, or [`BoardSource`] for boards.
 
 use crate::games::FoundLevel;
 use crate::games::PuzzleLevels;
@@ -14,9 +14,9 @@ use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
 use validators::{CheckedCriteria, Criterion, Tier};
 
-/// Rules that a source proposes for a game.
+/// Rules proposed by a source for a game.
 pub(crate) trait Rules: Sized {
-    /// The source of the boards of the game.
+    /// The source of the game's boards.
     type Boards: BoardSource;
 
     /// Builds the game. Returns `None` if the rules do not compile.
@@ -47,18 +47,18 @@ impl Rules for KernelGenome {
     }
 }
 
-/// A source of boards for the positions in a game.
+/// A source of boards for a game's positions.
 pub trait BoardSource: Sync {
-    /// Returns the name used in cards.
+    /// Returns the name used on cards.
     fn name(&self) -> &'static str;
 
-    /// Returns `true` if the levels make a course, in which each level demands more than the levels before it. The
-    /// levels must also fit beside each other.
+    /// Returns `true` if the levels form a course, in which each level demands more than the levels before. The
+    /// levels of a course must also fit together.
     fn is_course(&self) -> bool {
         false
     }
 
-    /// Takes a quick look at a few boards.
+    /// Evaluates a few boards quickly.
     ///
     /// # Errors
     /// Returns the reason if no board is worth a search.
@@ -71,12 +71,13 @@ pub trait BoardSource: Sync {
         &[]
     }
 
-    /// Returns the tier that the level at a position must have.
+    /// Returns the required tier of the level at a position.
     fn tier(&self, _number: u32) -> Option<Tier> {
         None
     }
 
-    /// Returns `true` if levels keep the order of their positions. Otherwise they are ordered by measured ease.
+    /// Returns `true` if levels keep the order of their positions. Otherwise the levels are ordered by measured
+    /// ease.
     fn is_ordered(&self) -> bool;
 
     /// Prepares the boards for a position.
@@ -92,13 +93,13 @@ pub trait BoardSource: Sync {
 
 /// The position of a board in a game.
 pub struct PlaceBrief<'a> {
-    /// The number of the level.
+    /// The level's number.
     pub number: u32,
-    /// The difficulty that the level should have, from 0 to 1.
+    /// The target difficulty of the level, from 0 to 1.
     pub difficulty: f64,
-    /// The levels at other positions, each with its number.
+    /// The levels at other positions, with their numbers.
     pub others: &'a [(u32, FoundLevel)],
-    /// The criteria of the level and of the game.
+    /// The criteria for the level and for the game.
     pub criteria: &'a CheckedCriteria,
 }
 
@@ -111,22 +112,22 @@ pub trait Boards {
     fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError>;
 }
 
-/// A level, with the facts that its source knows about it.
+/// A level, with its source's knowledge about it.
 pub struct Board {
     /// The level on the board.
     pub level: Level,
     /// The level's question to the player, if the level belongs to a course.
     pub asks: Option<String>,
-    /// Actions that win the level; `None` if no such actions are known.
+    /// A winning sequence of actions; `None` if none is known.
     pub known: Option<Vec<Action>>,
 }
 
-/// Returns the seed for the layout of a candidate.
+/// Returns the seed for a candidate's layout.
 fn layout(candidate: &SeedPath) -> Seed {
     candidate.seed().child("layout", 0)
 }
 
-/// Returns the seed for the win of a candidate's puzzle, which is the seed of the search that the win replaces.
+/// Returns the seed for winning a candidate's puzzle: the seed of the search that the known win replaces.
 pub(super) fn seed_of_win(candidate: &SeedPath) -> SeedPath {
     systematic_seed(&Criterion::Winnable.seed(&judges_seed(candidate)))
 }
@@ -158,7 +159,7 @@ impl Boards for ConstructiveLevels<'_> {
     }
 }
 
-/// Uses the maps of a kernel. Each position has a slot.
+/// Uses a kernel's maps. Each position has a slot.
 impl BoardSource for Course {
     fn name(&self) -> &'static str {
         "course"
@@ -183,7 +184,7 @@ impl BoardSource for Course {
     }
 }
 
-/// The boards for a slot of a course.
+/// The boards for a slot in a course.
 struct SlotBoards<'a> {
     game: &'a Game,
     course: &'a Course,

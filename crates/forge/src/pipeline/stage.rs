@@ -1,4 +1,4 @@
-//! A stage of the pipeline, and the walk of a candidate through a list of stages.
+//! A stage of the pipeline, and a candidate's walk through a list of stages.
 
 use crate::tally::Tally;
 use std::borrow::Cow;
@@ -6,35 +6,35 @@ use validators::{Criterion, CriterionSet};
 
 /// A stage for candidates of type `T`.
 pub(super) struct Stage<T> {
-    /// The name in the documentation. Tallies also use the name if the stage has its own judges.
+    /// The name in the documentation, also used in tallies if the stage has its own judges.
     pub(super) name: &'static str,
-    /// The question or the task of the stage, as a phrase.
+    /// The stage's question or task, as a phrase.
     pub(super) purpose: &'static str,
-    /// The usual cost, in words.
+    /// The typical cost, as text.
     pub(super) cost: &'static str,
     /// The criteria by which the stage can reject a candidate.
     pub(super) criteria: CriterionSet,
-    /// The other reasons for which the stage can reject a candidate. A final `N` in a reason stands for any number.
+    /// The other reasons for which the stage can reject a candidate. A final `N` in a reason represents any number.
     pub(super) reasons: &'static [&'static str],
     /// The part that the stage can replace instead of rejecting the candidate.
     pub(super) replaces: Option<&'static str>,
     pub(super) run: Run<T>,
 }
 
-/// The code of a stage.
+/// A stage's code.
 pub(super) enum Run<T> {
-    /// Judges the candidate, and changes it if the stage replaces something.
+    /// Judges the candidate, and changes it if the stage replaces a part.
     Once(fn(&mut T, &mut Tally) -> Passage),
-    /// Makes versions of the candidate, and takes each version through the later stages until one passes.
+    /// Creates versions of the candidate, and takes each through the later stages until one passes.
     Versions(fn(&mut T, &[Stage<T>], &mut Tally) -> Passage),
 }
 
-/// The rejection of a candidate by a stage.
+/// A stage's rejection of a candidate.
 #[derive(Debug)]
 pub(crate) enum Refusal {
-    /// The reason, which must still be counted.
+    /// A reason that has not been counted yet.
     Because(Cow<'static, str>),
-    /// The stage has already counted the reason.
+    /// The reason has been counted by the stage.
     Counted,
 }
 
@@ -70,7 +70,7 @@ impl<T> Stage<T> {
         Stage::of(Run::Once(run))
     }
 
-    /// Creates a stage that makes versions of the candidate, with an empty description.
+    /// Creates a stage that generates versions of the candidate, with an empty description.
     pub(super) const fn versions(run: fn(&mut T, &[Stage<T>], &mut Tally) -> Passage) -> Stage<T> {
         Stage::of(Run::Versions(run))
     }
@@ -80,7 +80,7 @@ impl<T> Stage<T> {
         Stage { name: "", purpose: "", cost: "none", criteria, reasons: &[], replaces: None, run }
     }
 
-    /// Asserts, in the tests of this crate, that the description of the stage lists the reason.
+    /// Asserts, in this crate's tests, that the stage's description lists the reason.
     fn check(&self, refusal: &Refusal) {
         let Refusal::Because(why) = refusal else { return };
         if !cfg!(test) {
@@ -94,7 +94,7 @@ impl<T> Stage<T> {
         assert!(is_criterion || self.reasons.iter().any(is_reason), "{} rejects for {why}", self.name);
     }
 
-    /// Returns the stage's row in the table of the documentation.
+    /// Returns the stage's row in the documentation's table.
     pub(super) fn row(&self) -> String {
         let criteria = self.criteria.iter().map(|criterion| format!("`{criterion}`"));
         let refuses: Vec<String> =

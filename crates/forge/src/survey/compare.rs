@@ -5,21 +5,21 @@ use base::Seed;
 use report::{Table, TableCell};
 use statistics::{bootstrap_difference, quantile};
 
-/// The number of resamples for an interval.
+/// The number of resamples per interval.
 const RESAMPLES: usize = 4000;
 
-/// The unit of a figure.
+/// A figure's unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Unit {
-    /// A fraction of games, from 0 to 1. All games are 100 points.
+    /// A fraction of games, from 0 to 1. 100 points correspond to all games.
     Share,
-    /// A mean of values on a natural scale of length 1. The whole scale is 100 points.
+    /// A mean of values on a natural scale of length 1. 100 points correspond to the whole scale.
     Scale,
-    /// A mean of counts. The mean of the other group is 100 points.
+    /// A mean of counts. 100 points correspond to the other group's mean.
     Count,
 }
 
-/// A line of the comparison: its name, its unit, and its value for a game. A game without a value has a reason instead.
+/// A line of the comparison: its name, its unit, and its value for a game, or the reason why the game has no value.
 struct Question {
     name: &'static str,
     unit: Unit,
@@ -51,7 +51,7 @@ fn yes(answer: bool) -> f64 {
     f64::from(u8::from(answer))
 }
 
-/// The figures of one group of games in a line of the comparison.
+/// One group's figures in a line of the comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
     /// The mean, or the fraction; `None` if no game has a value.
@@ -81,20 +81,20 @@ impl Group {
 /// A line of the comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The subject of the line.
+    /// The line's subject.
     pub name: &'static str,
     unit: Unit,
-    /// The figures of the first group.
+    /// The first group's figures.
     pub ours: Group,
-    /// The figures of the second group.
+    /// The second group's figures.
     pub theirs: Group,
     /// The value of `ours` minus the value of `theirs`; `None` unless both groups have a value.
     pub difference: Option<f64>,
     /// The 95% bootstrap interval of the difference, over the games of each group.
     pub interval: Option<[f64; 2]>,
-    /// The difference in points: hundredths of all games, of the scale from 0 to 1, or of the other group's mean count.
+    /// The difference in points: percent of all games, of the scale from 0 to 1, or of the other group's mean count.
     pub points: Option<f64>,
-    /// `true` if the interval includes 0 or lies above 0, so that `ours` is not significantly worse.
+    /// `true` if `ours` is not significantly worse: the interval includes 0 or lies above 0.
     pub level: Option<bool>,
 }
 
@@ -154,7 +154,7 @@ fn mean(values: &[f64]) -> f64 {
 /// A comparison of two groups of games, line by line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// The lines, in the order of the table.
+    /// The lines, in table order.
     pub lines: Vec<Line>,
 }
 
@@ -165,7 +165,7 @@ impl Comparison {
         Comparison { lines: (0..).zip(&QUESTIONS).map(line).collect() }
     }
 
-    /// Returns the comparison as a table, with a note on the games that were left out.
+    /// Returns the comparison as a table, with a note on the omitted games.
     pub fn table(&self) -> Table {
         let level = self.lines.iter().filter(|line| line.level == Some(true)).count();
         let mut note = format!("At least level on {level} of {} lines.", self.lines.len());

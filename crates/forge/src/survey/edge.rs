@@ -1,4 +1,4 @@
-//! The edge of the strongest player over the players that do not look ahead, over all levels of a game.
+//! The advantage of the strongest player over the players that do not look ahead, across all levels of a game.
 
 use crate::reported::in_order;
 use engine::{Analysis, Level};
@@ -6,43 +6,42 @@ use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, difference};
 use validators::{Criteria, Criterion, PlayerResult, Report};
 
-/// The number of resamples for an interval of scores.
+/// The number of resamples per score interval.
 const RESAMPLES: usize = 1000;
 
-/// The name of the player that has found a plan. It is used on levels where a plan that has won once always wins.
+/// The name of the player that has found a plan. Used on levels where a plan that has won once always wins.
 pub const SEARCH: &str = "search";
 
-/// The edge of the strongest player over the best player that does not look ahead.
+/// The advantage of the strongest player over the best player that does not look ahead.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edge {
-    /// The strongest player. This is the player with the most wins among the players that look ahead, or with the
-    /// highest score if wins are equal. In a deterministic game, it is [`SEARCH`] if that player has more wins.
+    /// The strongest player. Among the players that look ahead, this is the player with the most wins; ties go to the
+    /// highest score. In a deterministic game, [`SEARCH`] is the strongest player if it has more wins.
     pub strongest: String,
-    /// The number of wins of the strongest player, over all levels.
+    /// The strongest player's number of wins, across all levels.
     pub wins: u64,
-    /// The number of episodes of each player, over all levels.
+    /// The number of episodes per player, across all levels.
     pub plays: u64,
-    /// The best player that does not look ahead, which is the player with the most wins, or with the highest score if
-    /// wins are equal.
+    /// The best player that does not look ahead: the player with the most wins, with ties going to the highest score.
     pub floor: String,
-    /// The number of wins of the floor player, over all levels.
+    /// The floor player's number of wins, across all levels.
     pub floor_wins: u64,
-    /// The difference between the win rates, from −1 to 1.
+    /// The difference between the two players' win rates, from −1 to 1.
     pub points: f64,
     /// Newcombe's 95% interval of the difference.
     pub interval: [f64; 2],
-    /// The mean gain in score of the ladder's strongest player over the floor player, as a fraction of the range of all
-    /// scores on the level. The two players' episodes are paired by their randomness. `None` if scores do not differ on
-    /// any level.
+    /// The mean gain in score of the ladder's strongest player over the floor player, as a fraction of the level's
+    /// score range. The two players' episodes are paired by their random seeds. `None` if scores do not differ on any
+    /// level.
     pub score: Option<f64>,
     /// The 95% bootstrap interval of the gain in score, over episodes.
     pub score_interval: Option<[f64; 2]>,
-    /// `true` if one of the two differences is as large as the criteria require and significantly above 0.
+    /// `true` if the difference in win rate or in score is as large as the criteria require and significantly above 0.
     pub pays: bool,
 }
 
-/// The results of a player over all levels.
+/// A player's results across all levels.
 struct Player {
     name: String,
     looks_ahead: bool,
@@ -62,14 +61,14 @@ impl Player {
         self.scores.iter().sum::<f64>() / self.scores.len().max(1) as f64
     }
 
-    /// Returns the key by which players are compared, which is wins first and then score.
+    /// Returns the key by which players are compared, by wins first and then by score.
     fn fares(&self) -> (f64, f64) {
         (self.rate(), self.score())
     }
 }
 
 /// Returns the players of the ladder, from weakest to strongest, and then the held-out players, with their results on
-/// all levels. Levels without a ladder are left out.
+/// all levels. Levels without a ladder are skipped.
 fn players(reports: &[Report]) -> Vec<Player> {
     let mut players: Vec<Player> = Vec::new();
     for report in reports {
@@ -103,9 +102,8 @@ fn players(reports: &[Report]) -> Vec<Player> {
 }
 
 impl Edge {
-    /// Computes the edge from the ladders that played on the levels, without held-out players. Returns `None` if there
-    /// are no ladders, or unless some players look ahead and some do not. The players must have the same names in all
-    /// reports.
+    /// Computes the advantage from the levels' ladders, without held-out players. Returns `None` without ladders, or if
+    /// all players look ahead or none does. The players must have the same names in all reports.
     pub(super) fn of(
         analysis: &Analysis,
         levels: &[Level],
@@ -115,7 +113,7 @@ impl Edge {
         Edge::among(analysis, levels, reports, criteria, false)
     }
 
-    /// Computes the edge like [`Edge::of`], with the strongest of the players that were held out from all searches.
+    /// Computes the advantage like [`Edge::of`], but for the strongest player held out from all searches.
     pub(crate) fn held_out(
         analysis: &Analysis,
         levels: &[Level],
@@ -171,7 +169,7 @@ impl Edge {
     }
 }
 
-/// Returns the number of episodes of each player of a level's ladder.
+/// Returns the number of episodes per player on a level's ladder.
 fn plays_of(report: &Report) -> u64 {
     report.ladder().and_then(|ladder| ladder.rungs.first()).map_or(0, |fared| fared.rate.plays)
 }

@@ -7,19 +7,20 @@ use base::{Digest, Seed};
 use engine::{Game, Level};
 use validators::{CheckedCriteria, Criteria, CriteriaError, Criterion, CriterionSet, Effort, Judging, Panel};
 
-/// A survey that judges games one after the other, all in the same way.
+/// A survey that judges games one by one and all in the same way.
 pub struct GameSurvey {
     criteria: CheckedCriteria,
     panel: Panel,
     seed: Seed,
 }
 
-/// The criteria that a survey checks. All other criteria are irrelevant to the comparison, or follow from these.
+/// The criteria that a survey checks. All other criteria are irrelevant to the comparison, or follow from the criteria
+/// in this set.
 const ASKED: CriterionSet = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
 
 impl GameSurvey {
-    /// Creates a survey. The players of the ladder, the budgets and the thresholds come from `criteria`, but neither
-    /// the requested criteria nor the held-out players do.
+    /// Creates a survey. The ladder's players, the budgets and the thresholds come from `criteria`. The requested
+    /// criteria and the held-out players are not used.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.
@@ -28,8 +29,8 @@ impl GameSurvey {
         Ok(GameSurvey { panel: Panel::new(criteria.clone(), Effort::Full), criteria, seed })
     }
 
-    /// Returns criteria with budgets that allow judging a hundred games with three levels each in half an hour on two
-    /// cores.
+    /// Returns criteria with budgets small enough to judge a hundred games with three levels each in half an hour on
+    /// two cores.
     pub fn criteria() -> Criteria {
         let ladder = ["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:200"];
         Criteria {
@@ -43,7 +44,7 @@ impl GameSurvey {
     }
 
     /// Returns the digest of everything that determines a game's row: the rules and levels, the criteria, the seed and
-    /// the rules of the engine. Rows with the same digest are the same.
+    /// the engine's rules. Rows with the same digest are identical.
     pub fn digest(&self, game: &Game, levels: &[Level]) -> Digest {
         let levels: Vec<Digest> = levels.iter().map(Level::digest).collect();
         let seed = *self.seed.as_bytes();
@@ -53,8 +54,8 @@ impl GameSurvey {
         )
     }
 
-    /// Returns the row of a game. The row does not depend on the other games or on the number of threads. Cost: the
-    /// budgets of the criteria for a witness and for a ladder per level. All levels are judged in parallel.
+    /// Returns a game's row. The row does not depend on the other games or on the number of threads. Judges all levels
+    /// in parallel. Costs the criteria's budgets for a witness and a ladder per level.
     pub fn row(&self, name: &str, game: &Game, levels: &[Level]) -> GameRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let report = self.panel.judge(Judging::game(game, levels, seed));

@@ -1,4 +1,4 @@
-//! A survey of the games that pass each gate, on which the thresholds are based.
+//! A survey of how many games pass each gate. The gates' thresholds are based on this survey.
 
 use base::Seed;
 use engine::{Episode, Game, Level};
@@ -8,42 +8,42 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::{Criteria, CriteriaError, Criterion, CriterionSet, Effort, Judging, Panel, Verdict};
 
-/// A survey that puts games through the gates one after the other, all in the same way.
+/// A survey that puts games through the gates one by one and all in the same way.
 pub struct GateSurvey {
     panel: Panel,
-    /// The judges of levels with a known win.
+    /// The judges for levels with a known win.
     panel_of_won: Panel,
     seed: Seed,
 }
 
-/// The answer of a gate about a game.
+/// A gate's verdict on a game.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GateAnswer {
-    /// `true` if the game passes the gate; `None` if there was nothing to judge.
+    /// `true` if the game passes the gate; `None` if nothing could be judged.
     pub passes: Option<bool>,
-    /// The figure that the gate measured.
+    /// The figure measured by the gate.
     pub figure: Option<f64>,
-    /// The details of the evidence.
+    /// The details in the evidence.
     pub seen: Vec<String>,
 }
 
-/// A game and the answers of the gates.
+/// A game and the gates' verdicts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GateRow {
-    /// The name of the game.
+    /// The game's name.
     pub name: String,
     /// The number of judged levels.
     pub levels: usize,
     /// The number of levels for which a win was found.
     pub won: usize,
-    /// The answers, by gate.
+    /// The verdicts, by gate.
     pub gates: BTreeMap<Criterion, GateAnswer>,
 }
 
 impl GateSurvey {
-    /// Creates a survey with the thresholds of the criteria, and with their budget for a win.
+    /// Creates a survey with the criteria's thresholds and their budget for a win.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.
@@ -55,13 +55,13 @@ impl GateSurvey {
         Ok(GateSurvey { panel: panel(criteria), panel_of_won: panel(of_won), seed })
     }
 
-    /// Returns criteria with a budget that allows judging a hundred games in half an hour on two cores.
+    /// Returns criteria with a budget small enough to judge a hundred games in half an hour on two cores.
     pub fn criteria() -> Criteria {
         Criteria { budget: 300_000, foresight: 0.4, ..Criteria::default() }
     }
 
-    /// Returns the row of a game. The row does not depend on the other games or on the number of threads. A level with
-    /// a known win is judged by that win, and any other level by a win that a search finds.
+    /// Returns a game's row. The row does not depend on the other games or on the number of threads. A level with a
+    /// known win is judged by that win, and any other level by a win found by a search.
     pub fn row(&self, name: &str, game: &Game, levels: &[(Level, Option<Episode>)]) -> GateRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let judge = |(level, win): &(Level, Option<Episode>)| {
@@ -106,8 +106,8 @@ impl GateRow {
         format!("{}: won {} of {}, {}", self.name, self.won, self.levels, answers.join(", "))
     }
 
-    /// Returns the table of groups of games. For each gate, a group has the number of games that pass the gate among
-    /// the games that it could judge, and the median of the gate's figure.
+    /// Returns a table of game groups. For each gate and group, the table lists how many of the judged games pass the
+    /// gate, and the median of the gate's figure.
     pub fn table(groups: &[(&str, &[GateRow])]) -> Table {
         let columns =
             groups.iter().flat_map(|(group, _)| [format!("{group} pass"), format!("{group} median")]);

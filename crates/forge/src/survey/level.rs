@@ -1,4 +1,4 @@
-//! Levels that all judges judge again for a report.
+//! Levels judged again by all judges for a report.
 
 use base::Seed;
 use engine::{Analysis, Level};
@@ -9,7 +9,7 @@ use validators::{
     Measures, Panel, Report,
 };
 
-/// The maximum fraction of wins without effort at which a level does not yet count as won for nothing.
+/// The maximum fraction of effortless wins at which a level does not yet count as won for nothing.
 pub(crate) const FOR_NOTHING: f64 = 0.1;
 
 /// A level and all findings about it.
@@ -17,14 +17,14 @@ pub(crate) const FOR_NOTHING: f64 = 0.1;
 pub struct SurveyedLevel {
     /// The judged level.
     pub level: Level,
-    /// The findings of the judges.
+    /// The judges' findings.
     pub report: Report,
-    /// The ladder of players on the level, and the difficulty derived from the ladder. The ladder's seeds did not guide
-    /// any search.
+    /// The level's player ladder, and the difficulty derived from it. The ladder's seeds did not guide any search.
     pub ladder: Option<Ladder>,
     /// The measures of the level's witness; `None` without a witness.
     pub measures: Option<Measures>,
-    /// The measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1. All levels have the same names.
+    /// The measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1. The names are the same for all
+    /// levels.
     pub layout: Vec<(String, f64)>,
     /// The requested difficulty; `None` if none was requested.
     pub asked: Option<Difficulty>,
@@ -36,8 +36,8 @@ impl SurveyedLevel {
         self.ladder.as_ref().map(|ladder| ladder.difficulty)
     }
 
-    /// Returns a measure by name: `ticks`, `pushes`, `branching`, `mechanics`, `pressure`, `skill`, or one of the
-    /// layout.
+    /// Returns a measure by name: `ticks`, `pushes`, `branching`, `mechanics`, `pressure`, `skill`, or a layout
+    /// measure.
     pub(crate) fn measure(&self, name: &str) -> Option<f64> {
         let play = self.measures.as_ref().and_then(|measures| match name {
             "ticks" => Some(measures.ticks as f64),
@@ -52,8 +52,8 @@ impl SurveyedLevel {
     }
 }
 
-/// A survey that judges levels for a report with its own seeds, without trusting any result of a search. All criteria
-/// are checked for every level, even after one of them fails.
+/// A survey that judges levels for a report with its own seeds, without trusting any search result. All criteria are
+/// checked for every level, even after one of them fails.
 pub struct LevelSurvey<'a> {
     analysis: &'a Analysis,
     layout: Option<LevelMeasures>,
@@ -63,8 +63,8 @@ pub struct LevelSurvey<'a> {
 }
 
 impl<'a> LevelSurvey<'a> {
-    /// Creates a survey of one game's levels. Random keys may win a tenth of their episodes in the report's count, even
-    /// if the criteria are stricter to account for the choice among many candidates. The ladder is that of the criteria
+    /// Creates a survey of one game's levels. For the report, random keys may win a tenth of their episodes, even if
+    /// the criteria are stricter to account for selection among many candidates. The ladder is the criteria's ladder
     /// without the held-out players, so difficulty has the same meaning as in `arcade generate levels --difficulty`.
     ///
     /// # Errors
@@ -87,14 +87,14 @@ impl<'a> LevelSurvey<'a> {
         })
     }
 
-    /// Returns the same survey without a ladder. Such a survey does not measure difficulty and skill.
+    /// Returns the same survey without a ladder. Such a survey does not measure difficulty or skill.
     #[must_use]
     pub fn without_ladder(self) -> LevelSurvey<'a> {
         LevelSurvey { climb: None, ..self }
     }
 
     /// Judges levels, each with its requested difficulty, on all threads of the current rayon pool. The result for a
-    /// level does not depend on the other levels. Cost: that of the panel and, for levels with a witness, of the
+    /// level does not depend on the other levels. Costs one panel per level and, for each level with a witness, one
     /// ladder.
     pub fn judge(&self, levels: &[(Level, Option<Difficulty>)]) -> Vec<SurveyedLevel> {
         levels.par_iter().map(|(level, asked)| self.one(level, *asked)).collect()

@@ -1,4 +1,4 @@
-//! The findings about a game.
+//! The findings about one game.
 
 use super::edge::{Edge, ladder_order};
 use super::surveyed::SurveyedGame;
@@ -13,16 +13,16 @@ use validators::{Criteria, GameReport, PlayMeasures, Recorded, Report, RulesShow
 /// The version of a row's format.
 pub(super) const FORM: u32 = 3;
 
-/// The reason for a missing figure if no win of any level was found.
+/// The reason for a missing figure if no win was found on any level.
 pub(super) const NO_WIN: &str = "no win found";
-/// The reason for a missing figure if there was no level to judge.
+/// The reason for a missing figure without a level to judge.
 pub(super) const NO_LEVEL: &str = "no level";
 
-/// The findings about a game.
+/// The findings about one game.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameRow {
-    /// The name of the game.
+    /// The game's name.
     pub name: String,
     /// The digest of everything that determines the row; see [`GameSurvey::digest`](super::GameSurvey::digest).
     pub digest: Digest,
@@ -32,22 +32,22 @@ pub struct GameRow {
     pub won: u64,
     /// The number of interactions in the rules, not counting guards ([`Guards`]).
     pub rules: u64,
-    /// The number of rules in `rules` that some recorded episode executes.
+    /// The number of rules in `rules` that are executed in a recorded episode.
     pub executed: u64,
-    /// The number of types declared with sprites of their own.
+    /// The number of types declared with their own sprites.
     pub types: u64,
-    /// The number of types in `types` that occurred on the board or as a resource in some recorded episode.
+    /// The number of types in `types` that occur on the board or as a resource in a recorded episode.
     pub there: u64,
-    /// The edge of the strongest player over the best player that does not look ahead.
+    /// The advantage of the strongest player over the best player that does not look ahead.
     pub edge: Option<Edge>,
     /// The rank correlation between a player's position in the ladder and its result.
     pub order: Option<f64>,
-    /// The number of different interactions, not counting guards, that all wins together execute
+    /// The number of different interactions, not counting guards, that the wins execute in total
     /// ([`PlayMeasures::mechanics`]).
     pub mechanics: Option<u64>,
     /// The despair on the way to a win ([`PlayMeasures::drama`]).
     pub drama: Option<f64>,
-    /// The number of forward-model calls of all searches and episodes.
+    /// The number of forward-model calls in all searches and episodes.
     pub calls: u64,
 }
 
@@ -57,8 +57,8 @@ impl GameRow {
         COLUMNS.iter().map(|(name, _)| *name)
     }
 
-    /// Returns the row of a game that was judged for `winnable` and `skill`. Cost: three replays of the recorded
-    /// episodes, and the cost of [`PlayMeasures::of`].
+    /// Returns the row for a game judged by `winnable` and `skill`. Costs three replays of the recorded
+    /// episodes, plus [`PlayMeasures::of`].
     pub(crate) fn of(surveyed: &SurveyedGame, criteria: &Criteria, digest: Digest, seed: Seed) -> GameRow {
         let SurveyedGame { name, game, levels, report: GameReport { levels: reports, .. }, .. } = surveyed;
         let analysis = Analysis::of(game);
@@ -93,13 +93,13 @@ impl GameRow {
         }
     }
 
-    /// Returns the row as cells of a table.
+    /// Returns the row as table cells.
     pub(crate) fn cells(&self) -> impl Iterator<Item = TableCell> {
         COLUMNS.iter().map(|(_, cell)| cell(self))
     }
 }
 
-/// A column of the table of games: its name, and its cell in a row.
+/// A column in the table of games: its name, and its cell for a row.
 type Column = (&'static str, fn(&GameRow) -> TableCell);
 
 const COLUMNS: [Column; 13] = [
@@ -142,7 +142,7 @@ impl fmt::Display for GameRow {
     }
 }
 
-/// Returns a level's winning episodes: the shortest known win, then the wins of the players.
+/// Returns a level's winning episodes: the shortest known win, then the players' wins.
 fn wins(report: &Report) -> Vec<Episode> {
     let mut won = report.episodes();
     won.retain(|episode| episode.outcome == Outcome::Won);

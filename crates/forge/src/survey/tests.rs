@@ -1,4 +1,4 @@
-//! Tests with games of a few steps, whose figures are easy to count.
+//! Tests with games of a few steps that have easily counted figures.
 
 use super::row::NO_WIN;
 use super::*;
@@ -6,8 +6,8 @@ use base::{Digest, Seed};
 use engine::{Game, Level};
 use validators::Criteria;
 
-/// Returns a game in which the player fetches the gem. `extra` can add `idle` sprites and rules that nothing
-/// needs.
+/// Returns a game in which the player collects the gem. `extra` can add `idle` sprites and superfluous
+/// rules.
 fn game(extra: [&str; 2]) -> Game {
     let [sprites, rules] = extra;
     let source = format!(

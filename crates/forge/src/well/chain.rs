@@ -1,4 +1,4 @@
-//! The simulated draws of a chain of months.
+//! The simulated draws for a chain of months.
 
 use super::clusters::Clusters;
 use super::month::{Again, Nearest, Sketch, WellMonth, WellOrder};
@@ -10,14 +10,14 @@ use rayon::prelude::*;
 use statistics::quantile;
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// The larger of the two distances at which the unseen mass is estimated.
+/// The larger of the two distances used to estimate the unseen mass.
 const FAR: f64 = 0.4;
 
 /// A function that draws the rules of a candidate from the census, the known games, the candidate's number and attempt,
 /// and a seed.
 pub(super) type Draw<'a> = &'a (dyn Fn(&Census, &[GameForm], (u32, u32), Seed) -> Option<Sketch> + Sync);
 
-/// A chain of months that is being simulated.
+/// A simulated chain of months.
 pub(super) struct Chain<'a> {
     order: &'a WellOrder,
     /// The known games, and the games of earlier months.
@@ -26,7 +26,7 @@ pub(super) struct Chain<'a> {
     draw: Draw<'a>,
     sets: f64,
     census: Census,
-    /// All rules that passed, including those that were rejected as near duplicates.
+    /// All rules that passed, including rules rejected as near duplicates.
     seen: Vec<GameForm>,
     /// For each entry of `seen`, `true` if the rules became a game.
     is_game: Vec<bool>,
@@ -39,7 +39,7 @@ pub(super) struct Chain<'a> {
     used: u32,
 }
 
-/// The rule sets that were drawn for one candidate.
+/// The rule sets drawn for one candidate.
 #[derive(Default)]
 struct Attempts {
     drawn: u64,
@@ -50,9 +50,9 @@ struct Attempts {
 /// Rules that passed the simulated judging.
 struct Passed {
     sketch: Sketch,
-    /// The distances to all rules that were seen in earlier months.
+    /// The distances to all rules seen in earlier months.
     distances: Vec<f64>,
-    /// The distance to the nearest known game or game of an earlier month.
+    /// The distance to the nearest known game or earlier month's game.
     nearest: f64,
 }
 
@@ -63,7 +63,7 @@ impl Passed {
 }
 
 impl<'a> Chain<'a> {
-    /// Creates a chain before its first month. `sets` is the total number of rule sets.
+    /// Creates a chain in its state before the first month. `sets` is the total number of rule sets.
     pub(super) fn new(
         order: &'a WellOrder,
         known: &'a [GameForm],
@@ -90,7 +90,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Simulates the months of the chain.
+    /// Simulates the chain's months.
     pub(super) fn run(mut self, noted: &dyn Fn(&WellMonth)) -> Vec<WellMonth> {
         let months = self.order.months;
         let month = |number| {
@@ -101,7 +101,7 @@ impl<'a> Chain<'a> {
         (1..=months).map(month).collect()
     }
 
-    /// Simulates a month. Its candidates know the games of earlier months, but not each other.
+    /// Simulates a month. Its candidates take the games of earlier months into account, but not each other.
     fn month(&mut self, number: u32) -> WellMonth {
         let candidates = (f64::from(self.order.games) * self.order.candidates).ceil() as u64;
         let seed = self.seed.child("month", number.into());
@@ -180,7 +180,7 @@ impl<'a> Chain<'a> {
         Passed { sketch, distances, nearest }
     }
 
-    /// Records rules that passed, and adds them to the games of the month if they are accepted.
+    /// Records rules that passed, and adds them to the month's games if accepted.
     fn select(&mut self, month: u32, passed: Passed, selection: &mut Selection) {
         let is_near = passed.is_near();
         let Passed { sketch, mut distances, nearest } = passed;
@@ -211,7 +211,7 @@ impl<'a> Chain<'a> {
     }
 }
 
-/// The games of a month, in the order of their candidates.
+/// A month's games, in candidate order.
 #[derive(Default)]
 struct Selection {
     games: Vec<Sketch>,
@@ -223,8 +223,8 @@ struct Selection {
 }
 
 impl Selection {
-    /// Returns `true` if a candidate becomes a game. This requires room, and no game of the month that is near or has
-    /// the same title or cast.
+    /// Returns `true` if a candidate becomes a game. This requires free room, and no game in the month that is similar
+    /// or has the same title or cast.
     fn takes(&mut self, sketch: &Sketch, nearest: f64, room: u32) -> bool {
         let has_words = |other: &Sketch| other.title == sketch.title || other.cast.is_shared(&sketch.cast);
         if self.games.len() >= room as usize {
@@ -277,7 +277,7 @@ mod tests {
         Chain::new(order, known, Seed::from_text("well"), draw, 100.0).run(&|_| ())
     }
 
-    /// Every later draw is rejected, which shows that no rules are left unseen.
+    /// A chain in which every later draw is rejected, which shows that no rules are left unseen.
     #[test]
     fn a_chain_of_one_rule_set_has_nothing_unseen() {
         let found = months(&ORDER, &[], &|_, _, _, _| Some(sketch(1)));

@@ -1,4 +1,4 @@
-//! Clusters of games that are near each other, and the probability mass of unseen clusters.
+//! Clusters of similar games, and the probability mass of unseen clusters.
 
 use super::species::good_turing;
 
@@ -16,7 +16,7 @@ impl Clusters {
         Clusters { within, leaders: Vec::new(), sizes: Vec::new() }
     }
 
-    /// Adds the next game, given its distances to all earlier games in order.
+    /// Adds the next game, given its distances to all earlier games, in order.
     pub(super) fn add(&mut self, distances: &[f64]) {
         match self.leaders.iter().position(|leader| distances[*leader] < self.within) {
             Some(cluster) => self.sizes[cluster] += 1,

@@ -1,8 +1,8 @@
 //! The well: the supply of games that a chain of months can still invent, measured by rules alone.
 //!
-//! [`simulate`] draws the invented games of a chain of months like minting, but without boards. Every month knows the
-//! games of all earlier months and prefers the mechanics that they used least. `chain.rs` draws rules, `clusters.rs`
-//! and `species.rs` count what was seen before, `words.rs` counts repeated words, and `table.rs` shows the months.
+//! [`simulate`] draws a chain's invented games as minting does, but without boards. Every month takes the games of all
+//! earlier months into account and prefers the mechanics least used so far. `chain.rs` draws rules, `clusters.rs` and
+//! `species.rs` count repetitions, `words.rs` counts repeated words, and `table.rs` shows the months.
 
 mod chain;
 mod clusters;
@@ -22,13 +22,13 @@ use month::Sketch;
 use rayon::prelude::*;
 use validators::novelty::GameForm;
 
-/// The number of choices of mechanics that are drawn to estimate the number of rule sets, for each number of mechanics.
+/// The number of mechanic combinations to draw, for each number of mechanics, when estimating the number of rule sets.
 const SUPPLY_SAMPLES: u64 = 500;
-/// The number of draws that estimate how many rule sets are near a known game.
+/// The number of draws used to estimate how many rule sets are near a known game.
 const NEAR_SAMPLES: u64 = 64;
 
-/// Estimates the number of rule sets that are not near a known game, from a sample that is drawn as for a month after
-/// the games of a census. Cost: a second or two of one core, and some microseconds per known game.
+/// Estimates the number of rule sets that are not near a known game, from a sample drawn as for a month that follows a
+/// census. Costs one or two core seconds, and a few microseconds per known game.
 pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
     let sets =
         InventionSupply::estimate(&InventionConfig::default(), SUPPLY_SAMPLES, seed.child("supply", 0))
@@ -46,10 +46,11 @@ pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
     sets * new as f64 / NEAR_SAMPLES as f64
 }
 
-/// Simulates a chain of months with invented games that are kept apart from `known` games. `noted` receives each month.
+/// Simulates a chain of months whose invented games are kept apart from `known` games. `noted` is called with each
+/// month.
 ///
-/// The same order, known games and seed give the same result on any number of threads. Cost: about 10 milliseconds of
-/// one core per candidate that passes, and a few microseconds per pair of candidates.
+/// The same order, known games and seed give the same result on any number of threads. Costs about 10 core milliseconds
+/// per passing candidate, and a few microseconds per pair of candidates.
 pub fn simulate(order: &WellOrder, known: &[GameForm], seed: Seed, noted: &dyn Fn(&WellMonth)) -> Well {
     let supply =
         InventionSupply::estimate(&InventionConfig::default(), SUPPLY_SAMPLES, seed.child("supply", 0));

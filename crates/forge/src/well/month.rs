@@ -11,11 +11,11 @@ pub struct WellOrder {
     pub months: u32,
     /// The number of invented games per month.
     pub games: u32,
-    /// The number of candidate games per game of a month.
+    /// The number of candidates per game in a month.
     pub candidates: f64,
     /// The maximum number of rule sets drawn for one candidate.
     pub tries: u32,
-    /// The fraction of new rule sets for which boards are found that pass all judges. The seed decides which rule sets
+    /// The fraction of new rule sets for which boards that pass all judges are found. The seed decides which rule sets
     /// these are.
     pub passing: f64,
 }
@@ -26,37 +26,37 @@ impl Default for WellOrder {
     }
 }
 
-/// The months of a chain, with the number of rule sets that they draw from.
+/// The months of a chain, with the number of rule sets to draw from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Well {
-    /// The order for the simulation.
+    /// The simulation's order.
     pub order: WellOrder,
-    /// The estimated number of choices of mechanics and an ending for which a game can be built.
+    /// The estimated number of buildable combinations of mechanics and an ending.
     pub sets: f64,
-    /// The fraction of all choices of mechanics and an ending for which a game can be built.
+    /// The buildable fraction of all combinations of mechanics and an ending.
     pub sound: f64,
     /// The months in chronological order.
     pub months: Vec<WellMonth>,
 }
 
-/// A month of a chain. Fractions and unseen masses refer to all months up to this one.
+/// A month in a chain. Fractions and unseen masses refer to all months up to this one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WellMonth {
-    /// The number of the month, from 1.
+    /// The month's number, from 1.
     pub month: u32,
-    /// The estimated number of rule sets that are not near a game from before this month.
+    /// The estimated number of rule sets that are not near any game from before this month.
     pub available: f64,
-    /// The number of rule sets that were drawn for candidates.
+    /// The number of rule sets drawn for candidates.
     pub drawn: u64,
     /// The number of drawn rule sets for which no board was found, as decided by the seed.
     pub failed: u64,
-    /// The number of drawn rule sets that were near a game of an earlier month or a known game.
+    /// The number of drawn rule sets near a known game or an earlier month's game.
     pub near: u64,
-    /// The number of candidates that were near another candidate of the month.
+    /// The number of candidates near another candidate in the month.
     pub near_in_month: u64,
-    /// The number of candidates that had two mechanics of another candidate of the month.
+    /// The number of candidates that share two mechanics with another candidate in the month.
     pub same_idea: u64,
-    /// The number of candidates that had the title or the cast of another candidate of the month.
+    /// The number of candidates that share the title or cast of another candidate in the month.
     pub same_words: u64,
     /// The number of new games.
     pub games: u32,
@@ -66,22 +66,22 @@ pub struct WellMonth {
     pub yielded: f64,
     /// The distances between the new games and their nearest predecessors, including known games.
     pub nearest: Option<Nearest>,
-    /// The unseen mass of rules (Good–Turing): the probability that the distance between the next rules and any rules
-    /// drawn so far is at least 0.3.
+    /// The estimated unseen probability mass of rules (Good–Turing): the probability that the distance between the
+    /// next rules and any rules drawn so far is at least 0.3.
     pub unseen_near: Option<f64>,
-    /// The unseen mass of rules for a distance of 0.4.
+    /// The estimated unseen probability mass of rules, for a distance of 0.4.
     pub unseen_far: Option<f64>,
-    /// The unseen mass of merged pairs of ports.
+    /// The estimated probability mass of unseen port pairs, after merging.
     pub unseen_couplings: Option<f64>,
-    /// The unseen mass of mechanics, not counting endings.
+    /// The estimated probability mass of unseen mechanics, not counting endings.
     pub unseen_mechanics: Option<f64>,
     /// The mechanic that occurs in the most games.
     pub top_mechanic: Option<Top>,
     /// The ending that occurs in the most games.
     pub top_ending: Option<Top>,
-    /// The merged pair of ports that occurs in the most games.
+    /// The merged port pair that occurs in the most games.
     pub top_coupling: Option<Top>,
-    /// The words of the new games that had been used within the preceding year.
+    /// The new games' texts that were already used within the preceding year.
     pub again: Again,
 }
 
@@ -99,30 +99,30 @@ pub struct Nearest {
 /// The part that occurs in the most games.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Top {
-    /// The name of the part.
+    /// The part's name.
     pub name: String,
-    /// The fraction of games that have the part.
+    /// The fraction of games that contain the part.
     pub share: f64,
 }
 
-/// The repeated words in the games of a month, which an earlier game of the same month or of the eleven months before
+/// The repeated texts in a month's games: texts that an earlier game of the same month or the preceding eleven months
 /// had used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Again {
     /// The number of games with a repeated title.
     pub titles: u32,
-    /// The number of games whose things have exactly the names of those of another game.
+    /// The number of games whose type names are exactly those of another game.
     pub casts: u32,
     /// The number of games whose summary begins with the first sentence of another summary: the story that introduces
     /// the rules.
     pub openings: u32,
     /// The number of repeated sentences in all summaries.
     pub sentences: u32,
-    /// The total number of sentences in the summaries of the month.
+    /// The total number of sentences in the month's summaries.
     pub all_sentences: u32,
 }
 
-/// The rules and words of a drawn game.
+/// A drawn game's rules and texts.
 #[derive(Clone, Debug)]
 pub(crate) struct Sketch {
     pub(crate) form: GameForm,

@@ -1,29 +1,28 @@
-//! Counts of the parts of games, each counted once per game: the unseen mass, and the most frequent part.
+//! Counts of game parts, each counted once per game: the unseen mass, and the most frequent part.
 
 use super::month::Top;
 use std::collections::BTreeMap;
 
-/// The number of games that have each part.
+/// The number of games that contain each part.
 #[derive(Debug, Default)]
 pub(super) struct Species {
     counts: BTreeMap<String, u64>,
 }
 
 impl Species {
-    /// Counts the parts of a game.
+    /// Counts the parts of one game.
     pub(super) fn count<'a>(&mut self, parts: impl IntoIterator<Item = &'a str>) {
         for part in parts {
             *self.counts.entry(part.to_owned()).or_default() += 1;
         }
     }
 
-    /// Returns the probability that the next part of a game is new to all games.
+    /// Returns the estimated probability that the next part drawn is new.
     pub(super) fn unseen(&self) -> Option<f64> {
         good_turing(self.counts.values().copied())
     }
 
-    /// Returns the part that occurs in the most games, as a fraction of `games`. Among equally frequent parts,
-    /// returns the first by name.
+    /// Returns the part that occurs in the most games, as a fraction of `games`. Ties go to the first part by name.
     pub(super) fn top(&self, games: u32) -> Option<Top> {
         let most = self.counts.values().max()?;
         let (name, count) = self.counts.iter().find(|(_, count)| *count == most)?;

@@ -1,10 +1,10 @@
-//! The months of a chain as tables.
+//! A chain's months as tables.
 
 use super::month::{Nearest, Top, Well, WellMonth};
 use report::{Column, Table, TableCell};
 
 impl Well {
-    /// Returns two tables: the rules of each month, and its parts and words.
+    /// Returns two tables: each month's rules, and its parts and texts.
     pub fn tables(&self) -> [Table; 2] {
         [self.rules(), self.parts()]
     }

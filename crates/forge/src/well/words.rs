@@ -1,10 +1,10 @@
-//! The words that the games of a year share.
+//! The texts shared by a year's games.
 
 use super::month::{Again, Sketch};
 use crate::games::Cast;
 use std::collections::BTreeMap;
 
-/// The number of months during which no words should be repeated.
+/// The number of months during which no text should be repeated.
 const YEAR: u32 = 12;
 
 /// The last month in which each title, cast and sentence was used.
@@ -17,7 +17,7 @@ pub(super) struct Words {
 }
 
 impl Words {
-    /// Records the words of a month's game, and counts those that were used within a year.
+    /// Records the texts of a game in a month, and counts the texts already used within a year.
     pub(super) fn note(&mut self, month: u32, game: &Sketch, again: &mut Again) {
         again.titles += u32::from(is_again(&mut self.titles, game.title.clone(), month));
         again.casts += u32::from(is_again(&mut self.casts, game.cast.clone(), month));
@@ -31,7 +31,7 @@ impl Words {
     }
 }
 
-/// Records a use in a month, and returns `true` if the last use was less than a year earlier.
+/// Records a use in a month. Returns `true` if the last use was less than a year earlier.
 fn is_again<K: Ord>(uses: &mut BTreeMap<K, u32>, key: K, month: u32) -> bool {
     uses.insert(key, month).is_some_and(|last| month < last + YEAR)
 }

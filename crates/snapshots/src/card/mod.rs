@@ -1,4 +1,4 @@
-//! Summaries of the games of a release.
+//! Summaries of a release's games.
 
 pub mod rungs;
 
@@ -18,14 +18,14 @@ pub struct ReleaseCard {
     pub canary: String,
     /// The number of games.
     pub games: u64,
-    /// The number of levels of all games.
+    /// The number of levels in all games.
     pub levels: u64,
     /// The number of games from generators.
     pub new_games: u64,
-    /// The requested and the achieved figures. Difficulties are counted in levels, as measured at selection, and may
+    /// The requested and achieved figures. Difficulties are counted in levels, as measured during selection, and may
     /// deviate by one level. Quotas are counted in games.
     pub planned: Vec<Bin>,
-    /// The number of levels of each difficulty according to the cards' ladders, if it was measured.
+    /// The number of levels of each difficulty according to the cards' ladders, if difficulty was measured.
     pub difficulty: BTreeMap<String, u64>,
     /// The number of levels of each tier, if tiers were measured.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -36,21 +36,21 @@ pub struct ReleaseCard {
     pub avatars: BTreeMap<String, u64>,
     /// The number of games from each generator, and from `corpus`.
     pub generators: BTreeMap<String, u64>,
-    /// The results of the ladder's players over all games; empty if the ladder was not played.
+    /// The ladder players' results over all games; empty if no ladder was played.
     pub ladder: Vec<Rung>,
     /// The novelty of the games.
     pub novelty: Novelty,
-    /// The number of new games that contain each pattern of mechanics.
+    /// The number of new games with each mechanics pattern.
     pub patterns: BTreeMap<String, u64>,
-    /// The number of rules of a game.
+    /// The number of rules per game.
     pub rules: Option<Quantiles>,
-    /// The ticks of the witnesses.
+    /// The ticks per witness.
     pub witness_ticks: Option<Quantiles>,
-    /// The number of candidates tried, and the reasons for rejections.
+    /// The number of candidates tried, and the rejections by reason.
     pub tally: Tally,
 }
 
-/// The results of one player of the ladder.
+/// One ladder player's results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rung {
@@ -59,35 +59,35 @@ pub struct Rung {
     /// The smallest difference in win rate between two releases of this size that is detectable at the 5% level with
     /// 80% power.
     pub detectable: Option<f64>,
-    /// The smallest detectable difference between two releases of `MONTH` such games.
+    /// The smallest detectable difference between two releases with `MONTH` such games.
     pub detectable_month: Option<f64>,
 }
 
-/// The number of games of a release of full size.
+/// The number of games in a full-size release.
 pub(crate) const MONTH: u64 = 120;
 
-/// The novelty of the games of a release.
+/// The novelty of a release's games.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Novelty {
     /// The names of the previous releases, oldest first.
     pub ancestors: Vec<String>,
-    /// The number of new games in the previous releases.
+    /// The number of new games in all previous releases.
     pub known_games: u64,
-    /// The number of canonical items of corpus games in the previous releases.
+    /// The number of canonical items from corpus games in all previous releases.
     pub known_items: u64,
-    /// The distance from each new game to its nearest neighbour in the release, from 0 for the same rules to 1 for
-    /// nothing in common.
+    /// The distance from each new game to its nearest neighbour in the release, from 0 (the same rules) to 1
+    /// (nothing in common).
     pub nearest: Option<Quantiles>,
     /// The distance from each new game to the nearest corpus game.
     pub nearest_corpus: Option<Quantiles>,
-    /// The distance from each new game to the nearest game of the previous releases. Selection ensures that no
-    /// distance is below [`NEAR`](validators::novelty::NEAR), and that no item of a corpus game is repeated.
+    /// The distance from each new game to the nearest game in the previous releases. Selection ensures that no
+    /// distance is below [`NEAR`](validators::novelty::NEAR), and that no corpus item is repeated.
     pub nearest_known: Option<Quantiles>,
 }
 
 impl Rung {
-    /// Formats the player, the win rate and its interval as a row of a Markdown table.
+    /// Formats the player, the win rate and its interval as a Markdown table row.
     pub(crate) fn row(&self) -> String {
         let RungRate { player, mean, .. } = &self.rate;
         let held_out = if self.rate.held_out { ", held out" } else { "" };

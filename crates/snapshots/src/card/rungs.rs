@@ -1,9 +1,9 @@
 //! The win rates of the ladder's players over a whole release, and their differences between two releases.
 //!
-//! A level's rate is the fraction of its episodes that were won, and all levels have the same weight. Levels of one
-//! game are alike, so games are the sampling unit of the intervals ([`statistics::share_over_games`]). The interval
-//! of a difference is combined from the intervals of its two sides (G. Y. Zou and A. Donner, "Construction of
-//! confidence limits about effect measures: a general approach", 2008), as if the two sets of games were independent
+//! A level's rate is the fraction of its episodes that were won, and all levels have the same weight. Levels of the
+//! same game are correlated, so the intervals use games as the sampling unit ([`statistics::share_over_games`]). The
+//! interval for a difference combines the intervals of its two sides (G. Y. Zou and A. Donner, "Construction of
+//! confidence limits about effect measures: a general approach", 2008), treating the two sets of games as independent
 //! samples. The results are bit-identical on every machine.
 
 use forge::card::Card;
@@ -12,10 +12,10 @@ use statistics::{Interval, Z95, share_over_games};
 use validators::PlayerResult;
 
 /// The difference, in standard errors, that a two-sided test at the 5% level detects with 80% power: the sum of the
-/// normal quantiles of 0.975 and 0.8.
+/// normal quantiles at 0.975 and 0.8.
 const DETECTABLE_ERRORS: f64 = Z95 + 0.8416212335729143;
 
-/// A player's win rate over the games of a release.
+/// A player's win rate over a release's games.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RungRate {
@@ -23,13 +23,13 @@ pub struct RungRate {
     pub player: String,
     /// `true` if the player looks ahead.
     pub looks_ahead: bool,
-    /// `true` if the player is used only for acceptance, never in a search.
+    /// `true` if the player is used only for acceptance and never in a search.
     pub held_out: bool,
-    /// The number of games with a level that the player played.
+    /// The number of games with a level played by the player.
     pub games: u64,
-    /// The number of levels that the player played.
+    /// The number of levels played by the player.
     pub levels: u64,
-    /// The number of episodes, over all levels.
+    /// The number of episodes, across all levels.
     pub plays: u64,
     /// The number of episodes won.
     pub wins: u64,
@@ -37,13 +37,13 @@ pub struct RungRate {
     pub mean: f64,
     /// The 95% interval of the mean, clustered by game.
     pub interval: [f64; 2],
-    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as with a single
-    /// game.
+    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as is the case for
+    /// a single game.
     pub error: Option<f64>,
 }
 
 impl RungRate {
-    /// Returns the smallest difference in win rate between two releases of `games` such games that a two-sided test
+    /// Returns the smallest difference in win rate between two releases with `games` such games that a two-sided test
     /// at the 5% level detects with 80% power; `None` if there are no games, or if their variance is unknown.
     ///
     /// The estimate assumes that both releases have the same variance and the same number of levels per game as the
@@ -81,7 +81,7 @@ impl RungRate {
 pub struct Clustered {
     /// The number of games.
     pub games: u64,
-    /// The number of episodes, over all levels.
+    /// The number of episodes, across all levels.
     pub plays: u64,
     /// The number of episodes won.
     pub wins: u64,
@@ -89,14 +89,13 @@ pub struct Clustered {
     pub mean: f64,
     /// The 95% interval of the mean, clustered by game.
     pub interval: [f64; 2],
-    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as with a single
-    /// game.
+    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as is the case for
+    /// a single game.
     pub error: Option<f64>,
 }
 
 impl Clustered {
-    /// Computes the rate over the levels of games, each given by its wins and episodes. There must be at least one
-    /// level.
+    /// Computes the rate over all levels, each given by its wins and episodes. At least one level is required.
     pub(crate) fn of(games: &[Vec<(u64, u64)>]) -> Clustered {
         let share = |&(wins, plays): &(u64, u64)| wins as f64 / plays as f64;
         let sum = |levels: &Vec<(u64, u64)>| (levels.iter().map(share).sum::<f64>(), levels.len() as f64);
@@ -117,8 +116,8 @@ impl Clustered {
         }
     }
 
-    /// Returns the mean of `self` minus the mean of `other`, with the interval of the difference. The two are treated
-    /// as independent samples of games.
+    /// Returns the mean of `self` minus the mean of `other`, with the interval of the difference. Treats the two sets
+    /// of games as independent samples.
     pub(crate) fn minus(&self, other: &Clustered) -> (f64, [f64; 2]) {
         difference((self.mean, self.interval), (other.mean, other.interval))
     }
@@ -136,8 +135,8 @@ fn apart(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// Returns the win rate of each ladder player over some games: the rungs from weakest to strongest in the order of
-/// the first ladder, then the held-out players. Levels without a ladder are skipped.
+/// Returns each ladder player's win rate over some games: first the rungs from weakest to strongest, in the first
+/// ladder's order, and then the held-out players. Levels without a ladder are skipped.
 pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     let ladders = || cards.iter().flat_map(|card| &card.levels).filter_map(|level| level.ladder.as_ref());
     let mut players: Vec<(&PlayerResult, bool)> = Vec::new();
@@ -159,7 +158,7 @@ pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     players.into_iter().filter_map(rate).collect()
 }
 
-/// Returns a player's results on the levels of a game that it played.
+/// Returns a player's results on the levels that the player played in a game.
 fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a PlayerResult> {
     let ladders = card.levels.iter().filter_map(|level| level.ladder.as_ref());
     let find = ladders.filter_map(|ladder| {
@@ -187,7 +186,7 @@ pub struct RungDifference {
 }
 
 impl RungDifference {
-    /// Returns `true` if the interval contains 0, which means that the player may be equally good in both releases.
+    /// Returns `true` if the interval contains 0. The player may then be equally good in both releases.
     pub fn includes_zero(&self) -> bool {
         self.interval[0] <= 0.0 && self.interval[1] >= 0.0
     }
@@ -205,8 +204,8 @@ impl RungDifference {
     }
 }
 
-/// Returns the differences between the win rates over two sets of games, for the players in both, in the order of
-/// [`rates`]. Costs as much as two calls of `rates`.
+/// Returns the differences between the win rates over two sets of games, for players present in both, in the order of
+/// [`rates`]. Costs as much as two calls to `rates`.
 pub fn differences(ours: &[Card], theirs: &[Card]) -> Vec<RungDifference> {
     let mut others = rates(theirs);
     let pair = |ours: RungRate| {
@@ -230,8 +229,8 @@ pub(crate) mod tests {
         PlayerResult { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: None }
     }
 
-    /// Returns the card of a game. On each level, `random` and the held-out `olets:9` win the given numbers out of
-    /// ten episodes.
+    /// Returns a game card. On each level, `random` and the held-out `olets:9` win the given numbers out of ten
+    /// episodes.
     pub(crate) fn card(id: &str, wins: &[[u64; 2]]) -> Card {
         let level = |[random, olets]: &[u64; 2]| LevelCard {
             file: "lvl0.txt".to_owned(),
@@ -274,7 +273,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// Returns the cards of forty games with three levels each. Every fourth game is always won.
+    /// Returns the cards of forty games with three levels each, in which every fourth game is always won.
     fn quarter() -> Vec<Card> {
         let wins = |game: u64| [if game.is_multiple_of(4) { 10 } else { 0 }, 10];
         (0..40).map(|game| card(&format!("g{game}"), &[wins(game); 3])).collect()

@@ -17,12 +17,13 @@ use forge::games::slug;
 use generators::kernels::Wording;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum size of a `card.json`, in bytes: 1 MiB. The card of a game with twenty levels has a tenth of that.
+/// The maximum size of a `card.json`, in bytes: 1 MiB. The card for a game with twenty levels takes a tenth of that
+/// size.
 const CARD_LIMIT: u64 = 1 << 20;
-/// The maximum number of patterns on a card. Generated games have about ten, plus edits.
+/// The maximum number of patterns on a card. Generated games have about ten patterns, plus edits.
 const MAX_PATTERNS: usize = 1024;
 
-/// The files of a game's folder, by path relative to it.
+/// The files in a game's folder, by relative path.
 pub(super) type Files = BTreeSet<String>;
 
 /// The result of checking a game.
@@ -32,24 +33,24 @@ pub(super) struct GameCheck {
     pub(super) levels: usize,
     /// The number of witnesses that replayed to a win.
     pub(super) replayed: usize,
-    /// The paths of the game's witnesses in a sealed release.
+    /// The paths of the game's withheld witnesses in a sealed release.
     pub(super) held: Vec<String>,
     /// The card, if it is valid.
     pub(super) card: Option<Card>,
-    /// The problems, each naming the file.
+    /// The problems, each with the file name.
     pub(super) problems: Vec<String>,
 }
 
 impl Checking<'_> {
-    /// Checks folders whose names end with the same digest, in order. If two folders hold the same game, the second
-    /// folder is reported as a problem, and its witnesses are not replayed.
+    /// Checks folders whose names end with the same digest, in order. If two folders contain the same game, the
+    /// second folder is reported as a problem, and its witnesses are not replayed.
     pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
         let mut seen = BTreeMap::new();
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
     }
 
-    /// Returns the problems with a card's texts and facts that must follow from the rules. Texts can be compared
-    /// only with the wording of this version.
+    /// Returns the problems with those texts and facts on a card that must follow from the rules. Only texts in
+    /// this version's wording can be compared.
     fn of_the_rules(&self, card: &Card, game: &Game) -> Vec<String> {
         let version = (self.manifest.generation, self.manifest.semantics);
         if version != (generators::GENERATION, engine::SEMANTICS) {

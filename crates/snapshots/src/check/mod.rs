@@ -51,9 +51,9 @@ pub enum Witnesses {
 /// The result of [`verify`].
 #[derive(Clone, Debug, Serialize)]
 pub struct Verification {
-    /// The name of the release.
+    /// The release's name.
     pub name: String,
-    /// The root digest that the release states.
+    /// The root digest stated in the release.
     pub root: Digest,
     /// The number of files, without the manifest.
     pub files: usize,
@@ -65,39 +65,39 @@ pub struct Verification {
     pub witnesses: Witnesses,
     /// `true` if the release is sealed and its secret has not been revealed.
     pub is_secret: bool,
-    /// The work of the replays, in the units of [`Bounds`]. The value never exceeds the bound.
+    /// The replays' work, in the units of [`Bounds`]; never above the bound.
     pub work: u64,
-    /// The bound, if all replays together exceed it. In that case no witness was judged, which is reported as a
-    /// problem.
+    /// The bound, if the replays together exceed it. In that case no witness was judged, and the excess is reported
+    /// as a problem.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exceeded: Option<u64>,
-    /// The number of papers beside the release, which its root does not cover.
+    /// The number of papers stored with the release, which the root does not cover.
     pub papers: usize,
-    /// The names of files that other programs left beside the release. Their content is not read.
+    /// The names of files that other programs left in the release folder. The content of such files is not read.
     pub ignored: Vec<String>,
-    /// The problems, each naming the file; empty if the release is sound.
+    /// The problems, each with the file name; empty if the release is sound.
     pub problems: Vec<String>,
-    /// The manifest that the release states.
+    /// The manifest in the release.
     #[serde(skip)]
     pub manifest: Manifest,
 }
 
-/// Verifies the release at `root`, which is a folder or an [archive](crate::contents::archive).
+/// Verifies the release at `root`, a folder or an [archive](crate::contents::archive).
 ///
 /// The paths, links, sizes, digests and the root are checked first. If they are correct, the games, levels and cards
-/// must be well-formed and fit together. Under the same engine semantics, every witness is then replayed to its win,
-/// within bounds that every release respects ([`Bounds::RELEASE`]).
+/// must be well-formed and consistent. Under the same engine semantics, every witness is then replayed to its win,
+/// within the bounds for all releases ([`Bounds::RELEASE`]).
 ///
 /// Cost: one pass over the files and a replay of every witness, on all threads of the current rayon pool.
 ///
 /// # Errors
-/// Returns an error if the manifest is missing, broken or of a newer format, or if a file system operation fails.
+/// Returns an error if the manifest is missing, is broken or has a newer format, or if a file system operation fails.
 pub fn verify(root: &Path) -> Result<Verification, SnapshotError> {
     verify_within(root, &Bounds::RELEASE)
 }
 
 /// Verifies a release like [`verify`], with the given bounds. A release whose replays exceed the bounds is unsound,
-/// and the replays stop.
+/// and its replays are stopped.
 ///
 /// # Errors
 /// See [`verify`].
@@ -192,7 +192,7 @@ fn declared_levels(manifest: &Manifest) -> usize {
     manifest.items.iter().filter(|item| is_level(&item.path) && item.path.ends_with(".txt")).count()
 }
 
-/// Groups folders whose names end alike, because folders of the same game do.
+/// Groups folders whose names end alike. Folders of the same game have the same name ending.
 fn namesakes(folders: BTreeMap<String, Files>) -> Vec<Vec<(String, Files)>> {
     let mut by_end: BTreeMap<String, Vec<(String, Files)>> = BTreeMap::new();
     for (folder, files) in folders {
@@ -237,8 +237,8 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Checks that `known` in the recipe is plausible for a release with this parent, or without one. Only the parent can
-/// show whether it is correct: see [`chain`](crate::lineage::chain).
+/// Checks that `known` in the recipe is plausible for a release with this parent, or without a parent. Only the
+/// parent can show whether `known` is correct: see [`chain`](crate::lineage::chain).
 fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     if manifest.generation < CARD_AND_CANARY_SINCE {
         return;
@@ -262,7 +262,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Checks that a sealed release commits to its secret and to a witness of every level, and to no other hidden file.
+/// Checks that a sealed release commits to its secret and to a witness of every level, and to no other withheld file.
 fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<String>) {
     if manifest.kind != ReleaseKind::Sealed {
         return;
@@ -283,7 +283,7 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     problems.extend(absent.chain(foreign));
 }
 
-/// Returns the files of each game folder, by path relative to the folder.
+/// Returns the files in each game folder, by relative path.
 fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<String, Files> {
     let mut folders: BTreeMap<String, Files> = BTreeMap::new();
     let summaries = summary_paths(manifest);

@@ -1,4 +1,4 @@
-//! Checks of the files that describe a whole release: `README.md` and `CARD.json`.
+//! Checks for the files that describe a whole release: `README.md` and `CARD.json`.
 
 use crate::card::{ReleaseCard, Rung, counted, generator};
 use crate::contents::Contents;
@@ -37,8 +37,8 @@ pub(super) fn problems(
     Ok(problems)
 }
 
-/// Returns the problems with the card of a release. The layout is known only for cards of this generation. For any
-/// other generation, only the counts that every generation has are compared.
+/// Returns the problems with a release's card. Only cards of the current generation have a known layout. For other
+/// generations, only the counts common to all generations are compared.
 fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     let value: Value = match serde_json::from_slice(text) {
         Ok(value @ Value::Object(_)) => value,

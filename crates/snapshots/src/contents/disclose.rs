@@ -1,10 +1,10 @@
-//! The lists of the files that a sealed release withholds, and the commitments to them.
+//! The lists of a sealed release's withheld files, and the commitments to these lists.
 //!
 //! A sealed release publishes neither the paths, nor the sizes, nor the plain digests of its withheld files, because
-//! anyone could check a guessed text against its digest. Instead, its manifest has two digests, each of a list that
-//! is also withheld. A list begins with a salt that is derived from the secret, so nobody can guess the list. The
-//! list has the path, size and digest of every file of its part, so the digest of the list commits to all of them.
-//! The digests of the lists are leaves of the tree.
+//! anyone could check a guessed text against its digest. Instead, its manifest contains the digests of two lists,
+//! which are also withheld. A list begins with a salt derived from the secret, so nobody can guess the list. A list
+//! contains the path, size and digest of every file in its part, so the list's digest commits to all of these files.
+//! The lists' digests are leaves of the tree.
 
 use crate::error::SnapshotError;
 use crate::format::layout::HELD;
@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 /// The maximum size of a list, in bytes.
 pub(crate) const LIST_LIMIT: u64 = MANIFEST_LIMIT;
 
-/// The list of one part's files.
+/// The list for one part's files.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct HeldList {
@@ -34,7 +34,7 @@ struct HeldList {
 /// contents. The caller must recompute the manifest's root.
 ///
 /// # Errors
-/// Returns an error if a list is larger than the size limit of a manifest.
+/// Returns an error if a list is larger than a manifest's size limit.
 pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String, Vec<u8>)>, SnapshotError> {
     let items = std::mem::take(&mut manifest.items);
     let (mut held, public): (Vec<Item>, Vec<Item>) =
@@ -59,10 +59,10 @@ pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String,
     Ok(lists)
 }
 
-/// Adds the files in the list of a part to the known withheld files of a manifest.
+/// Adds the files in a part's list to the known withheld files in a manifest.
 ///
 /// # Errors
-/// Returns an error if the list differs from the committed one, or lists a file that it must not list.
+/// Returns an error if the list differs from the committed one, or contains a file that it must not contain.
 pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) -> Result<(), Flaw> {
     let withheld = manifest.withheld.as_mut().expect("asked of releases that hide what they withhold");
     let (found, stated) = (Digest::of(bytes), withheld.digest(part));

@@ -1,4 +1,4 @@
-//! The integrity check: a release folder must hold exactly what its manifest says.
+//! The integrity check: a release folder must contain exactly the files listed in its manifest.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -19,17 +19,17 @@ use crate::sections::memory::part::has_second_wins;
 /// The result of [`check_integrity`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Integrity {
-    /// The manifest as the folder states it.
+    /// The manifest stored in the folder.
     pub manifest: Manifest,
     /// All problems, sorted; empty if the folder matches its manifest.
     pub problems: Vec<Problem>,
-    /// The files beside the tree, which the root does not cover; empty for an archive.
+    /// The files outside the tree, which the root does not cover; empty for an archive.
     pub beside: Untracked,
 }
 
 impl Integrity {
-    /// Returns `true` if there are no problems, which means that the files and the header match `manifest.root`. The
-    /// caller must compare that root with the published one.
+    /// Returns `true` if there are no problems: the files and the header match `manifest.root`. The caller must
+    /// compare that root with the published one.
     pub fn is_sound(&self) -> bool {
         self.problems.is_empty()
     }
@@ -42,8 +42,8 @@ impl Integrity {
     }
 }
 
-/// Compares the folder `root` with its `MANIFEST.json` and reports every difference. The folder is not trusted: no
-/// link is followed, and no file is read that exceeds a snapshot's limits or differs from its stated size.
+/// Compares the folder `root` with its `MANIFEST.json` and reports every difference. The folder is not trusted: links
+/// are not followed, and files that exceed a snapshot's limits or differ from their stated size are not read.
 ///
 /// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
@@ -95,8 +95,8 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
-/// Reads the existing lists of withheld files, and returns the problems with them. The list of published coin wins
-/// may exist without the list of the other files, but not vice versa.
+/// Reads the existing lists of withheld files, and returns their problems. The list of published coin wins may exist
+/// without the list of all other files, but not vice versa.
 fn list_problems(
     root: &Path,
     manifest: &mut Manifest,
@@ -257,8 +257,8 @@ mod tests {
         assert!(check_integrity(&release.root).expect("readable").is_sound());
     }
 
-    /// A flipped bit anywhere in the manifest is reported as damage, and never as a sound release, a release of a
-    /// different format, or merely a fault of a file.
+    /// A flipped bit anywhere in the manifest is reported as damage, and never as a sound release, a different
+    /// format, or a fault in a single file.
     #[test]
     fn every_byte_of_the_manifest_counts() {
         let release = release();
@@ -321,7 +321,7 @@ mod tests {
         check(write("games/x/a b", b""), &[("games/x/a b", spaced)]);
     }
 
-    /// Papers, and files that other programs leave beside the tree, are listed and do not count as tampering.
+    /// Papers, and files that other programs leave outside the tree, are listed and do not count as tampering.
     #[test]
     fn files_outside_the_tree() {
         let release = release();
@@ -382,8 +382,7 @@ mod tests {
         assert!(matches!(check_integrity(&release.root), Err(SnapshotError::Link(_))));
     }
 
-    /// A manifest that is repaired after a file was altered needs a new root. With the old root, the root is reported
-    /// as wrong.
+    /// A manifest adjusted to an altered file needs a new root. With the old root, the root is reported as wrong.
     #[test]
     fn a_forged_manifest_has_another_root() {
         let release = release();
@@ -431,7 +430,7 @@ mod tests {
         assert!(matches!(check_integrity(&file), Err(SnapshotError::NotAFolder(path)) if path == file));
     }
 
-    /// Flaws do not hide each other.
+    /// Problems do not mask each other.
     #[test]
     fn all_problems_at_once_in_order() {
         check(

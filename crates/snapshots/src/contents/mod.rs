@@ -18,13 +18,13 @@ use crate::format::folder::{self, Limits};
 
 /// The source of a release's files.
 pub(crate) enum Contents {
-    /// A release in a folder.
+    /// A release folder.
     Folder(PathBuf),
-    /// A release in an archive, in memory.
+    /// A release archive, in memory.
     Archive(Box<Archive>),
 }
 
-/// Checks the integrity of the release at `place`, a folder or an archive. No file is kept.
+/// Checks the integrity of the release at `place`, a folder or an archive. Does not keep the files in memory.
 ///
 /// # Errors
 /// See [`check_integrity`] and [`Archive::check`].
@@ -50,7 +50,7 @@ impl Contents {
         Ok((check_integrity(place)?, Contents::Folder(place.to_path_buf())))
     }
 
-    /// Returns the content of a file; `None` if the file does not exist.
+    /// Returns the content of a file; `None` if there is no such file.
     ///
     /// # Errors
     /// See [`folder::read`].
@@ -61,7 +61,7 @@ impl Contents {
         }
     }
 
-    /// Returns the content of a file that the manifest lists.
+    /// Returns the content of a file listed in the manifest.
     ///
     /// # Errors
     /// See [`folder::read`]. For an archive, returns an error if there is no such file.

@@ -1,7 +1,7 @@
-//! Inclusion proofs, which show that a file or a game of a release is under a root, without the rest of the release.
+//! Inclusion proofs, which show without the rest of the release that a released file or game is under a root.
 //!
-//! A proof is a small file of canonical JSON. It holds no secret and need not be trusted: the verifier trusts only a
-//! root from a different source.
+//! A proof is a small file in canonical JSON. A proof contains no secrets and need not be trusted: the verifier
+//! trusts only a root from a different source.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -15,32 +15,32 @@ use crate::format::path::check_path;
 use base::Digest;
 use base::canonical::to_canonical_json;
 
-/// The maximum size of a proof, in bytes: 4 MiB, enough for a game of about three thousand files.
+/// The maximum size of a proof, in bytes: 4 MiB, enough for a game with about three thousand files.
 pub const MAX_PROOF: u64 = 4 << 20;
 /// The version of the proof format.
 const PROOF_FORMAT: u32 = 1;
 /// The maximum height of a tree with at most 2⁶⁴ leaves.
 const MAX_HEIGHT: usize = 64;
 
-/// A reason why a proof cannot be made or read. The reason concerns the request, not the item.
+/// A reason why a proof cannot be created or read. The reason concerns the request and not the item.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProofError {
-    /// The release has no such item.
+    /// The release does not contain the requested item.
     #[error("`{}` is neither a file nor a game of `{release}`{}", id.escape_debug(), near.as_ref().map_or_else(String::new, |near| format!(": did you mean `{near}`?")))]
     NoSuchItem {
-        /// The item for which a proof was requested.
+        /// The requested item's ID.
         id: String,
-        /// The name of the release.
+        /// The release's name.
         release: String,
         /// The nearest existing ID.
         near: Option<String>,
     },
-    /// The item is under the root only through a list of withheld files.
+    /// The item is under the root only indirectly, through a list of withheld files.
     #[error("`{}` is covered by the root only through the list of withheld files, so it has no proof of its \
              own: prove `{list}`, which has its digest", id.escape_debug())]
     Listed {
-        /// The item for which a proof was requested.
+        /// The requested item's ID.
         id: String,
         /// The path of the list of withheld files.
         list: &'static str,
@@ -48,13 +48,13 @@ pub enum ProofError {
     /// The proof exceeds the maximum size.
     #[error("the proof is larger than {MAX_PROOF} bytes: fetch it again")]
     TooLarge,
-    /// The proof is not JSON of this shape.
+    /// The proof is not JSON with the expected structure.
     #[error("this is not an inclusion proof ({0}): fetch it again")]
     Syntax(serde_json::Error),
-    /// The proof is well-formed, but no valid proof has these values.
+    /// The proof is well-formed, but its values cannot occur in a valid proof.
     #[error("the inclusion proof is not valid ({0}): fetch it again")]
     Unsound(String),
-    /// The tree of the manifest cannot be computed.
+    /// The manifest's tree cannot be computed.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
 }
@@ -65,14 +65,14 @@ pub enum ProofError {
 pub struct ItemProof {
     /// The version of this layout: 1.
     pub format: u32,
-    /// The name of the release, which is only a label and proves nothing.
+    /// The release's name: a label that proves nothing.
     pub release: String,
-    /// The root that the proof leads to. Compare it with a root from a different source.
+    /// The root of the proof. Compare it with a root from a different source.
     pub root: Digest,
-    /// The item: a path of the release such as `games/x/lvl0.txt`, or the name of a folder in `games/`.
+    /// The item: a path in the release such as `games/x/lvl0.txt`, or the name of a folder in `games/`.
     pub item: String,
-    /// The files, sorted by the bytes of their paths. The item of a path has a single file, and the item of a game
-    /// has all of the game's listed files.
+    /// The files, sorted by the bytes of their paths. For a path, this is a single file; for a game, all of the
+    /// game's listed files.
     pub files: Vec<FileProof>,
 }
 
@@ -89,12 +89,12 @@ pub struct FileProof {
 }
 
 impl ItemProof {
-    /// Makes the proof for `id`, which is a path in the manifest, or the ID of a game for all of its files.
+    /// Creates the proof for `id`: a path in the manifest, or a game's ID for all of the game's files.
     ///
     /// Cost: O(n log n) in the number of files in the release, for each file of the item.
     ///
     /// # Errors
-    /// Returns an error if there is no such item.
+    /// Returns an error if the item does not exist.
     pub fn of(manifest: &Manifest, id: &str) -> Result<ItemProof, ProofError> {
         let wanted = |path: &str| path == id || game_of(path) == Some(id);
         let leaves = manifest.leaves()?;
@@ -134,10 +134,11 @@ impl ItemProof {
     /// # Errors
     /// Returns an error in each of these cases:
     ///
-    /// - The proof is too large, is not canonical JSON of this shape, has a different format version, or is empty.
+    /// - The proof is too large, is not canonical JSON with the expected structure, has a different format version,
+    ///   or is empty.
     /// - The label is not a release name.
     /// - The files are unsorted, have unsafe or reserved paths, or do not belong to the item.
-    /// - A file has a path to the root that no tree has, or a position that is impossible in the same tree.
+    /// - A file's path to the root or its position is impossible in the tree.
     pub fn parse(bytes: &[u8]) -> Result<ItemProof, ProofError> {
         if bytes.len() as u64 > MAX_PROOF {
             return Err(ProofError::TooLarge);
@@ -249,7 +250,7 @@ impl ItemProof {
     }
 }
 
-/// Returns the game that a path of a release belongs to.
+/// Returns the game to which a path in a release belongs.
 fn game_of(path: &str) -> Option<&str> {
     let (game, file) = path.strip_prefix("games/")?.split_once('/')?;
     (!game.is_empty() && !file.is_empty()).then_some(game)

@@ -1,4 +1,4 @@
-//! Replays of witnesses within bounds that limit the cost of an untrusted release.
+//! Replays of witnesses within bounds, to limit the cost of an untrusted release.
 
 use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// units per second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
-    /// The number of units allowed for any release.
+    /// The number of units allowed for every release.
     pub work: u64,
-    /// The number of additional units for each level that the release declares.
+    /// The number of additional units for each level declared in the release.
     pub work_per_level: u64,
 }
 
@@ -18,7 +18,7 @@ impl Bounds {
     /// 2³¹ units, plus 2²¹ units per level, which allow 455 ticks of a quiet game: 10 to 60 seconds on one core.
     pub const RELEASE: Bounds = Bounds { work: 1 << 31, work_per_level: 1 << 21 };
 
-    /// Returns the maximum number of units for a release with this number of levels.
+    /// Returns the maximum number of units for a release with the given number of levels.
     pub fn of(&self, levels: usize) -> u64 {
         self.work.saturating_add(self.work_per_level.saturating_mul(levels as u64))
     }
@@ -26,7 +26,7 @@ impl Bounds {
 
 /// A counter for the work of all replays of a release, shared by several threads.
 ///
-/// The result does not depend on the threads: the limit is exceeded if all replays together take more.
+/// The result does not depend on the number of threads: the limit applies to the total work of all replays.
 pub(crate) struct Meter {
     limit: u64,
     spent: AtomicU64,
@@ -53,8 +53,7 @@ impl Meter {
     }
 }
 
-/// The minimum number of units that a tick counts as. The slowest ticks with almost no counted work take 50
-/// microseconds.
+/// The minimum number of units counted per tick. The slowest ticks with almost no counted work take 50 microseconds.
 const TICK: u64 = 4096;
 
 /// The result of [`replay`].
@@ -63,11 +62,11 @@ pub(crate) enum Replayed {
     Won,
     /// The episode is invalid.
     Wrong(String),
-    /// The limit was exceeded, in this or any other replay.
+    /// The limit was exceeded, by the replays in total.
     OutOfWork,
 }
 
-/// Replays a witness like [`Episode::replay`], as long as the meter allows. Episodes that cannot be witnesses are
+/// Replays a witness like [`Episode::replay`], as long as the meter permits. Episodes that cannot be witnesses are
 /// rejected before the first tick.
 pub(crate) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Meter) -> Replayed {
     let wrong = |divergence: Divergence| Replayed::Wrong(divergence.to_string());
@@ -114,8 +113,8 @@ pub(crate) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Mete
     Replayed::Won
 }
 
-/// Returns the reason why an episode does not replay to a win within the bounds of a one-level release; `None` if it
-/// does.
+/// Returns the reason why an episode does not replay to a win within the bounds for a one-level release; `None` if
+/// it does.
 pub(crate) fn problem(episode: &Episode, game: &Game, level: &Level) -> Option<String> {
     match replay(episode, game, level, &Meter::new(Bounds::RELEASE.of(1))) {
         Replayed::Won => None,

@@ -3,7 +3,7 @@
 use crate::error::SnapshotError;
 use std::path::Path;
 
-/// Rejects `.partial` folders and everything inside them: even a complete release does not count before its
+/// Rejects `.partial` folders and everything inside them: even a complete release does not count before
 /// publication.
 pub(crate) fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
     let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {

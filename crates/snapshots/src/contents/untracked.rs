@@ -1,18 +1,18 @@
-//! Files of a release folder that its manifest does not list: papers, and files that other programs leave there.
+//! Files in a release folder that its manifest does not list: papers, and files left by other programs.
 
 use crate::error::SnapshotError;
 use crate::format::folder::{self, Entry, Limits, Listing};
 use crate::format::problem::{Flaw, Problem};
 use std::path::Path;
 
-/// The folder of the papers, at the top of a release.
+/// The folder for papers, at the top of a release.
 pub const PAPERS: &str = "papers/";
 
-/// The limits of a release's papers: 1000 files of at most 64 MiB, 256 MiB in total.
+/// The limits for a release's papers: 1000 files of at most 64 MiB, 256 MiB in total.
 pub const PAPERS_LIMITS: Limits = Limits { files: 1000, file_bytes: 64 << 20, total_bytes: 256 << 20 };
 
 /// The names of files and folders that version control, file managers and downloads leave at the top of a folder.
-/// Their content is not read.
+/// The content of such files is not read.
 pub(crate) const IGNORED_NAMES: [&str; 12] = [
     ".DS_Store",
     ".cache",
@@ -28,16 +28,17 @@ pub(crate) const IGNORED_NAMES: [&str; 12] = [
     "desktop.ini",
 ];
 
-/// The files of a release folder that its manifest does not list.
+/// The files in a release folder that its manifest does not list.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Untracked {
     /// The papers, by path.
     pub papers: Vec<Entry>,
-    /// The names of files that other programs left at the top of the release. Their content is not read.
+    /// The names of files left by other programs at the top of the release. The content of such files is not
+    /// read.
     pub ignored: Vec<String>,
 }
 
-/// Lists the files in the release folder `root` that its manifest must list, and the files beside them.
+/// Lists the files in the release folder `root` that its manifest must list, and all other files.
 ///
 /// # Errors
 /// Returns an error if a folder cannot be read.

@@ -13,34 +13,34 @@ use validators::novelty::canonical_types;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// No equal game or item exists in the earlier release.
+    /// The game or item has no equal in the earlier release.
     New,
     /// The game or item is in both releases, with the same canonical text.
     Kept,
-    /// The game or item is in both releases, but differs in names, looks or order or, for a level, in characters or
-    /// orientation.
+    /// The game or item is in both releases, but differs in names, appearance or order (or, for a level, in
+    /// characters or orientation).
     Changed,
-    /// No equal game or item exists in the later release.
+    /// The game or item has no equal in the later release.
     Gone,
 }
 
-/// The change of one game or item.
+/// The change in one game or item.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
     /// The status of the game or item.
     pub status: Status,
-    /// The path in the later release: `<game>` or `<game>/lvl<n>`. If the status is [`Gone`](Status::Gone), it is
-    /// the path in the earlier release.
+    /// The path in the later release: `<game>` or `<game>/lvl<n>`. If the status is [`Gone`](Status::Gone), the path
+    /// in the earlier release.
     pub id: String,
     /// The path in the earlier release, if the game or item is kept or changed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub was: Option<String>,
-    /// `true` if the rules are generated. Corpus games return with new levels, but generated games should not
-    /// return.
+    /// `true` if the rules are generated. Corpus games are expected to return with new levels, but generated games
+    /// are not.
     pub generated: bool,
 }
 
-/// The changes of all games or items.
+/// The changes in all games or items.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Changes {
     /// The number of new entries.
@@ -51,7 +51,7 @@ pub struct Changes {
     pub changed: usize,
     /// The number of removed entries.
     pub gone: usize,
-    /// The number of kept and changed entries that have generated rules.
+    /// The number of kept and changed entries with generated rules.
     pub returned_generated: usize,
     /// The changes in the order of the later release, followed by the removed entries.
     pub each: Vec<Change>,
@@ -145,9 +145,9 @@ pub(super) fn items(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes 
 }
 
 /// Returns a digest for each level of a game. Levels of games with equal forms share a digest if they place the same
-/// types in the same cells up to a symmetry of the board. Only interchangeable types can hide such an equality.
+/// types in the same cells up to a board symmetry. Only interchangeable types can hide such equality.
 ///
-/// Cost: that of a [`GameForm`](validators::GameForm), plus O(cells).
+/// Cost: one [`GameForm`](validators::GameForm), plus O(cells).
 pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
     let game = &released.game;
     let mut place = vec![None; game.sprite_types().count()];

@@ -1,5 +1,5 @@
-//! A comparison of two releases: the new, kept, changed and removed games, the differences of their distributions,
-//! and the distances between their games ([the meaning of each figure](../../../../docs/how-to/diff.md)).
+//! A comparison of two releases: new, kept, changed and removed games, differences in distributions, and distances
+//! between games ([the meaning of each figure](../../../../docs/how-to/diff.md)).
 
 mod items;
 mod neighbours;
@@ -26,56 +26,57 @@ use validators::{GameForm, GameKind};
 pub struct Side {
     /// The release's name.
     pub name: String,
-    /// The root digest of the release.
+    /// The release's root digest.
     pub root: Digest,
-    /// The root digest of the previous release; `None` for the first release of its chain.
+    /// The root digest of the previous release; `None` for the first release in its chain.
     pub parent: Option<Digest>,
     /// The number of games.
     pub games: usize,
-    /// The number of games made by a rule generator.
+    /// The number of games created by a rule generator.
     pub generated: usize,
     /// The number of levels.
     pub levels: usize,
-    /// The version of the engine semantics that minted the release.
+    /// The version of the engine semantics used to mint the release.
     pub semantics: u32,
-    /// The generation of the generators that minted the release.
+    /// The generation of the generators used to mint the release.
     pub generation: u32,
 }
 
 /// The comparison of two releases, an earlier and a later one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Diff {
-    /// The comparison in one sentence: difficulty, returning levels, nearest games.
+    /// The comparison in one sentence, covering difficulty, returning levels and nearest games.
     pub verdict: String,
-    /// The order of the two releases according to the chain that they state.
+    /// The order of the two releases according to the chain stated in them.
     pub order: Order,
     /// The earlier release.
     pub before: Side,
     /// The later release.
     pub after: Side,
-    /// The changes of the games, compared by their rules.
+    /// The changes in the games, compared by rules.
     pub games: Changes,
-    /// The changes of the items, which are levels with the rules of their games.
+    /// The changes in the items. An item is a level with its game's rules.
     pub items: Changes,
     /// The distributions of labels, with one or more labels for each game or level.
     pub shifts: Vec<Shift>,
     /// The distributions of numbers.
     pub numbers: Vec<NumberShift>,
-    /// The change in the results of each ladder player: later minus earlier.
+    /// The change in each ladder player's results: later minus earlier.
     pub rungs: Vec<RungDifference>,
-    /// The change in each reference result that both releases have; empty if the recipes request none.
+    /// The change in each reference result present in both releases; empty if the recipes do not request reference
+    /// results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<MarkDifference>,
-    /// The distances from the later games to the earlier ones.
+    /// The distances from the later games to the earlier games.
     pub neighbours: Neighbours,
 }
 
-/// A game with the data to compare.
+/// A game with the data for comparison.
 struct Compared<'a> {
     released: &'a ReleasedGame,
     form: GameForm,
     kind: GameKind,
-    /// A digest for each level, equal for levels that are the same up to names, characters and symmetry.
+    /// One digest per level, equal for levels that are the same up to names, characters and symmetry.
     levels: Vec<Digest>,
 }
 
@@ -95,7 +96,7 @@ impl<'a> Compared<'a> {
 }
 
 impl Diff {
-    /// Compares two releases, and lists the `closest` nearest pairs of games.
+    /// Compares two releases, and lists the nearest pairs of games (`closest` of them).
     ///
     /// Cost: an analysis of each game, its distance to all others, and about a thousand resamples of the games for
     /// each figure. With hundreds of games, a comparison takes seconds.

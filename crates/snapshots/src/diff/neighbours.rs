@@ -22,12 +22,12 @@ pub struct Pair {
 pub struct Neighbours {
     /// The distance from each later game to its nearest earlier game.
     pub across: Option<Quantiles>,
-    /// The same distances for the generated games of both releases only, because corpus games return by design.
+    /// The same distances for generated games only, because corpus games return by design.
     pub across_generated: Option<Quantiles>,
     /// The distance from each later game to its nearest neighbour among the later games, for comparison.
     pub within: Option<Quantiles>,
-    /// The number of later games that are nearer than [`NEAR`] to an earlier game. Such games have the same rules
-    /// with different numbers or a different theme.
+    /// The number of later games nearer than [`NEAR`] to an earlier game. Such games have the same rules with
+    /// different numbers or a different theme.
     pub near: usize,
     /// The number of pairs nearer than [`NEAR`] in which both games are generated.
     pub near_generated: usize,
@@ -36,7 +36,7 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// Finds the nearest neighbours. Cost: O(rules) for each pair of games.
+    /// Finds the nearest neighbours. Costs O(rules) per pair of games.
     pub(super) fn of(before: &[Compared<'_>], after: &[Compared<'_>], closest: usize) -> Neighbours {
         let rows: Vec<Vec<f64>> = after
             .par_iter()

@@ -1,8 +1,9 @@
 //! The differences between the distributions of two releases, and permutation tests of their significance.
 //!
-//! Levels of one game are alike, so games are permuted, not levels. A test deals the games to the two sides at
-//! random, [`DEALS`] times. The p-value is the fraction of deals, including the observed one, that differ at least as
-//! much as the observed one (B. Phipson and G. K. Smyth, "Permutation p-values should never be zero", 2010).
+//! Levels of the same game are correlated, so tests permute games rather than levels. A test deals the games to the
+//! two releases at random, [`DEALS`] times. The p-value is the fraction of deals, including the observed deal, whose
+//! difference is at least as large as the observed difference (B. Phipson and G. K. Smyth, "Permutation p-values
+//! should never be zero", 2010).
 
 use super::Compared;
 use base::Seed;
@@ -10,13 +11,13 @@ use report::Quantiles;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The number of deals in a permutation test, not counting the observed one.
+/// The number of deals in a permutation test, not counting the observed deal.
 pub const DEALS: usize = 999;
 
 /// A value of a distribution, with its counts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// The value of the distribution.
+    /// The value.
     pub value: String,
     /// The count in the earlier release.
     pub before: usize,
@@ -27,21 +28,21 @@ pub struct Share {
 /// A distribution in both releases.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shift {
-    /// The name of the distribution.
+    /// The distribution's name.
     pub name: &'static str,
-    /// The counts of each value, ordered by value.
+    /// The counts for each value, ordered by value.
     pub shares: Vec<Share>,
-    /// The total variation distance, from 0 for equal fractions to 1 for nothing in common; `None` if a side is
-    /// empty.
+    /// The total variation distance, from 0 for equal fractions to 1 for nothing in common; `None` if either release
+    /// has no values.
     pub distance: Option<f64>,
-    /// The p-value: the fraction of random deals that are at least as far apart.
+    /// The p-value: the fraction of random deals whose distance is at least as large.
     pub p: Option<f64>,
-    /// The number of unmeasured levels, which have no value.
+    /// The number of levels without a value because they were not measured.
     #[serde(skip_serializing_if = "Unmeasured::is_none")]
     pub unmeasured: Unmeasured,
 }
 
-/// The number of levels on each side that were not measured.
+/// The number of unmeasured levels in each release.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Unmeasured {
     /// The number of unmeasured levels in the earlier release.
@@ -56,7 +57,7 @@ impl Unmeasured {
         *self == Unmeasured::default()
     }
 
-    /// Counts the levels without results of ladder players.
+    /// Counts the levels without ladder results.
     pub(super) fn of(before: &[Compared<'_>], after: &[Compared<'_>]) -> Unmeasured {
         let count = |side: &[Compared<'_>]| {
             let levels = side.iter().flat_map(|game| &game.released.card.levels);
@@ -66,26 +67,26 @@ impl Unmeasured {
     }
 }
 
-/// The distributions of a number in both releases.
+/// The distributions of a numeric property in both releases.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NumberShift {
-    /// The name of the number.
+    /// The property's name.
     pub name: &'static str,
     /// The quantiles in the earlier release.
     pub before: Option<Quantiles>,
     /// The quantiles in the later release.
     pub after: Option<Quantiles>,
-    /// The Kolmogorov–Smirnov distance, which is the maximum difference between the cumulative fractions; `None` if a
-    /// side is empty.
+    /// The Kolmogorov–Smirnov distance: the maximum difference between the cumulative fractions; `None` if either
+    /// release has no values.
     pub distance: Option<f64>,
-    /// The p-value: the fraction of random deals that are at least as far apart.
+    /// The p-value: the fraction of random deals whose distance is at least as large.
     pub p: Option<f64>,
-    /// The number of unmeasured levels, which have no number.
+    /// The number of levels without a number because they were not measured.
     #[serde(skip_serializing_if = "Unmeasured::is_none")]
     pub unmeasured: Unmeasured,
 }
 
-/// The values of a game in a distribution: one, several, or one for each level.
+/// A game's values in a distribution: one, several, or one for each level.
 type Values = fn(&Compared<'_>) -> Vec<String>;
 
 /// The distribution of difficulty labels.
@@ -158,7 +159,7 @@ pub(super) fn numbers(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Nu
 }
 
 impl Shift {
-    /// Computes the shift between the values of the games on each side.
+    /// Computes the shift between the game values in the two releases.
     pub(super) fn of(name: &'static str, before: &[Vec<String>], after: &[Vec<String>]) -> Shift {
         let mut counts: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
         for (side, games) in [before, after].into_iter().enumerate() {
@@ -186,7 +187,7 @@ impl Shift {
 }
 
 impl NumberShift {
-    /// Computes the shift between the numbers of the games on each side.
+    /// Computes the shift between the game numbers in the two releases.
     pub(super) fn of(name: &'static str, before: &[Vec<f64>], after: &[Vec<f64>]) -> NumberShift {
         let games = before.iter().chain(after).enumerate();
         let mut numbers: Vec<(f64, usize)> =
@@ -216,8 +217,8 @@ impl NumberShift {
     }
 }
 
-/// Returns the total variation distance, which is half the sum of the differences between the fractions; `None` if a
-/// side is empty.
+/// Returns the total variation distance, half the sum of the differences between the fractions; `None` if either side
+/// is empty.
 fn variation(counts: &[[u32; 2]]) -> Option<f64> {
     let all = [0, 1].map(|side: usize| counts.iter().map(|count| count[side]).sum::<u32>());
     let share = |count: &[u32; 2], side: usize| f64::from(count[side]) / f64::from(all[side]);
@@ -225,7 +226,7 @@ fn variation(counts: &[[u32; 2]]) -> Option<f64> {
     (!all.contains(&0)).then(|| counts.iter().map(apart).sum::<f64>() / 2.0)
 }
 
-/// Computes a distance and its p-value. `distance` is called with the side of each game, the earlier games first.
+/// Computes a distance and its p-value. Calls `distance` with one side label per game, earlier games first.
 fn test(
     name: &str,
     (before, after): (usize, usize),

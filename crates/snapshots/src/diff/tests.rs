@@ -7,8 +7,8 @@ use crate::released::ReleasedLevel;
 use engine::Game;
 use forge::card::Card;
 
-/// Returns a game in which gems are fetched. `names` are the name of the gem, the name of the foe and the character
-/// of the ground.
+/// Returns a game about collecting gems. `names` contains the gem's name, the foe's name and the ground's
+/// character.
 fn source(names: [&str; 3], foe: &str) -> String {
     let [gem, imp, ground] = names;
     format!(
@@ -93,7 +93,7 @@ fn a_release_is_the_same_as_itself() {
     assert_eq!(diff.neighbours.within, None, "there is no other game");
 }
 
-/// An unmeasured value has no distance and no p-value, and the verdict says so.
+/// An unmeasured value has no distance or p-value, and the verdict states so.
 #[test]
 fn unmeasured_difficulty_is_not_equal_difficulty() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");

@@ -1,27 +1,27 @@
-//! The sentence that sums up a comparison, and the order of the two releases.
+//! The one-sentence verdict of a comparison, and the order of the two releases.
 
 use super::Diff;
 use super::shifts::{DIFFICULTY, Shift};
 use crate::format::manifest::Manifest;
 use serde::Serialize;
 
-/// The minimum p-value at which a difference may be random.
+/// The minimum p-value at which a difference is considered random.
 const CHANCE: f64 = 0.05;
 
-/// The order of two releases by the chain that they state.
+/// The order of two releases according to the chain stated in them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Order {
-    /// The later release follows the earlier one.
+    /// The later release follows the earlier release.
     Follows,
-    /// The release given as the earlier one follows the other.
+    /// The releases are in reverse order: the release passed as the earlier one is the later one.
     Reversed,
     /// Neither release follows the other.
     Unrelated,
 }
 
 impl Order {
-    /// Determines the order of two releases. `before` is the release given as the earlier one.
+    /// Determines the order of two releases. `before` is the release passed as the earlier one.
     pub(super) fn of(before: &Manifest, after: &Manifest) -> Order {
         match (follows(after, before), follows(before, after)) {
             (true, _) => Order::Follows,
@@ -31,7 +31,7 @@ impl Order {
     }
 }
 
-/// Returns `true` if `later` has `earlier` as its parent, or lists it among its ancestors.
+/// Returns `true` if `later` states `earlier` as its parent or among its ancestors.
 fn follows(later: &Manifest, earlier: &Manifest) -> bool {
     let listed = later.recipe.get("known").and_then(|known| known.get("releases")?.as_array());
     let is_listed = listed.is_some_and(|names| names.iter().any(|name| name.as_str() == Some(&earlier.name)));

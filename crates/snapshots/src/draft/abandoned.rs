@@ -1,4 +1,4 @@
-//! Drafts left behind by killed runs.
+//! Drafts left by killed runs.
 
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -9,11 +9,11 @@ use super::remove_tree;
 use crate::error::SnapshotError;
 use disk::Lock;
 
-/// A draft that no process is working on. While this value lives, no process can take the draft over.
+/// A draft that no process is working on. While this value exists, no process can take over the draft.
 #[derive(Debug)]
 pub struct Abandoned {
     partial: PathBuf,
-    /// The number of finished jobs of an interrupted mint, which `--resume` can reuse.
+    /// The number of an interrupted mint's finished jobs, which `--resume` can reuse.
     pub finished_jobs: usize,
     /// The lock, which is released on drop.
     _lock: Lock,
@@ -21,8 +21,8 @@ pub struct Abandoned {
 
 impl Abandoned {
     /// Returns the abandoned draft in the `.partial` folder at `partial`; `None` if the folder does not belong to a
-    /// draft, or if a process is working on it. A folder belongs to a draft only if it holds a lock and otherwise
-    /// only work. Links are not followed.
+    /// draft, or if a process is working on the draft. A folder belongs to a draft only if it contains a lock and
+    /// otherwise only draft files. Links are not followed.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -60,7 +60,7 @@ impl Abandoned {
     }
 }
 
-/// Returns `true` if the folder is not a link, and holds a draft's lock and otherwise only work. Runs that were
+/// Returns `true` if the folder is not a link, and contains a draft's lock and otherwise only draft files. Runs
 /// killed while starting or ending leave only a lock.
 fn holds_work(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() || !fs::symlink_metadata(partial.join(LOCK))?.is_file() {
@@ -69,7 +69,7 @@ fn holds_work(partial: &Path) -> io::Result<bool> {
     lock::is_ours(partial)
 }
 
-/// Counts the files of finished jobs in a folder.
+/// Counts the finished jobs' files in a folder.
 fn finished(jobs: &Path) -> io::Result<usize> {
     let listed = match fs::read_dir(jobs) {
         Err(source) if source.kind() == ErrorKind::NotFound => return Ok(0),
@@ -88,7 +88,7 @@ mod tests {
     use super::super::tests::{home, names};
     use super::*;
 
-    /// Leaves a draft behind like a killed run.
+    /// Leaves a draft behind as a killed run does.
     fn killed(out: &Path) -> PathBuf {
         let draft = Draft::create(out).expect("vacant");
         draft.write("games/a", b"one").expect("written");

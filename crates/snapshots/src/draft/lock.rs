@@ -1,4 +1,4 @@
-//! The ownership of a `.partial` folder, which belongs to the process that holds its lock.
+//! Ownership of a `.partial` folder. The folder belongs to the process that holds its lock.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Seek, Write};
@@ -7,25 +7,24 @@ use std::path::Path;
 use crate::error::SnapshotError;
 use disk::Lock;
 
-/// The lock file. It exists as long as [`TREE`] does, and its content, [`MARK`], says that the folder belongs to a
-/// draft.
+/// The lock file, which exists as long as [`TREE`] does. Its content, [`MARK`], identifies the folder as a draft's.
 pub(super) const LOCK: &str = ".lock";
-/// The content of [`LOCK`]. A file of that name with any other content does not belong to a draft.
+/// The content of [`LOCK`]. A file with the same name but different content does not belong to a draft.
 pub(super) const MARK: &str =
     "unfinished work of `arcade`, which replaces or removes it (infinite-arcade draft 1)\n";
-/// The folder that holds the work.
+/// The folder for unfinished work.
 pub(super) const TREE: &str = "tree";
 /// The folder whose content is kept if the work is interrupted.
 pub(super) const JOBS: &str = "jobs";
 
-/// Creates `partial` or takes it over, locks it, and marks it as a draft's.
+/// Creates or takes over `partial`, locks it, and marks it as a draft's.
 pub(super) fn acquire(partial: &Path) -> Result<Lock, SnapshotError> {
     let mut lock = take(partial)?;
     mark(lock.file()).map_err(SnapshotError::io("lock", &partial.join(LOCK)))?;
     Ok(lock)
 }
 
-/// Creates `partial` or takes it over, and locks it. An existing lock file stays unchanged.
+/// Creates or takes over `partial`, and locks it. An existing lock file stays unchanged.
 pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     let busy = || SnapshotError::Busy(partial.to_path_buf());
     let lock_path = partial.join(LOCK);
@@ -53,7 +52,7 @@ pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     Err(busy())
 }
 
-/// Writes [`MARK`], and waits until it is on disk, because it identifies everything written later as a draft's.
+/// Writes [`MARK`], and waits until the mark is on disk. The mark identifies everything written later as a draft's.
 fn mark(lock: &mut File) -> io::Result<()> {
     if disk::start(&*lock, MARK.len() as u64 + 1)? == MARK.as_bytes() {
         return Ok(());
@@ -64,8 +63,8 @@ fn mark(lock: &mut File) -> io::Result<()> {
     lock.sync_all()
 }
 
-/// Returns `true` if the folder belongs to a draft. Such a folder holds only what a draft makes, and has a lock with
-/// [`MARK`] unless nothing in the folder could be lost. A user's own `results.partial` must not be deleted because of
+/// Returns `true` if the folder belongs to a draft. Such a folder contains only draft files, and has a lock with
+/// [`MARK`] unless there is nothing to lose. A user's own `results.partial` must not be deleted because of
 /// `--out results`.
 pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
@@ -92,8 +91,7 @@ pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
 }
 
 /// Reads the start of a lock file, up to one byte more than the length of [`MARK`]. On Windows, a file locked by a
-/// different process cannot be read. [`MARK`] is returned in that case, because the attempt to lock the file comes
-/// next.
+/// different process cannot be read. Returns [`MARK`] in that case, because the next step attempts to lock the file.
 fn content(lock: &Path) -> io::Result<Vec<u8>> {
     match disk::read_start(lock, MARK.len() as u64 + 1) {
         Err(_) if cfg!(windows) => Ok(MARK.as_bytes().to_vec()),
@@ -121,7 +119,7 @@ mod tests {
         }
     }
 
-    /// A lock file alone proves nothing. Only its content does.
+    /// A lock file identifies a draft only by its content.
     #[test]
     fn foreign_locks_are_untouched() {
         for (lock, other) in [("", "tree/a"), ("4711\n", "tree/a"), ("", "jobs/a.json"), ("precious", "")] {
@@ -143,8 +141,8 @@ mod tests {
         }
     }
 
-    /// After a kill before or during the write of the mark, nothing else exists, and the next run takes the folder
-    /// over.
+    /// If a run is killed before or while writing the mark, nothing else exists, and the next run takes over the
+    /// folder.
     #[test]
     fn unmarked_locks_are_taken_over() {
         for written in [0, 7, MARK.len()] {
@@ -172,7 +170,8 @@ mod tests {
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied(_))));
     }
 
-    /// Many threads race for one folder: each either gets it exclusively or receives the reason why not.
+    /// Many threads race for one folder: each thread either acquires the folder exclusively or receives the reason
+    /// for failure.
     #[test]
     fn a_race_has_one_winner_at_a_time() {
         let (home, out) = home();

@@ -1,6 +1,6 @@
 //! Atomic writes of release folders: a release is complete or absent, even after a crash.
 //!
-//! The work lies beside its destination, and one `rename` within the file system publishes it:
+//! Unfinished work is stored next to its destination, and published by a single `rename` within the file system:
 //!
 //! ```text
 //! releases/2026-12.partial/.lock    held from creation until after the rename; its content marks the folder as ours
@@ -8,9 +8,9 @@
 //! releases/2026-12.partial/jobs/    finished jobs, kept after an interruption for `Draft::resume`
 //! ```
 //!
-//! The lock is the operating system's ([`Lock`]) and is released when its process ends, so a `.partial` folder whose
-//! lock is free was left by a killed run and is replaced. The tree is one level below the lock because the lock must
-//! outlive the rename: inside the tree, the lock would be published or released too early.
+//! The lock is an operating system lock ([`Lock`]) and is released when its process ends. A `.partial` folder with a
+//! free lock was therefore left by a killed run and is replaced. The tree is one level below the lock because the
+//! lock must outlive the rename: inside the tree, the lock would be published or released too early.
 
 mod abandoned;
 mod lock;
@@ -41,17 +41,17 @@ pub use abandoned::Abandoned;
 pub struct Draft {
     out: PathBuf,
     partial: PathBuf,
-    /// `true` if all content is readable by its owner alone, also after publication.
+    /// `true` if all content is readable only by its owner, even after publication.
     is_secret: bool,
     /// The lock, which is released after `drop` has removed the folder.
     _lock: Lock,
 }
 
 impl Draft {
-    /// Starts a draft of the folder `out`, which must be absent or empty. Missing parents are created.
+    /// Starts a draft for the folder `out`, which must be absent or empty. Missing parents are created.
     ///
-    /// A stale `<out>.partial` is replaced, never adopted. On a file system without locks, two processes must not be
-    /// given the same `out`.
+    /// A stale `<out>.partial` is replaced, never adopted. On a file system without locks, two processes must not use
+    /// the same `out`.
     ///
     /// # Errors
     /// Returns an error if `out` is occupied ([`Occupied`](SnapshotError::Occupied)), if a different process is
@@ -66,8 +66,8 @@ impl Draft {
         }
     }
 
-    /// Starts a draft like [`create`](Draft::create), but keeps the finished [`jobs`](Draft::jobs) of an interrupted
-    /// draft.
+    /// Starts a draft like [`create`](Draft::create), but retains an interrupted draft's finished
+    /// [`jobs`](Draft::jobs).
     ///
     /// # Errors
     /// See [`create`](Draft::create), except that interrupted work is not an error.
@@ -90,8 +90,8 @@ impl Draft {
     /// Writes the file at `relative`, creates its parents, and waits until the content is on disk.
     ///
     /// # Errors
-    /// Returns an error if the path is unsafe, the file is larger than a reader would accept, the file was written
-    /// before (also in different case, on a case-insensitive file system), or a file system operation fails.
+    /// Returns an error if the path is unsafe, the file is larger than readers accept, the file was already written
+    /// (also in different case, on a case-insensitive file system), or a file system operation fails.
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), SnapshotError> {
         let limit = Limits::SNAPSHOT.file_bytes;
         if bytes.len() as u64 > limit {
@@ -124,12 +124,12 @@ impl Draft {
         write().map_err(SnapshotError::io("write", &path))
     }
 
-    /// Publishes the draft as `out` in one step, and waits until the rename is on disk. The files were already synced
-    /// when they were written, so only the folders are synced now.
+    /// Publishes the draft as `out` in one step, and waits until the rename is on disk. The files were synced when
+    /// written, so only the folders are synced now.
     ///
     /// # Errors
     /// Returns an error if `out` is no longer absent or empty, or if a file system operation fails. The draft is then
-    /// dropped. If only syncing the parent folder fails, `out` exists nevertheless and is complete.
+    /// dropped. If only the parent folder's sync fails, `out` nevertheless exists and is complete.
     pub fn commit(self) -> Result<(), SnapshotError> {
         let tree = self.tree();
         sync_folders(&tree)?;
@@ -160,19 +160,18 @@ impl Draft {
         remove_tree(&jobs).map_err(SnapshotError::io("remove", &jobs))
     }
 
-    /// Creates the file of a draft that is published as a single file, and returns the file with its path, for
-    /// messages.
+    /// Creates the file for a draft that is published as a single file. Returns the file and its path, for messages.
     ///
     /// # Errors
-    /// Returns an error if the file was created before, or if a file system operation fails.
+    /// Returns an error if the file was already created, or if a file system operation fails.
     pub(crate) fn single(&self) -> Result<(File, PathBuf), SnapshotError> {
         let path = self.tree().join(SINGLE);
         let file = File::options().read(true).write(true).create_new(true).open(&path);
         Ok((file.map_err(SnapshotError::io("create", &path))?, path))
     }
 
-    /// Publishes the file of [`single`](Draft::single), whose content has been synced, as `out` in one step, and
-    /// waits until its name is on disk. A file created at `out` in the meantime is not replaced.
+    /// Publishes the file from [`single`](Draft::single) as `out` in one step, and waits until its name is on disk.
+    /// The file's content must already be synced. A file created at `out` in the meantime is not replaced.
     ///
     /// # Errors
     /// Returns an error if `out` exists ([`Taken`](SnapshotError::Taken)), or if a file system operation fails. The
@@ -190,7 +189,7 @@ impl Draft {
         sync_folder(parent_of(&self.out))
     }
 
-    /// Restricts the unfinished work to its owner, as sealed releases need. Withheld files stay restricted after
+    /// Restricts the unfinished work to its owner, as sealed releases require. Withheld files stay restricted after
     /// publication.
     ///
     /// # Errors
@@ -204,8 +203,8 @@ impl Draft {
         Ok(())
     }
 
-    /// Restricts all content to its owner, before and after publication, as shards of sealed releases need. Must be
-    /// called before the first file is written.
+    /// Restricts all content to its owner, before and after publication, as required for shards of sealed releases.
+    /// Must be called before the first file is written.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -220,13 +219,13 @@ impl Draft {
         Ok(())
     }
 
-    /// Returns the path of the [`jobs`](Draft::jobs) of a draft of the folder `out`, even if there is no draft.
+    /// Returns the path of a draft's [`jobs`](Draft::jobs) for the folder `out`, even if there is no draft.
     pub fn jobs_of(out: &Path) -> Option<PathBuf> {
         Some(partial_of(out)?.join(JOBS))
     }
 
-    /// Returns the path of a folder beside the draft, which is not created yet. Its content outlives a draft that is
-    /// dropped or killed, and is removed when the draft is committed.
+    /// Returns the path of a folder next to the draft, without creating it. The folder's content outlives a dropped
+    /// or killed draft, and is removed when the draft is committed.
     pub fn jobs(&self) -> PathBuf {
         self.partial.join(JOBS)
     }
@@ -254,14 +253,14 @@ impl Drop for Draft {
     }
 }
 
-/// Returns the folder for the work on the folder `out`; `None` if `out` has no name.
+/// Returns the folder for unfinished work on `out`; `None` if `out` has no file name.
 fn partial_of(out: &Path) -> Option<PathBuf> {
     let mut name = OsString::from(out.file_name()?);
     name.push(".partial");
     Some(out.with_file_name(name))
 }
 
-/// Returns the folder that holds `path`, never the empty path.
+/// Returns the parent folder of `path`. The result is never the empty path.
 fn parent_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -269,7 +268,8 @@ fn parent_of(path: &Path) -> &Path {
     }
 }
 
-/// Creates a folder and its missing parents. If `is_secret` is set, they are accessible to their owner alone.
+/// Creates a folder and its missing parents. If `is_secret` is set, the created folders are accessible only to their
+/// owner.
 fn create_folders(folder: &Path, is_secret: bool) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);
@@ -454,7 +454,7 @@ pub(crate) mod tests {
         assert_eq!(names(home.path()), ["new"]);
     }
 
-    /// All of a secret draft, from the first folder to the published release, is accessible to its owner alone.
+    /// Every part of a secret draft, from the first folder to the published release, is accessible only to its owner.
     #[cfg(unix)]
     #[test]
     fn secrets_are_readable_by_their_owner_only() {
@@ -472,7 +472,8 @@ pub(crate) mod tests {
         );
     }
 
-    /// The process that [`a_killed_run`] kills. When run alone, this test finds no orders in its folder and returns.
+    /// The process killed by [`a_killed_run`]. When run on its own, this test finds no orders in its folder and
+    /// returns.
     #[test]
     fn victim() {
         if fs::read("orders").ok().as_deref() != Some(b"write until killed") {

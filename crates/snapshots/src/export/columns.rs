@@ -1,5 +1,5 @@
 //! The columns of an export: their names, their types and the sources of their values. All formats, the dataset card
-//! and the page (`docs/how-to/export.md`) follow this table.
+//! and the documentation page (`docs/how-to/export.md`) follow this table.
 
 use super::item::Item;
 use forge::card::{LevelCard, Origin};
@@ -9,9 +9,9 @@ use validators::{PlayerResult, Rate};
 /// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
-    /// A text, never null.
+    /// Text, never null.
     Text,
-    /// A text, or null.
+    /// Text, or null.
     MaybeText,
     /// A 64-bit integer, never null.
     Integer,
@@ -25,12 +25,12 @@ pub enum ColumnKind {
     Flag,
     /// A list of texts, possibly empty.
     Texts,
-    /// A list of records, possibly empty. The value gives the fields and their types. No field is a list.
+    /// A list of records, possibly empty. The value lists the fields and their types. Fields cannot be lists.
     Records(&'static [(&'static str, ColumnKind)]),
 }
 
 impl ColumnKind {
-    /// Returns the name of the type in `docs/how-to/export.md`.
+    /// Returns the type's name in `docs/how-to/export.md`.
     pub fn name(self) -> String {
         match self {
             ColumnKind::Texts => "list of string".to_owned(),
@@ -42,7 +42,7 @@ impl ColumnKind {
         }
     }
 
-    /// Returns the name of the type of a single value.
+    /// Returns the type name of a single value.
     pub(super) fn data_type(self) -> &'static str {
         match self {
             ColumnKind::Text | ColumnKind::MaybeText => "string",
@@ -62,7 +62,7 @@ impl ColumnKind {
 /// A column of an export.
 #[derive(Clone, Copy)]
 pub struct Column {
-    /// The name of the column.
+    /// The values' type.
     pub name: &'static str,
     /// The type of its values.
     pub kind: ColumnKind,
@@ -74,7 +74,7 @@ impl Column {
         Column { name, kind, of }
     }
 
-    /// Returns an item's value in this column.
+    /// The columns that every export contains.
     pub(super) fn value(&self, item: &Item<'_>) -> Value {
         (self.of)(item)
     }
@@ -156,7 +156,7 @@ const PLAIN: &[Column] = &[
     Column::new("canary", ColumnKind::Text, |item| text(&item.manifest.canary)),
 ];
 
-/// The additional columns of an export with solutions, which follow the plain columns.
+/// The additional columns of exports with solutions, placed after the plain columns.
 const SOLUTIONS: &[Column] = &[
     Column::new("solution", ColumnKind::Texts, |item| {
         let actions = item.exported_level().witness.iter().flat_map(|episode| &episode.actions);

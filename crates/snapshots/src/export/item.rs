@@ -1,4 +1,4 @@
-//! The source of one row of an export: a level with its game, under the game's own theme or as a twin.
+//! The source of one row of an export: a level with its game, in the game's theme or as a twin.
 
 use crate::format::manifest::Manifest;
 use crate::released::{ReleasedGame, ReleasedLevel};
@@ -9,7 +9,7 @@ use forge::card::{Card, LevelCard};
 use std::borrow::Cow;
 use validators::{GameForm, GameKind};
 
-/// A game as exported: under its own theme or as a twin.
+/// A game as exported: in its own theme or as a twin.
 pub(super) struct ExportedGame<'a> {
     pub(super) title: String,
     pub(super) description: String,
@@ -19,7 +19,7 @@ pub(super) struct ExportedGame<'a> {
     pub(super) source: String,
     pub(super) game: Game,
     pub(super) levels: Cow<'a, [ReleasedLevel]>,
-    /// The names of the types that each character places, sorted by character.
+    /// The names of the types placed by each character, sorted by character.
     pub(super) legend: Vec<(char, String)>,
     pub(super) kind: GameKind,
     /// The digest of the rules, independent of names and order.
@@ -66,7 +66,7 @@ impl<'a> ExportedGame<'a> {
     }
 }
 
-/// Returns the names of the types that each character of the LevelMapping places, sorted by character.
+/// Returns the names of the types placed by each character in the LevelMapping, sorted by character.
 pub(super) fn legend(game: &Game) -> Vec<(char, String)> {
     let line = |symbol: u8| {
         let names: Vec<&str> = game.places(symbol).iter().map(|&stype| game.name(stype)).collect();
@@ -80,14 +80,14 @@ pub(super) struct Item<'a> {
     pub(super) manifest: &'a Manifest,
     pub(super) card: &'a Card,
     pub(super) exported: &'a ExportedGame<'a>,
-    /// The number of the level, from 0.
+    /// The level's number, from 0.
     pub(super) number: usize,
     /// The exported twin; `None` for the game itself.
     pub(super) twin: Option<Twin>,
 }
 
 impl Item<'_> {
-    /// Returns the item's ID, which is unique among the items of all releases and their twins.
+    /// Returns the item's ID, unique among the items of all releases and their twins.
     pub(super) fn id(&self) -> String {
         let twin = self.twin.map(|twin| format!("+{twin}")).unwrap_or_default();
         format!("{}/{}/lvl{}{twin}", self.manifest.name, self.card.id, self.number)

@@ -1,4 +1,4 @@
-//! JSON Lines: one object per row, with its keys in the order of the columns.
+//! JSON Lines: one object per row, with its keys in column order.
 
 use super::columns::{Column, ColumnKind};
 use serde::ser::{Serialize, SerializeMap, Serializer};

@@ -1,7 +1,7 @@
-//! Exports of a release for other tools: either a dataset with one row per level, as JSON Lines or Parquet, with a
-//! dataset card for dataset hubs, or plain folders of games.
+//! Exports a release for other tools, as a dataset or as plain game folders. A dataset has one row per level, as
+//! JSON Lines or Parquet, and a dataset card for dataset hubs.
 //!
-//! The same release gives the same bytes. Solutions are excluded by default.
+//! The same release produces the same bytes. Solutions are excluded by default.
 
 mod columns;
 mod item;
@@ -31,7 +31,7 @@ pub struct Exported {
     pub games: usize,
     /// The number of exported levels.
     pub levels: usize,
-    /// The folders of the games that have no such twin, with the reasons.
+    /// The folders of games without such a twin, with the reasons.
     pub left_out: Vec<(String, TwinError)>,
 }
 
@@ -56,7 +56,7 @@ pub enum ExportError {
 
 /// Exports a release as rows with a dataset card, or as folders of games.
 ///
-/// Cost: an analysis of each game. Twins also cost their creation ([`twin::of_game`]).
+/// Costs an analysis of each game and, for twins, their creation ([`twin::of_game`]).
 ///
 /// # Errors
 /// See [`ExportError`].
@@ -111,7 +111,7 @@ pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportEr
     Ok(Exported { files, games, levels, left_out })
 }
 
-/// Returns the rules and levels of a game as files in their own folder, the form that players and other tools read.
+/// Returns a game's rules and levels as files in their own folder: the form read by players and other tools.
 fn folder(card: &Card, exported: &ExportedGame<'_>) -> Vec<(String, Vec<u8>)> {
     let file = |name: String, text: &str| (format!("{}/{name}", card.id), text.as_bytes().to_vec());
     let levels = exported.levels.iter().enumerate();

@@ -1,13 +1,14 @@
-//! The options of an export.
+//! Export options.
 
 use crate::twin::Twin;
 use std::fmt;
 
-/// The name of the only split. The whole release is for evaluation, but tools that find no named split treat
-/// everything as training data. To divide a release (by origin, by difficulty), filter by a column.
+/// The name of the only split. The whole release is for evaluation, but without a named split, tools treat
+/// everything as training data. To divide a release, for example by origin or difficulty, filter by a
+/// column.
 pub const SPLIT: &str = "test";
 
-/// The format of an export.
+/// The export format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// One JSON object per line.
@@ -31,12 +32,12 @@ impl fmt::Display for Format {
     }
 }
 
-/// The options of an export.
+/// Export options.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Export {
-    /// The format of the export.
+    /// The export format.
     pub format: Format,
-    /// `true` to include an episode that wins each level.
+    /// `true` to include a winning episode for each level.
     pub solutions: bool,
     /// The twin to export; `None` for the games themselves.
     pub twin: Option<Twin>,

@@ -1,5 +1,5 @@
-//! The `README.md` of an export: a dataset card in the form that dataset hubs read, which is YAML between two lines
-//! of `---`, then Markdown.
+//! The `README.md` of an export: a dataset card in the form read by dataset hubs: YAML between two `---` lines,
+//! followed by Markdown.
 
 use super::columns::{Column, ColumnKind};
 use super::item::ExportedGame;
@@ -9,25 +9,25 @@ use crate::released::Released;
 use forge::card::{Card, Origin};
 use std::fmt::Write;
 
-/// The rows that a card describes.
+/// The rows described by a card.
 pub(super) struct Rows<'a> {
-    /// The path of the file that holds the rows.
+    /// The path of the file with the rows.
     pub(super) file: &'a str,
     /// The size of the file in bytes.
     pub(super) bytes: usize,
     pub(super) games: &'a [(&'a Card, ExportedGame<'a>)],
-    /// The number of levels, which equals the number of rows.
+    /// The number of levels: one per row.
     pub(super) levels: usize,
 }
 
-/// Returns the dataset card of an export.
+/// Returns an export's dataset card.
 pub(super) fn page(released: &Released, export: &Export, columns: &[Column], rows: &Rows<'_>) -> String {
     let mut text = front(released, export, columns, rows);
     text += &body(released, export, rows);
     text
 }
 
-/// Quotes a text for YAML, using JSON's quoting, which YAML accepts.
+/// Quotes a text for YAML, using JSON's quoting, which is valid in YAML.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

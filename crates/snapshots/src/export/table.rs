@@ -1,7 +1,7 @@
-//! The Parquet format, which stores the same rows by column.
+//! The Parquet format: the same rows, stored by column.
 //!
-//! The file uses plain format 1.0 without compression, with one row group and without time or machine in the footer,
-//! so the same rows give the same bytes. Dictionary encoding keeps repeated texts cheap.
+//! The file uses plain format 1.0 without compression, with one row group and without a time or machine name in the
+//! footer, so the same rows produce the same bytes. Dictionary encoding makes repeated texts cheap.
 
 use super::columns::{Column, ColumnKind};
 use parquet::basic::Compression;
@@ -22,7 +22,7 @@ const CREATED_BY: &str = "infinite-arcade";
 /// Formats the rows as a Parquet file, with the canary in its metadata.
 ///
 /// # Errors
-/// Returns an error if the library fails, which is not expected.
+/// Returns an error if the library fails, which should not happen.
 pub(super) fn write(columns: &[Column], rows: &[Vec<Value>], canary: &str) -> Result<Vec<u8>, ParquetError> {
     let properties = WriterProperties::builder()
         .set_created_by(CREATED_BY.to_owned())
@@ -48,7 +48,7 @@ pub(super) fn write(columns: &[Column], rows: &[Vec<Value>], canary: &str) -> Re
     Ok(bytes)
 }
 
-/// Returns the schema in Parquet's own notation, with lists in the three-level form that the format prescribes.
+/// Returns the schema in Parquet's own notation, with lists in the three-level form prescribed by the format.
 fn schema(columns: &[Column]) -> String {
     let mut text = "message item {\n".to_owned();
     for Column { name, kind, .. } in columns {
@@ -131,7 +131,7 @@ impl<'a> Leaf<'a> {
     }
 }
 
-/// Returns the leaves of a column: a single one, or one for each field of its records.
+/// Returns a column's leaves: a single leaf, or one per field of its records.
 fn leaves<'a>(kind: ColumnKind, rows: &[&'a Value]) -> Vec<Leaf<'a>> {
     let fields: Vec<ColumnKind> = match kind {
         ColumnKind::Records(fields) => fields.iter().map(|(_, kind)| *kind).collect(),
@@ -208,7 +208,7 @@ mod tests {
         vec![full.clone(), nothing, full]
     }
 
-    /// After reading back, lists begin and end at the same positions, and nulls are null.
+    /// After reading back, lists begin and end at the same positions, and nulls are preserved.
     #[test]
     fn rows_are_read_back() {
         let bytes = write(&columns(), &rows(), "the canary").unwrap();

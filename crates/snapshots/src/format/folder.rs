@@ -1,9 +1,9 @@
-//! Reading an untrusted release folder. No link is followed, only regular files are opened, and every size is bounded
-//! before any content is read.
+//! Reads an untrusted release folder. Links are not followed, only regular files are opened, and every size is
+//! bounded before any content is read.
 //!
-//! The folder that the user specifies may itself be reached through a link, but nothing below it may. The only
-//! defence against a folder that changes *while* it is read is the detection, on Unix, that the opened file differs
-//! from the examined one.
+//! The folder specified by the user may itself be reached through a link, but nothing inside the folder may. The only
+//! defence against a folder that changes *while* being read is that, on Unix, an opened file is compared with the
+//! examined file.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, Metadata};
@@ -15,7 +15,7 @@ use crate::format::path::{PathProblem, check_path};
 use crate::format::problem::{Flaw, Problem};
 use base::Digest;
 
-/// The limits of a release folder.
+/// A release folder's limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// The maximum number of files, and also of folders.
@@ -27,38 +27,38 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// The limits of format 1: 100 000 files, 64 MiB each, 4 GiB in total.
+    /// The limits of format 1: 100 000 files, up to 64 MiB each, 4 GiB in total.
     pub const SNAPSHOT: Limits = Limits { files: 100_000, file_bytes: 64 << 20, total_bytes: 4 << 30 };
 }
 
 /// A regular file in a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
-    /// The relative path, `/`-separated, as [`check_path`] allows.
+    /// The relative path, `/`-separated, valid according to [`check_path`].
     pub path: String,
-    /// The size in bytes.
+    /// The size, in bytes.
     pub size: u64,
 }
 
 /// The content of a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Listing {
-    /// The regular files that may be in a release, sorted by the bytes of their paths.
+    /// The regular files allowed in a release, sorted by the bytes of their paths.
     pub entries: Vec<Entry>,
     /// The problems with all other entries, sorted.
     pub problems: Vec<Problem>,
     /// The skipped top-level names, sorted.
     pub passed_over: Vec<String>,
-    /// `true` if the whole folder was listed, and `false` after [`Flaw::TooMany`]. In the latter case, there are no
-    /// entries.
+    /// `true` if the whole folder was listed, and `false` after [`Flaw::TooMany`]. After [`Flaw::TooMany`], there are
+    /// no entries.
     pub complete: bool,
 }
 
-/// Walks the folder `root`. The result does not depend on the order in which the system lists names.
+/// Walks the folder `root`. The result does not depend on the system's listing order.
 ///
 /// Links, special files, unsafe names, empty folders and exceeded limits are problems, not errors.
 ///
-/// Cost: one examination of each name, for at most twice `limits.files` names. No file is opened.
+/// Costs one examination per name, for at most twice `limits.files` names. Files are not opened.
 ///
 /// # Errors
 /// Returns an error if a folder cannot be read.
@@ -66,7 +66,7 @@ pub fn list(root: &Path, limits: &Limits) -> Result<Listing, SnapshotError> {
     list_but(root, limits, &[])
 }
 
-/// Lists a folder like [`list`], but skips entries with one of these names at the top of the folder.
+/// Lists a folder like [`list`], but skips top-level entries with one of the given names.
 pub(crate) fn list_but(root: &Path, limits: &Limits, names: &[&str]) -> Result<Listing, SnapshotError> {
     let (mut entries, mut problems, mut passed_over) = (Vec::new(), Vec::new(), Vec::new());
     let (mut files, mut folders, mut total) = (0, 0, 0_u64);
@@ -117,7 +117,7 @@ pub(crate) fn list_but(root: &Path, limits: &Limits, names: &[&str]) -> Result<L
 ///
 /// # Errors
 /// Returns an error if the path is unsafe, a component is a link, the entry is not a file, the file has more than
-/// `limit` bytes, or it cannot be read.
+/// `limit` bytes, or the file cannot be read.
 pub fn read(root: &Path, relative: &str, limit: u64) -> Result<Vec<u8>, SnapshotError> {
     let file = open(root, relative)?;
     let path = join(root, relative);
@@ -136,8 +136,8 @@ pub(crate) fn find(root: &Path, relative: &str, limit: u64) -> Result<Option<Vec
     }
 }
 
-/// Returns the size and digest of the file at `relative` below `root`, which is read in chunks. Only the first
-/// `limit` + 1 bytes of a file longer than `limit` are read and counted.
+/// Returns the size and digest of the file at `relative` below `root`, read in chunks. For a file longer than
+/// `limit`, only the first `limit` + 1 bytes are read and counted.
 ///
 /// # Errors
 /// See [`read`], except that a long file is not an error.
@@ -183,7 +183,7 @@ pub(crate) fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
     }
 }
 
-/// Returns the path of `name` in `folder`, and the result of checking it. A name that is not Unicode is shown
+/// Returns the path of `name` in `folder`, and the result of checking this path. A name that is not Unicode is shown
 /// approximately.
 fn relative(folder: &str, name: &OsStr) -> (String, Result<(), PathProblem>) {
     let separator = if folder.is_empty() { "" } else { "/" };

@@ -1,4 +1,4 @@
-//! The names of the files of a release.
+//! The names of release files.
 
 use crate::format::manifest::item::ReleaseKind;
 
@@ -8,9 +8,9 @@ pub(crate) const README_FILE: &str = "README.md";
 /// The file that describes a whole release, for programs.
 pub const RELEASE_CARD_FILE: &str = "CARD.json";
 
-/// The withheld file of a sealed release that holds its secret.
+/// The withheld file that contains a sealed release's secret.
 pub const SECRET_FILE: &str = "held/secret.json";
-/// The folder of a sealed release's files that are withheld until the reveal.
+/// The folder for a sealed release's files that are withheld until the reveal.
 pub const HELD: &str = "held/";
 
 /// Returns the path of a level's witness in a release. `game` is the game's folder in `games`.
@@ -21,10 +21,10 @@ pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> Strin
     }
 }
 
-/// The folder of withheld siblings.
+/// The folder for withheld siblings.
 pub(crate) const SIBLINGS: &str = "held/siblings/";
 
-/// Returns the path of a file of a game's withheld sibling. `game` is the game's folder in `games`.
+/// Returns a file path in a game's withheld sibling. `game` is the game's folder in `games`.
 pub(crate) fn sibling_path(game: &str, file: &str) -> String {
     format!("{SIBLINGS}{game}/{file}")
 }
@@ -34,7 +34,7 @@ pub(crate) fn second_path(game: &str, level: usize) -> String {
     format!("{HELD}seconds/{game}/lvl{level}.json")
 }
 
-/// Returns `true` if a withheld file belongs to the published coin wins, which can be revealed before the
+/// Returns `true` if a withheld file belongs to the published coin wins, which can be revealed before all
 /// other files.
 pub(crate) fn is_solution(path: &str) -> bool {
     path.strip_prefix(HELD).is_some_and(|file| file.split('/').count() == 2)

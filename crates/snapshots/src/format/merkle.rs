@@ -1,7 +1,7 @@
-//! A Merkle tree over the files of a release, which allows proving one file without the rest.
+//! A Merkle tree over a release's files. One file can be proved without the rest.
 //!
-//! The shape is that of RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n). The hash is
-//! BLAKE3. Leaves and nodes are domain-separated, so that a leaf cannot pass for a node or a node for a leaf:
+//! The shape follows RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n). The hash is
+//! BLAKE3. Leaves and nodes are domain-separated, so that neither can pass for the other:
 //!
 //! ```text
 //! leaf  = BLAKE3(0x00 ‖ length of path: u64, little-endian ‖ path ‖ digest)
@@ -23,14 +23,14 @@ use base::Digest;
 /// A file in the tree.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Leaf {
-    /// The relative path, `/`-separated. The tree hashes its bytes without checking them: see
+    /// The relative path, `/`-separated. The tree hashes the path's bytes without checking them: see
     /// [`check_path`](crate::check_path).
     pub path: String,
     /// The digest of the file's content.
     pub digest: Digest,
 }
 
-/// The error for two leaves with the same path, which makes the tree ambiguous.
+/// Two leaves have the same path, which makes the tree ambiguous.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{}` is listed twice: list each file once", path.escape_debug())]
 pub struct DuplicatePath {
@@ -49,7 +49,7 @@ pub fn root(leaves: &[Leaf]) -> Result<Digest, DuplicatePath> {
 
 /// Returns the proof for the leaf at `path` in the tree over `leaves`, which may be in any order. Cost: O(n log n).
 ///
-/// Returns `None` if no leaf has that path, or if any two leaves share a path, because no tree exists then.
+/// Returns `None` if no leaf has that path, or if any two leaves share a path, in which case no tree exists.
 pub fn prove(leaves: &[Leaf], path: &str) -> Option<Proof> {
     let leaves = sorted(leaves).ok()?;
     let index = leaves.binary_search_by(|leaf| leaf.path.as_str().cmp(path)).ok()?;
@@ -59,20 +59,20 @@ pub fn prove(leaves: &[Leaf], path: &str) -> Option<Proof> {
     Some(Proof { index: index as u64, size: hashes.len() as u64, siblings })
 }
 
-/// The hashes that lead from a leaf to the root: the audit path of RFC 6962 §2.1.1.
+/// The hashes on the way from a leaf to the root: the audit path of RFC 6962 §2.1.1.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Proof {
-    /// The position of the leaf among the sorted leaves, from 0.
+    /// The leaf's index among the sorted leaves, from 0.
     pub index: u64,
     /// The number of leaves in the tree.
     pub size: u64,
-    /// The roots of the sibling subtrees on the way up, from the leaf's sibling to the root's child.
+    /// The sibling subtrees' roots, from the leaf's sibling to the root's child.
     pub siblings: Vec<Digest>,
 }
 
 impl Proof {
-    /// Returns `true` if `leaf` is in the tree whose root is `root`, and `false` if the proof is malformed. Cost: at
+    /// Returns `true` if `leaf` is in the tree with the given root; `false` also for a malformed proof. Cost: at
     /// most 64 hashes.
     pub fn verify(&self, leaf: &Leaf, root: &Digest) -> bool {
         if self.index >= self.size {
@@ -261,8 +261,8 @@ mod tests {
         }
     }
 
-    /// The rightmost leaf is the rightmost one in a tree of any size, so a stated size must still use up the
-    /// siblings.
+    /// The rightmost leaf is rightmost in a tree of any size, so the siblings must be used up exactly for the stated
+    /// size.
     #[test]
     fn a_size_that_ends_too_early_fails() {
         let leaves = leaves(8);

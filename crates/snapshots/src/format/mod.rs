@@ -1,4 +1,5 @@
-//! The form of a release on disk: paths, the manifest and its tree of digests, and the versions that wrote it.
+//! A release's on-disk format: paths, the manifest with its digest tree, and the versions that wrote the
+//! format.
 
 pub(crate) mod canary;
 pub mod folder;

@@ -1,12 +1,12 @@
-//! The relative paths that a release may contain. They denote the same file on every system, and cannot lead outside
-//! the folder.
+//! The relative paths that a release may contain. Such a path denotes the same file on every system, and cannot lead
+//! outside the folder.
 
 /// The maximum length of a path, in bytes.
 pub const MAX_PATH: usize = 255;
-/// The maximum number of components of a path: its folders and its file. Releases use up to four.
+/// The maximum number of components in a path: its folders and its file. Releases use up to four components.
 pub const MAX_COMPONENTS: usize = 16;
 
-/// A reason why a release may not contain a path.
+/// A reason why a path is not allowed in a release.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathProblem {
@@ -22,17 +22,17 @@ pub enum PathProblem {
     /// The path starts with `/`.
     #[error("the path is absolute")]
     Absolute,
-    /// The path has two `/` in a row, or one at the end.
+    /// The path contains two consecutive `/`, or ends with one.
     #[error("the path has an empty component")]
     EmptyComponent,
     /// A component is `.` or `..`.
     #[error("the path has a `.` or `..` component")]
     DotComponent,
-    /// A component ends with a dot, which Windows drops.
+    /// A component ends with a dot, which Windows removes.
     #[error("a component ends with a dot")]
     TrailingDot,
-    /// The path has a character outside `A-Z a-z 0-9 . _ - /`, such as `\`, `:`, a control character or any non-ASCII
-    /// character.
+    /// The path contains a character outside `A-Z a-z 0-9 . _ - /`, such as `\`, `:`, a control character or any
+    /// non-ASCII character.
     #[error("the path has the character {0:?}: only A-Z, a-z, 0-9, `.`, `_`, `-` and `/` may be used")]
     Character(char),
     /// The name is not Unicode.
@@ -40,9 +40,9 @@ pub enum PathProblem {
     NotUnicode,
 }
 
-/// Checks that a release may contain `path`. It must be relative and `/`-separated, have at most [`MAX_PATH`] bytes
-/// and [`MAX_COMPONENTS`] components, and consist of the characters `A-Z a-z 0-9 . _ -`. No component may be empty,
-/// be `.` or `..`, or end with a dot.
+/// Checks that `path` is allowed in a release. The path must be relative and `/`-separated, with at most [`MAX_PATH`]
+/// bytes and [`MAX_COMPONENTS`] components, and consist of the characters `A-Z a-z 0-9 . _ -`. No component may be
+/// empty, be `.` or `..`, or end with a dot.
 ///
 /// # Errors
 /// Returns the first rule that the path violates.
@@ -123,7 +123,7 @@ mod tests {
         }
     }
 
-    /// Every unlisted byte is rejected at any position.
+    /// Every byte outside the allowed set is rejected at any position.
     #[test]
     fn the_alphabet_is_closed() {
         for byte in 0..128_u8 {

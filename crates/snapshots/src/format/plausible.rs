@@ -1,13 +1,13 @@
-//! The plausibility of the versions that a manifest states.
+//! The plausibility of the versions stated in a manifest.
 
 use crate::format::version::{CURRENT, MintedBy, VERSIONS, Version};
 
-/// The first generation whose releases have a `CARD.json`, a canary derived from the recipe, and the content of
-/// previous releases in the recipe.
+/// The first generation whose releases have a `CARD.json`, a canary derived from the recipe, and a record of
+/// the previous releases' content in the recipe.
 pub(crate) const CARD_AND_CANARY_SINCE: u32 = 7;
 
-/// Returns the reason why no version of `arcade` can have minted a release with these numbers; `None` if some
-/// version, possibly a later one, can have minted it.
+/// Returns the reason why no version of `arcade` can have minted a release with the given numbers; `None` if a
+/// version, possibly a later one, can have minted the release.
 pub(crate) fn impossible(minted_by: &MintedBy) -> Option<String> {
     let &MintedBy { ref version, generation, semantics } = minted_by;
     let never = format!("GENERATION {generation} never had SEMANTICS {semantics}");

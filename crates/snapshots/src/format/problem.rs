@@ -1,12 +1,12 @@
-//! The problems that reading an untrusted release folder can find. Problems are data, so that all of them are
-//! reported at once.
+//! The problems that can be found in an untrusted release folder. Problems are data rather than errors, so that all
+//! can be reported together.
 
 use crate::format::path::PathProblem;
 use base::Digest;
 
 /// A problem with a release folder. Problems are ordered by the bytes of the path, then by flaw.
 ///
-/// `Display` gives the path and the flaw, escaped for printing:
+/// `Display` writes the path and the flaw, escaped for printing:
 /// `games/x/lvl0.txt: altered (digest 12ab34cd…, the manifest says 56ef7890…)`.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[error("{}: {flaw}", path.escape_debug())]
@@ -18,20 +18,20 @@ pub struct Problem {
     pub flaw: Flaw,
 }
 
-/// A flaw at a path of a release folder.
+/// A flaw at a path in a release folder.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[non_exhaustive]
 pub enum Flaw {
-    /// The manifest lists the path, but no regular file exists there.
+    /// The manifest lists the path, but there is no such regular file.
     #[error("missing")]
     Missing,
-    /// A file that the manifest does not list.
+    /// A file not listed in the manifest.
     #[error("extra (not in the manifest; accompanying files belong in papers/)")]
     Extra,
-    /// An empty folder, which no manifest can list.
+    /// An empty folder, which a manifest cannot list.
     #[error("extra (an empty folder)")]
     EmptyFolder,
-    /// The size differs from the stated one, so the content was not read.
+    /// The size differs from the stated size, so the content was not read.
     #[error("wrong size ({found} bytes, but the manifest states {stated})")]
     Size {
         /// The size in the folder, in bytes.
@@ -39,12 +39,12 @@ pub enum Flaw {
         /// The stated size, in bytes.
         stated: u64,
     },
-    /// The content differs from the stated one.
+    /// The content differs from the stated digest.
     #[error("altered (the digest is {}, but the manifest states {})", short(found), short(stated))]
     Altered {
         /// The digest of the file in the folder.
         found: Digest,
-        /// The digest that the manifest states.
+        /// The digest stated in the manifest.
         stated: Digest,
     },
     /// A symbolic link, which was not followed.
@@ -53,7 +53,7 @@ pub enum Flaw {
     /// A pipe, socket or device, which was not opened.
     #[error("neither a file nor a folder")]
     Special,
-    /// A name that no release may contain. A folder with such a name was not entered.
+    /// A name not allowed in a release. A folder with such a name was not entered.
     #[error("unsafe name ({0})")]
     Name(PathProblem),
     /// A file larger than the limit for one file.
@@ -64,11 +64,11 @@ pub enum Flaw {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// There are more files or more folders than the limit. The remaining entries were not examined, and no other
+    /// The number of files or folders exceeds the limit. The remaining entries were not examined, and no other
     /// problem with the folder's content is reported.
     #[error("more than {limit} files or folders")]
     TooMany {
-        /// The limit on the number of files, and on the number of folders.
+        /// The limit on the number of files and on the number of folders.
         limit: u64,
     },
     /// The total size of the files exceeds the limit.
@@ -79,30 +79,30 @@ pub enum Flaw {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// The manifest's text differs from the text that this format writes for its content (spaces, order, line ends, a
-    /// missing or duplicate field). The meaning is intact, but the bytes differ from the minted ones.
+    /// The manifest is not in this format's canonical form (whitespace, order, line endings, a missing or duplicate
+    /// field). Its meaning is intact, but its bytes differ from the minted bytes.
     #[error("not in canonical form (the text differs from the minted form)")]
     NotCanonical,
-    /// A file is not a list of withheld files, although its digest is the committed one.
+    /// A file is not a list of withheld files, although its digest matches the commitment.
     #[error("not a list of withheld files ({0})")]
     NotAList(String),
-    /// An entry of an archive, or the archive itself, differs from its packed form.
+    /// An archive entry, or the archive itself, differs from its packed form.
     #[error("different from the packed form ({0})")]
     NotAsPacked(String),
-    /// The stated checksum differs from the checksum of the stated root, lock file and sizes.
+    /// The stated checksum differs from the checksum computed from the stated root, lock file and sizes.
     #[error("wrong checksum (the root, the lock file's digest or a size was changed)")]
     WrongChecksum,
-    /// The stated root differs from the root over the manifest's own header and items.
+    /// The stated root differs from the root computed from the manifest's header and items.
     #[error("wrong root (the items give {}, but the manifest states {})", short(found), short(stated))]
     WrongRoot {
         /// The root computed from the header and items.
         found: Digest,
-        /// The root that the manifest states.
+        /// The root stated in the manifest.
         stated: Digest,
     },
 }
 
-/// Returns a prefix that identifies a digest. A [`Problem`] contains the whole digest.
+/// Returns a prefix that identifies a digest. A [`Problem`] itself contains the whole digest.
 fn short(digest: &Digest) -> String {
     let text = digest.to_string();
     format!("{}…", &text[..8])

@@ -1,8 +1,8 @@
-//! The versions of the suite, and the generation that each version mints.
+//! The versions of the suite, and the generation minted by each version.
 //!
-//! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row of [`VERSIONS`], a
-//! new version of the workspace and a new section of the changelog. Tests compare all of them. A fix that changes no
-//! minted byte raises `p` of the workspace and adds no row.
+//! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row in [`VERSIONS`], a
+//! new workspace version and a new changelog section. Tests check that all three agree. A fix that does not change
+//! any minted byte raises the workspace's `p` and does not add a row.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use std::fmt;
 pub struct Version {
     /// The first version that mints these bytes, such as `0.11.0`. Its tag is `v0.11.0`.
     pub number: &'static str,
-    /// The version's `GENERATION`, which determines the bytes that a recipe gives.
+    /// The version's `GENERATION`, which determines the bytes that a recipe produces.
     pub generation: u32,
     /// The version's `SEMANTICS`, which determines the hashes that witnesses record.
     pub semantics: u32,
@@ -19,7 +19,7 @@ pub struct Version {
     pub commit: Option<&'static str>,
 }
 
-/// Every version that minted different bytes, oldest first. The last one is the current version.
+/// Every version that minted different bytes, from oldest to newest. The last entry is the current version.
 pub const VERSIONS: &[Version] = &[
     superseded("0.1.0", 1, 1, "73214b9b5e56768a2dc20881f6d9dab5ceeba5fe"),
     superseded("0.2.0", 2, 2, "2bd65cebcea99b65f4bc1dea74290f2a24b95701"),
@@ -40,7 +40,7 @@ pub const VERSIONS: &[Version] = &[
     CURRENT,
 ];
 
-/// The current version of the suite.
+/// The suite's current version.
 pub const CURRENT: Version = Version {
     number: "0.16.0",
     generation: generators::GENERATION,
@@ -53,13 +53,12 @@ const fn superseded(number: &'static str, generation: u32, semantics: u32, commi
 }
 
 impl Version {
-    /// Returns the known version that mints this generation under these semantics; `None` if there is no such
-    /// version.
+    /// Returns the known version that mints the given generation under the given semantics, if any.
     pub fn that_mints(generation: u32, semantics: u32) -> Option<&'static Version> {
         VERSIONS.iter().find(|version| (version.generation, version.semantics) == (generation, semantics))
     }
 
-    /// Returns the commands that install the version, to be run in a clone of the repository.
+    /// Returns the commands that install the version, to be run in a repository clone.
     pub fn install_command(&self) -> String {
         let revision = match self.commit {
             Some(commit) => commit[..12].to_owned(),
@@ -79,13 +78,13 @@ impl fmt::Display for Version {
 /// The first generation whose binary is in `crates/cli`. The binaries of earlier generations are in `cli`.
 const IN_CRATES: u32 = 14;
 
-/// Returns the commands that install `revision`, to be run in a clone of the repository.
+/// Returns the commands that install `revision`, to be run in a repository clone.
 fn install_command(revision: &str, folder: &str) -> String {
     format!("git fetch --tags && git checkout {revision} && cargo install --locked --path {folder}")
 }
 
-/// The version that minted a release, for messages. The number comes from the known versions or else from the
-/// manifest.
+/// The version that minted a release, for messages. The version number is taken from the known versions if possible,
+/// and otherwise from the manifest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MintedBy {
     /// The manifest's `version`, if its format has one.
@@ -134,7 +133,7 @@ pub(crate) fn is_version_number(text: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Raising GENERATION or SEMANTICS requires a row, a version of the workspace and a section of the changelog.
+    /// Raising GENERATION or SEMANTICS requires a row, a workspace version and a changelog section.
     #[test]
     fn each_bump_has_a_version_and_a_section_of_the_changelog() {
         let changelog = include_str!("../../../../CHANGELOG.md");

@@ -1,10 +1,10 @@
-//! `witness/lvl<n>.json`: an episode that proves that a level can be won.
+//! `witness/lvl<n>.json`: an episode that proves a level winnable.
 
 use base::SeedStep;
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// The content of a witness file.
+/// A witness file's content.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Witness {
@@ -13,8 +13,8 @@ pub struct Witness {
     /// The episode, which replays to a win.
     pub episode: Episode,
     /// The steps from the release's root seed to the episode's seed, with one [`Seed::child`](base::Seed::child) per
-    /// step. Sealed releases record them, so that a revealed secret can be checked without minting. In open releases,
-    /// the list is empty.
+    /// step. In sealed releases, the steps allow checking a revealed secret without minting. In open releases, the
+    /// list is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<SeedStep>,
 }

@@ -1,4 +1,4 @@
-//! The ancestors of a release: the games and levels that a new release must not repeat.
+//! A release's ancestors: the games and levels that a new release must not repeat.
 
 use crate::Digest;
 use crate::contents::Contents;
@@ -20,20 +20,20 @@ use validators::novelty::GameForm;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AncestryError {
-    /// The recipe states a different parent.
+    /// The recipe states a different parent than the given release.
     #[error("the recipe's parent is {asked}, but the root of `{name}` is {found}")]
     OtherParent {
-        /// The root that the recipe states.
+        /// The root stated in the recipe.
         asked: Digest,
-        /// The root of the given release.
+        /// The given release's root.
         found: Digest,
-        /// The name of the given release.
+        /// The given release's name.
         name: String,
     },
     /// The parent is damaged.
     #[error("the parent does not verify: {0}")]
     Damaged(String),
-    /// The parent's record of its own ancestors is in the format of a different version.
+    /// The parent's record of its own ancestors has a different version's format.
     #[error("the parent's list of earlier releases cannot be read ({0}): use the arcade that minted it")]
     Unreadable(serde_json::Error),
     /// An ancestor has the same name.
@@ -44,10 +44,10 @@ pub enum AncestryError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// The games and levels of a release that no later release may repeat.
+/// A release's games and levels that later releases must not repeat.
 #[derive(Debug, Default)]
 pub(crate) struct Holdings {
-    /// The rules of the release's generated games, without names, in the order of its items.
+    /// The rules of the release's generated games, without names, in item order.
     games: Vec<String>,
     /// The mechanics, endings and couplings of the release's invented games.
     census: Census,
@@ -58,7 +58,8 @@ pub(crate) struct Holdings {
 }
 
 impl Holdings {
-    /// Reads the holdings of a sound release. Cost: one pass over its games, and some milliseconds per game.
+    /// Reads the holdings of a sound release. Costs one pass over the release's games, and a few milliseconds per
+    /// game.
     ///
     /// # Errors
     /// Returns an error if a card, a game or a level is malformed or cannot be read.
@@ -96,11 +97,11 @@ impl Holdings {
         Ok(found)
     }
 
-    /// Returns the `known` field for a release that follows the release of `manifest`. `self` must hold the games
-    /// and levels of the release of `manifest`.
+    /// Returns the `known` field for a release that follows the release described by `manifest`. `self` must
+    /// contain the games and levels of that release.
     ///
     /// # Errors
-    /// Returns an error if the manifest's own `known` field is in the format of a different version.
+    /// Returns an error if the manifest's own `known` field has a different version's format.
     pub(crate) fn known_after(&self, manifest: &Manifest) -> Result<Known, AncestryError> {
         // Only this part of the recipe is read, so that recipes with keys of other versions can be followed.
         let mut known: Known = match manifest.recipe.get("known") {
@@ -120,10 +121,10 @@ impl Holdings {
 /// Makes a recipe follow the release at `parent`, a folder or an archive. The recipe then states the parent's root,
 /// and lists the games and levels of the parent and all its ancestors.
 ///
-/// Cost: one pass over the files, and some milliseconds per game.
+/// Cost: one pass over the files, and a few milliseconds per game.
 ///
 /// # Errors
-/// Returns an error if the parent differs from the one that the recipe states, or if the parent is unsound.
+/// Returns an error if the parent differs from the parent stated in the recipe, or if the parent is unsound.
 pub fn follow(recipe: &mut Recipe, parent: &Path) -> Result<(), AncestryError> {
     let (integrity, contents) = Contents::open(parent)?;
     let manifest = &integrity.manifest;

@@ -22,19 +22,19 @@ use base::Digest;
 use engine::SEMANTICS;
 use generators::GENERATION;
 
-/// The maximum number of releases, and also of other entries, in a folder that is searched for releases.
+/// The maximum number of releases, and also of other entries, in a folder being searched for releases.
 pub const MAX_RELEASES: usize = 10_000;
 
-/// The part of a release that matters for the chain.
+/// The properties of a release that matter for the chain.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Link {
-    /// The name of the release.
+    /// The release's name.
     pub name: String,
-    /// The root of the release.
+    /// The release's root.
     pub root: Digest,
-    /// The root of the predecessor, as the release states it.
+    /// The predecessor's root, as stated in the release.
     pub parent: Option<Digest>,
-    /// The folder or archive that holds the release. It is serialised with invalid Unicode replaced.
+    /// The folder or archive that contains the release. Serialisation replaces invalid Unicode in this path.
     #[serde(serialize_with = "shown")]
     pub place: PathBuf,
 }
@@ -51,36 +51,36 @@ impl Link {
     }
 }
 
-/// A release with its predecessors, and the problems with them.
+/// A release with its predecessors, and the problems found in the chain.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Chain {
-    /// The releases from the given one back to the oldest one found.
+    /// The releases, from the given release back to the oldest release found.
     pub releases: Vec<Link>,
-    /// `true` if the last of the releases states no predecessor.
+    /// `true` if the last release does not state a predecessor.
     pub complete: bool,
     /// The number of other given releases, which are not part of the chain.
     pub others: usize,
-    /// The problems; empty if the chain is complete and there is no competing history.
+    /// The problems; empty if the chain is complete and does not compete with a second history.
     pub problems: Vec<String>,
 }
 
 /// Follows the roots from `start` back among the releases in `folders`, each of which is a release (folder or
-/// archive) or a folder of releases. Checks the integrity of all these releases. `start` must have been checked
+/// archive) or contains releases. Checks the integrity of all these releases. `start` must have been checked
 /// already.
 ///
 /// A chain is sound if
-/// - every stated root is found, up to a release that states none;
+/// - every stated root is found, up to a release that does not state one;
 /// - no two of the given releases have the same name;
-/// - no two releases follow the same release of the chain, because that would be two histories, and no release
-///   follows a release that was not given, because that could be a second history;
-/// - each release of the chain lists the content of its predecessors, and repeats no part of that content.
+/// - no two releases follow the same release in the chain, because the chain would then have two histories, and no
+///   release follows a missing release, because the missing release could belong to a second history;
+/// - each release in the chain lists the content of its predecessors, and repeats no part of that content.
 ///
-/// Cost: one pass over the files of all releases and a second pass over the files of the chain, plus some
-/// milliseconds for each game of the chain. Folders are read on all threads of the current rayon pool, archives one
-/// at a time. Memory: the manifests, one file of an archive at a time, and one archive of the chain.
+/// Cost: one pass over the files of all releases and a second pass over the files of the chain, plus a few
+/// milliseconds per game in the chain. Folders are read on all threads of the current rayon pool, archives one at a
+/// time. Memory use covers the manifests, one archived file at a time, and one archive in the chain.
 ///
 /// # Errors
-/// Returns an error if a folder holds no release, or if a file system operation fails.
+/// Returns an error if a folder does not contain any release, or if a file system operation fails.
 pub fn follow(start: Link, folders: &[PathBuf]) -> Result<Chain, SnapshotError> {
     let mut places = BTreeSet::new();
     for folder in folders {
@@ -123,10 +123,10 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     }
 }
 
-/// Checks that each release of a chain lists the content of its predecessors, and repeats no part of that content.
-/// The releases are given newest first.
+/// Checks that each release in a chain lists the content of its predecessors, and repeats no part of that content.
+/// The releases are passed newest first.
 ///
-/// `known` is compared as a whole if this version of arcade would state it in the same form. For a release of a
+/// `known` is compared as a whole if this version of arcade would write it in the same form. For a release of a
 /// different generation, only the names of its predecessors are compared.
 pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
@@ -184,8 +184,8 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
     Ok(problems)
 }
 
-/// Returns the releases at `folder` or directly below it, sorted by name. All other content is ignored, and no link
-/// is followed.
+/// Returns the releases at `folder` or directly below it, sorted by name. Ignores all other content, and does not
+/// follow links.
 pub(crate) fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
     let is_release = |place: &Path| fs::symlink_metadata(place.join(MANIFEST_FILE)).is_ok();
     let found = fs::metadata(folder).map_err(|source| match source.kind() {
@@ -326,7 +326,7 @@ mod tests {
         check(three.clone(), vec![two.clone()], &["3", "2"], false, &[&missing]);
     }
 
-    /// A release that follows an absent rival of `2` is reported.
+    /// A release that follows an absent rival of release `2` is reported.
     #[test]
     fn missing_predecessors_are_reported() {
         let (one, two) = (link("1", "a", None), link("2", "b", Some("a")));
@@ -363,7 +363,8 @@ mod tests {
         check(three, vec![homonym, two], &["3", "2", "3"], true, &["two releases are called `3`"]);
     }
 
-    /// Sound releases cannot form a ring, because a root covers the parent's root, but the walk must end anyway.
+    /// Sound releases cannot form a cycle, because a root covers the parent's root, but the walk must end in any
+    /// case.
     #[test]
     fn rings_end() {
         let (one, two) = (link("1", "a", Some("b")), link("2", "b", Some("a")));

@@ -1,6 +1,6 @@
-//! The available ancestors of a release, and the claims that can be checked without all of them.
+//! A release's available ancestors, and the claims that can be checked without having all ancestors.
 //!
-//! [`chain::follow`](crate::lineage::chain::follow) requires every release of a chain and judges every given release.
+//! [`chain::follow`](crate::lineage::chain::follow) requires every release in a chain and judges every given release.
 //! In contrast, this module ends the chain at the first unavailable release, and ignores releases outside the chain.
 
 pub(crate) mod ancestry;
@@ -19,21 +19,21 @@ use std::path::{Path, PathBuf};
 /// A release that a later release states as its parent.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ancestor {
-    /// The root that the later release states.
+    /// The root stated in the later release.
     pub root: Digest,
     /// The release; `None` if it was not found.
     pub link: Option<Link>,
-    /// The reasons why the found release does not have the stated root; empty if it has that root, or if no release
+    /// The reasons why the found release does not have the stated root; empty if the root matches, or if no release
     /// was found.
     pub problems: Vec<String>,
 }
 
-/// The ancestors of a release.
+/// A release's ancestors.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lineage {
     /// The ancestors, from the parent back. Only the last ancestor can be absent or damaged.
     pub ancestors: Vec<Ancestor>,
-    /// `true` if the ancestors reach back to a release that states no parent.
+    /// `true` if the ancestors reach back to a release without a parent.
     pub complete: bool,
     /// The folders and archives that could not be read, with the reasons.
     pub unread: Vec<String>,
@@ -43,14 +43,14 @@ pub struct Lineage {
 }
 
 /// Follows the roots from `start` back among the releases in `folders`. Each folder is a release (folder or archive)
-/// or a folder of releases. Only the integrity of the ancestors is checked. `heard` is called with each ancestor
-/// after its check, and ends the search by returning `false`. `start` must have been verified.
+/// or contains releases. Only the ancestors' integrity is checked. `heard` is called with each ancestor after its
+/// check, and can end the search by returning `false`. `start` must have been verified.
 ///
 /// Cost: reading the manifests in the folders, two passes over the files of each ancestor, and one pass over each
-/// archive if a root is in no folder.
+/// archive if a root is not found in any folder.
 ///
 /// # Errors
-/// Returns an error if a release of the chain has become unreadable.
+/// Returns an error if a release in the chain has become unreadable.
 pub fn trace(
     start: &Link,
     folders: &[PathBuf],
@@ -86,12 +86,12 @@ pub fn trace(
     Ok(Lineage { ancestors, complete, unread: candidates.unread, problems })
 }
 
-/// The releases among which ancestors are searched for.
+/// The releases in which to search for ancestors.
 struct Candidates {
-    /// The folders, with the roots that they state.
+    /// The release folders, with their stated roots.
     folders: Vec<(Digest, PathBuf)>,
     archives: Vec<PathBuf>,
-    /// The archives that have been read.
+    /// The archives already read.
     opened: Vec<(PathBuf, Integrity)>,
     unread: Vec<String>,
 }
@@ -129,8 +129,8 @@ impl Candidates {
         self.unread.push(format!("{error}{reason}"));
     }
 
-    /// Returns the release with a root, preferably a sound one. If no such release is sound, the first release that
-    /// states this root is returned with its problems.
+    /// Returns the release with the given root, preferring a sound one. If none is sound, returns the first release
+    /// that states this root, with its problems.
     fn find(&mut self, root: Digest) -> Ancestor {
         let mut damaged = None;
         let places: Vec<PathBuf> = self

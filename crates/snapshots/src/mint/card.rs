@@ -1,4 +1,4 @@
-//! The `CARD.json` of a release: planned and achieved figures, the results of the ladder, novelty, and composition.
+//! A release's `CARD.json`: planned and achieved figures, ladder results, novelty, and composition.
 
 use super::Plan;
 use super::select::{Contender, bins};
@@ -10,7 +10,7 @@ use report::Quantiles;
 use validators::GameForm;
 
 impl ReleaseCard {
-    /// Computes the card of the selected games. Cost: quadratic in the number of new games.
+    /// Computes the card for the selected games. Cost: quadratic in the number of new games.
     pub(super) fn of(
         plan: &Plan<'_>,
         contenders: &[Contender],

@@ -8,10 +8,10 @@ use validators::CriteriaError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MintError {
-    /// The recipe is not sound, or it is sealed and its secret is missing.
+    /// The recipe is invalid, or is sealed and its secret is missing.
     #[error(transparent)]
     Recipe(#[from] RecipeError),
-    /// The recipe requests more corpus games than the corpus has.
+    /// The recipe requests more corpus games than the corpus contains.
     #[error("`corpus.games` is {asked}, but the corpus has {known} games")]
     SmallCorpus {
         /// The requested number of games.
@@ -22,38 +22,38 @@ pub enum MintError {
     /// A corpus game does not compile.
     #[error("the corpus game `{name}` does not compile: {problems}")]
     BrokenCorpus {
-        /// The name of the game.
+        /// The game's name.
         name: String,
-        /// The diagnostics of the compiler.
+        /// The compiler's diagnostics.
         problems: engine::Diagnostics,
     },
-    /// The criteria of the recipe are invalid.
+    /// The recipe's criteria are invalid.
     #[error("`criteria.{}` {}", .0.key, .0.message)]
     Criteria(#[from] CriteriaError),
     /// A job's result is missing from the store.
     #[error("the job `{0}` is missing: mint it again")]
     Missing(String),
-    /// A job's result holds a text that is not a game, or a game that differs from its card.
+    /// A job's result contains text that is not a game, or a game that differs from its card.
     #[error("the job `{0}` holds an invalid game: mint it again")]
     Unsound(String),
     /// Too few candidates passed.
     #[error("`{part}.games` is {asked}, but only {there} candidates can be selected ({why}); {advice}")]
     TooFew {
-        /// The part of the recipe.
+        /// The recipe section.
         part: &'static str,
         /// The requested number of games.
         asked: usize,
-        /// The number of candidates that passed and are not copies.
+        /// The number of candidates that passed and are not duplicates.
         there: usize,
-        /// The reasons why the other candidates failed, or the games that they copy.
+        /// The reasons why the other candidates failed, or the games that they duplicate.
         why: String,
         /// The recommended next step.
         advice: String,
     },
-    /// The recipe requests more games than can be made. This is detected before anything is minted.
+    /// The recipe requests more games than can be generated. Detected before anything is minted.
     #[error("`{part}.games` is {asked}, but the limit is {most}: {why}; {advice}")]
     Unfillable {
-        /// The part of the recipe.
+        /// The recipe section.
         part: &'static str,
         /// The requested number of games.
         asked: usize,
@@ -69,23 +69,23 @@ pub enum MintError {
     Uneven {
         /// The number of candidates.
         candidates: usize,
-        /// The requirements that the best selection misses.
+        /// The requirements not met by the best selection.
         missed: String,
         /// The recommended next step.
         advice: String,
     },
-    /// The drawn secret does not look random, which happens with a probability of one in a billion.
+    /// The drawn secret does not look random, which has a probability of one in a billion.
     #[error("the drawn secret is unusable: {0}; draw again")]
     Unlucky(String),
-    /// A section of the recipe adds a part to a game that cannot be made.
+    /// A recipe section adds a part to games, and the part could not be created.
     #[error("{section}: {message}")]
     Section {
-        /// The name of the section.
+        /// The section's name.
         section: &'static str,
-        /// The reason why the part cannot be made.
+        /// The reason why the part could not be created.
         message: String,
     },
-    /// The files or the manifest cannot be made.
+    /// The files or the manifest could not be created.
     #[error(transparent)]
     Snapshot(#[from] SnapshotError),
 }

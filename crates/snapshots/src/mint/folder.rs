@@ -21,17 +21,17 @@ use forge::card::{Card, Origin};
 use forge::games::marked;
 use std::fmt::Write;
 
-/// A function that receives each file of a release when it is made: its relative path and content.
+/// A function called with the relative path and content of each release file as soon as the file is created.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), SnapshotError> + 'a;
 
-/// A release that is being written. Its files go to a sink, and the data for the manifest is kept.
+/// A release that is being written. Its files are sent to a sink, and the data for the manifest is retained.
 pub(super) struct Folder<'a, 'b> {
     sink: &'a mut Sink<'b>,
     recipe: &'a Recipe,
     canary: String,
     kind: ReleaseKind,
     items: Vec<Item>,
-    /// The written games, without texts and episodes.
+    /// The written games, without texts or episodes.
     games: Vec<FrozenGame>,
 }
 
@@ -58,7 +58,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         Ok(())
     }
 
-    /// Writes the files of a game.
+    /// Writes a game's files.
     pub(super) fn game(&mut self, mut game: FrozenGame) -> Result<(), SnapshotError> {
         game.card.canary = self.canary.clone();
         for section in SECTIONS {
@@ -84,7 +84,8 @@ impl<'a, 'b> Folder<'a, 'b> {
         Ok(())
     }
 
-    /// Writes the files about the release as a whole, and returns its manifest, which the caller must write.
+    /// Writes the files that describe the release as a whole, and returns its manifest, which the caller
+    /// must write.
     pub(super) fn finish(
         mut self,
         secret: Option<&Secret>,
@@ -141,7 +142,7 @@ fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, SnapshotError> {
     Ok(to_canonical_json(value)?.into_bytes())
 }
 
-/// Returns the release's own README: its content and how to check it.
+/// Returns the text of the release's README, which describes the release's content and how to check it.
 fn readme(recipe: &Recipe, canary: &str, cards: &[Card], card: &ReleaseCard) -> String {
     let levels: usize = cards.iter().map(|card| card.levels.len()).sum();
     let mut text = format!("# {}\n\n{}\n\n", recipe.name, recipe.description.trim());

@@ -1,5 +1,5 @@
-//! Job stores, which keep the results of finished jobs until all jobs are done, in memory or in a folder that
-//! survives the process.
+//! Job stores: storage for finished jobs' results until all jobs are done, in memory or in a folder that
+//! outlives the process.
 
 use crate::Digest;
 use crate::error::SnapshotError;
@@ -15,15 +15,15 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// A store that keeps the results of finished jobs by name, and can be used from several threads.
+/// A store for finished jobs' results, by name. Can be used from several threads.
 pub trait JobStore: Sync {
-    /// Returns a stored result; `None` if there is no such result or it is damaged.
+    /// Returns a stored result; `None` if the result is missing or damaged.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
     fn get(&self, name: &str) -> Result<Option<JobResult>, SnapshotError>;
 
-    /// Stores a result, which then persists even after a crash.
+    /// Stores a result durably, so that it survives a crash.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -51,35 +51,37 @@ impl JobStore for Memory {
 #[derive(Debug)]
 pub struct JobFolder {
     folder: PathBuf,
-    /// The digest of the plan. Results of different plans are ignored.
+    /// The digest of the plan. Results from different plans are ignored.
     plan: Digest,
-    /// `true` once the folder has a file that states the plan.
+    /// `true` once the folder contains a file that states the plan.
     is_marked: Mutex<bool>,
-    /// `true` if results are readable by their owner alone.
+    /// `true` if results are readable only by their owner.
     is_secret: bool,
 }
 
-/// The file that identifies the plan of the results, so that results of a different recipe are not discarded.
+/// The file that records which plan the results belong to, so that results from a different recipe are not
+/// discarded by mistake.
 const WHOSE: &str = "plan.txt";
 
 /// The maximum size of a result file, in bytes: 64 MiB.
 const JOB_LIMIT: u64 = 64 << 20;
 
-/// The content of a result file.
+/// A result file's content.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct JobFile<T> {
     plan: Digest,
-    /// The digest of the result's canonical JSON. A file that was truncated or changed is ignored.
+    /// The digest of the result's canonical JSON. Truncated or changed files are ignored.
     digest: Digest,
     result: T,
 }
 
 impl JobFolder {
-    /// Opens the results of this plan in a folder, which is created if missing.
+    /// Opens the folder for this plan's results, and creates the folder if it is missing.
     ///
     /// # Errors
-    /// Returns an error if the folder has results of a different plan, or if a file system operation fails.
+    /// Returns an error if the folder contains results from a different plan, or if a file system operation
+    /// fails.
     pub fn open(folder: &Path, plan: Digest) -> Result<JobFolder, SnapshotError> {
         disk::create_folder(folder).map_err(SnapshotError::io("create", folder))?;
         let whose = folder.join(WHOSE);
@@ -93,7 +95,7 @@ impl JobFolder {
         Ok(JobFolder { folder: folder.to_path_buf(), plan, is_marked, is_secret: false })
     }
 
-    /// Restricts the results to their owner, as sealed releases need.
+    /// Restricts the results to their owner, as sealed releases require.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -107,11 +109,12 @@ impl JobFolder {
         Ok(())
     }
 
-    /// Returns, for each name, whether a folder holds the result of that name. The folder may be absent, and is
-    /// not changed.
+    /// Returns, for each name, whether a folder contains a result with that name. The folder may be absent, and
+    /// is not changed.
     ///
     /// # Errors
-    /// Returns an error if the folder has results of a different plan, or if a file system operation fails.
+    /// Returns an error if the folder contains results from a different plan, or if a file system operation
+    /// fails.
     pub fn there(folder: &Path, plan: Digest, names: &[String]) -> Result<Vec<bool>, SnapshotError> {
         if !folder.exists() {
             return Ok(vec![false; names.len()]);
@@ -120,7 +123,7 @@ impl JobFolder {
         names.iter().map(|name| Ok(store.get(name)?.is_some())).collect()
     }
 
-    /// Writes the digest of the plan before the first result.
+    /// Writes the plan's digest before the first result.
     fn mark(&self) -> Result<(), SnapshotError> {
         let mut is_marked = self.is_marked.lock().unwrap_or_else(PoisonError::into_inner);
         if !*is_marked {
@@ -136,7 +139,7 @@ impl JobFolder {
         disk::write(path, text.as_bytes(), access).map_err(SnapshotError::io("write", path))
     }
 
-    /// Returns a stored result of any type; `None` if there is no such result or it is damaged.
+    /// Returns a stored result of any type; `None` if the result is missing or damaged.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -145,7 +148,7 @@ impl JobFolder {
         bytes.map_or(Ok(None), |bytes| JobFolder::parse(self.plan, &bytes))
     }
 
-    /// Stores a result of any type, which then persists even after a crash.
+    /// Stores a result of any type durably, so that it survives a crash.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -155,7 +158,7 @@ impl JobFolder {
         self.write(&self.folder.join(JobFolder::file(name)), &text)
     }
 
-    /// Returns the text of a result file.
+    /// Returns a result file's text.
     pub(super) fn text<T: Serialize>(plan: Digest, job: &T) -> Result<String, SnapshotError> {
         let digest = canonical_digest(job)?;
         Ok(to_canonical_json(&JobFile { plan, digest, result: job })?)

@@ -1,7 +1,7 @@
-//! Minting: the generation, judging and selection of candidates.
+//! Minting: generating, judging and selecting candidates.
 //!
-//! A recipe is turned into a [`Plan`], which is a list of independent jobs, each with its own seed. [`Plan::make`]
-//! runs a job, and its result is put into a [`JobStore`]. After all jobs, games are selected from the results
+//! A recipe is turned into a [`Plan`]: a list of independent jobs, each with its own seed. [`Plan::make`] runs a job,
+//! and the result is saved in a [`JobStore`]. After all jobs have finished, games are selected from the results
 //! according to the recipe's quotas and difficulty histogram, and written as files. Both steps depend only on the
 //! recipe, and not on threads, order, machines, time or interruptions.
 
@@ -32,22 +32,22 @@ use select::{Contender, Part, select};
 pub use shard::{MergeError, SHARD_FILE, Shard, Shards};
 use std::fmt;
 
-/// A release whose files have been written to the sink.
+/// A release with all files written to the sink.
 #[derive(Clone, Debug)]
 pub struct Minted {
     /// The manifest, including the root.
     pub manifest: Manifest,
     /// The cards of the games, corpus games first.
     pub cards: Vec<Card>,
-    /// The summary of the release.
+    /// The release's summary.
     pub card: ReleaseCard,
 }
 
-/// A warning about an order that can be minted nevertheless.
+/// A warning about a request that can be minted nevertheless.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Remark {
-    /// Rules exist for at most the given number of new games, which is hardly more than the recipe requests.
+    /// Rules exist for at most the given number of new games, hardly more than the recipe requests.
     FewRules(usize),
     /// The shard has no jobs.
     EmptyShard,
@@ -66,17 +66,17 @@ impl fmt::Display for Remark {
     }
 }
 
-/// An observer of a mint, which is called from several threads. `()` observes nothing.
+/// A mint observer, called from several threads. `()` ignores all events.
 pub trait Progress: Sync {
     /// Called with each warning, before anything is written.
     fn remark(&self, _remark: &Remark) {}
-    /// Called with the remaining jobs, before they run. From then on, the mint can be resumed.
+    /// Called with the remaining jobs, before they run. From this point, the mint can be resumed.
     fn start(&self, _plan: &Plan<'_>, _left: &[Job]) {}
     /// Called with the number of jobs, and the number of jobs already done.
     fn begin(&self, _jobs: usize, _made: usize) {}
-    /// Called when a job is done.
+    /// Called when a job has finished.
     fn made(&self, _name: &str, _games: &[FrozenGame]) {}
-    /// Called when all jobs are done, before the release or the shard is written.
+    /// Called when all jobs have finished, before the release or the shard is written.
     fn finish(&self) {}
 }
 
@@ -121,8 +121,8 @@ pub fn make_jobs(
     open.par_iter().with_max_len(1).try_for_each(make)
 }
 
-/// Selects the games of a release from the results of all jobs, and passes its files to the sink. Only the metadata
-/// of the games is kept in memory, not the games.
+/// Selects the games of a release from the results of all jobs, and passes its files to the sink. Only the games'
+/// metadata is kept in memory.
 ///
 /// # Errors
 /// Returns an error if a job's result is missing or unsound, the candidates do not meet the recipe's requirements, or
@@ -176,7 +176,7 @@ mod tests {
     use base::{Seed, SeedPath, SeedStep};
     use forge::card::Origin;
 
-    /// A game about fetching the gem and leaving before time is up.
+    /// A game about collecting the gem and leaving before time is up.
     pub(super) const FETCH: &str = "BasicGame
     SpriteSet
         floor > Immovable
@@ -232,8 +232,7 @@ mod tests {
         lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(()))
     }
 
-    /// Puzzles have the tiers that the recipe requests, their cards state the tiers, and witnesses have a traced
-    /// seed.
+    /// Puzzles have the requested tiers, their cards state the tiers, and the witnesses' seeds can be traced.
     #[test]
     fn puzzles_are_minted_to_tiers() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'tiers'\n[puzzles]\ngames = 1\nlevels = 2\n\
@@ -281,7 +280,7 @@ mod tests {
         assert!(first.contains(&Job::Corpus(0)) && first.contains(&Job::Corpus(1)), "{first:?}");
     }
 
-    /// Without these steps, a sealed release could not show that its witnesses were played under its secret.
+    /// Without the seed path, a sealed release could not show that its witnesses were played under its secret.
     #[test]
     fn games_leave_a_way_from_the_seed_to_the_witness() {
         let check = |root: Seed, game: &FrozenGame| {
@@ -322,7 +321,7 @@ mod tests {
         assert!(games[0].paths.iter().any(is_shorter), "{:?}", games[0].card.levels);
     }
 
-    /// The estimate of a dry run differs by at most a quarter from the measurement in `docs/how-to/mint.md`.
+    /// A dry run's estimate differs by at most a quarter from the measurement in `docs/how-to/mint.md`.
     #[test]
     fn estimates_are_near_to_what_was_measured() {
         let page = include_str!("../../../../docs/how-to/mint.md");
@@ -347,8 +346,8 @@ mod tests {
         }
     }
 
-    /// Five mints of a recipe without `[criteria]` took 19 to 99 seconds of one core. The forecast median is within
-    /// this range, and the forecast tail is beyond it.
+    /// Five mints from a recipe without `[criteria]` took 19 to 99 core seconds. The forecast median is within this
+    /// range, and the forecast tail is beyond it.
     #[test]
     fn a_forecast_covers_what_other_seeds_cost() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 6\n";
@@ -363,8 +362,7 @@ mod tests {
         assert_eq!(plan.forecast(&[]), Forecast { median: 0.0, tail: 0.0 });
     }
 
-    /// A committed recipe can no longer be changed, so a recipe that cannot be filled is rejected before the
-    /// commitment.
+    /// A committed recipe can no longer be changed, so an unfillable recipe is rejected before the commitment.
     #[test]
     fn recipes_that_cannot_be_filled_are_refused() {
         let check = |generated: &str, expect: Option<&str>| {
@@ -417,7 +415,7 @@ mod tests {
         );
     }
 
-    /// A commitment covers the recipe, so nobody can raise a number in it and continue.
+    /// A commitment covers the recipe, so its numbers cannot be raised afterwards.
     #[test]
     fn a_sealed_recipe_that_falls_short_is_committed_to_again() {
         let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");
@@ -433,7 +431,7 @@ mod tests {
         assert!(error.contains("--commit") && !error.contains("--resume"), "{error}");
     }
 
-    /// If no rules are left, more jobs would not produce anything either.
+    /// If no rules are left, additional jobs would not help.
     #[test]
     fn no_rules_left_is_told_with_another_advice_than_more_candidates() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 1\n";
@@ -452,7 +450,7 @@ mod tests {
         assert!(error.contains("lower `generated.games`") && !error.contains("raise"), "{error}");
     }
 
-    /// Stored results are not computed again, and the bytes are the same.
+    /// Stored results are not recomputed, and the output is byte-identical.
     #[test]
     fn a_mint_goes_on_from_what_is_on_the_shelf() {
         struct Count(std::sync::Mutex<Vec<String>>);

@@ -1,4 +1,4 @@
-//! Selection: turning candidates into a release that is comparable with other months.
+//! Selection: turns candidates into a release comparable with other months.
 //!
 //! Every candidate passed its judges, so any selection is sound. The selection meets the recipe's quotas and matches
 //! its difficulty histogram as closely as possible, by swapping games in and out from several random starts. It uses
@@ -24,12 +24,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use validators::measures::{AvatarKind, GameKind, GoalKind};
 use validators::{Difficulty, GameForm, Tier};
 
-/// The part of a recipe that a game belongs to. Each part has its own number of games.
+/// The recipe part to which a game belongs. Each part has its own number of games.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {
-    /// New levels of corpus games.
+    /// New levels for corpus games.
     Corpus,
-    /// New games of kernels.
+    /// New games from kernels.
     Generated,
     /// Invented games.
     Invented,
@@ -53,7 +53,7 @@ impl Part {
         }
     }
 
-    /// Returns the part that a job belongs to.
+    /// Returns the part to which a job belongs.
     pub(super) fn of(job: Job) -> Part {
         match job {
             Job::Corpus(_) => Part::Corpus,
@@ -75,20 +75,20 @@ impl Part {
     }
 }
 
-/// A game that can be selected.
+/// A game available for selection.
 pub(super) struct Contender {
-    /// The index of the game's job, and the game's position in the job's result.
+    /// The index of the game's job, and the game's index in the job's result.
     pub(super) job: usize,
     pub(super) at: usize,
     part: Part,
     pub(super) is_new: bool,
-    /// The titles and casts of the game and of its sibling. Selection treats game and sibling in the same way, so
-    /// that the selection reveals nothing about a coin.
+    /// The titles and casts of the game and of its sibling. Selection treats the game and its sibling identically,
+    /// so that the choice reveals nothing about the secret coin that decides which of them is published.
     titles: Vec<String>,
     casts: Vec<Cast>,
     /// The difficulties of the game's levels.
     pub(super) difficulties: Vec<Difficulty>,
-    /// The tiers of the game's levels, if they were measured.
+    /// The tiers of the game's levels, if tiers were measured.
     tiers: Vec<Tier>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
@@ -101,8 +101,8 @@ pub(super) struct Contender {
 }
 
 impl Contender {
-    /// Makes the contender for a game; `None` if the game's rules or levels do not load. The game is given by the
-    /// index of its job and its position in the job's result.
+    /// Creates the contender for a game; `None` if the game's rules or levels do not load. The game is identified by
+    /// its job's index and its index in the job's result.
     pub(super) fn of(part: Part, (job, at): (usize, usize), frozen: &FrozenGame) -> Option<Contender> {
         let game = Game::from_source(&frozen.text).ok()?;
         let analysis = Analysis::of(&game);
@@ -139,7 +139,8 @@ impl Contender {
         self.casts.iter().any(|cast| other.casts.iter().any(|known| cast.is_shared(known)))
     }
 
-    /// Returns `true` if a previous release has a near copy of this new game, or an item of this corpus game.
+    /// Returns `true` if a previous release contains a near-duplicate of this new game, or an item of this corpus
+    /// game.
     fn is_known(&self, plan: &Plan<'_>) -> bool {
         match self.is_new {
             true => plan.before.iter().any(|form| self.form.is_near(form)),
@@ -148,8 +149,8 @@ impl Contender {
     }
 }
 
-/// Returns the requested number of levels of each difficulty, in order of difficulty; empty if the recipe requests
-/// none.
+/// Returns the requested number of levels per difficulty, from easiest to hardest; empty if the recipe does not
+/// request difficulties.
 pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
     let shares: Vec<f64> = recipe.difficulty.values().copied().collect();
     let numbers = apportion(recipe.levels(), &shares);
@@ -157,15 +158,15 @@ pub(super) fn histogram(recipe: &Recipe) -> Vec<(Difficulty, i64)> {
 }
 
 impl Plan<'_> {
-    /// Returns the requested number of levels of each difficulty, in order of difficulty; empty if the recipe
-    /// requests none.
+    /// Returns the requested number of levels per difficulty, from easiest to hardest; empty if the recipe does not
+    /// request difficulties.
     pub fn histogram(&self) -> Vec<(String, i64)> {
         let histogram = histogram(self.recipe).into_iter();
         histogram.map(|(label, levels)| (label.name().to_owned(), levels)).collect()
     }
 }
 
-/// Returns the requested number of levels of each tier; empty if the recipe requests none.
+/// Returns the requested number of levels per tier; empty if the recipe does not request tiers.
 fn tiers(recipe: &Recipe) -> Vec<(Tier, i64)> {
     if recipe.tiers.is_empty() {
         return Vec::new();
@@ -179,8 +180,8 @@ const STARTS: u64 = 24;
 /// The amounts by which a selection misses the quotas and the histogram, and the number of duplicate titles.
 type Miss = (i64, i64, i64);
 
-/// Recommends the next step: a small change to the recipe that keeps finished jobs, or a different change that does
-/// not keep them. A commitment covers the recipe, so a sealed recipe cannot be changed at all.
+/// Recommends the next step: a small change to the recipe that preserves finished jobs, or a different change that
+/// does not. A commitment covers the recipe, so a sealed recipe cannot be changed at all.
 fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     if recipe.commitment.is_some() {
         return format!(
@@ -190,12 +191,12 @@ fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     format!("{small} and continue with --resume, which keeps finished jobs; {other}, and start over")
 }
 
-/// Selects contenders of each part in the number that the recipe requests, and returns their indices in order. The
-/// tallies of the jobs explain errors.
+/// Selects the requested number of contenders from each part, and returns their indices in order. The jobs' tallies
+/// are used to explain errors.
 ///
 /// # Errors
-/// Returns an error if there are too few contenders, or if no selection was found that meets the quotas and, within
-/// one level per bin, the histogram.
+/// Returns an error if there are too few contenders, or if no selection meets the quotas and, within one level per
+/// bin, the histogram.
 pub(super) fn select(
     plan: &Plan<'_>,
     contenders: &[Contender],
@@ -251,13 +252,13 @@ pub(super) fn select(
 struct Fit {
     /// The indices of the contenders that may be selected together.
     fit: Vec<usize>,
-    /// The counts of the reasons why other contenders are excluded, by part.
+    /// The counts of reasons why other contenders are excluded, by part.
     dropped: BTreeMap<Part, BTreeMap<String, u64>>,
 }
 
 impl Fit {
-    /// Excludes contenders that are in a previous release or have a duplicate level. Also excludes contenders that
-    /// are near an earlier new contender or share two mechanics, the title or the cast with it.
+    /// Excludes contenders that occur in a previous release or contain a duplicate level. Also excludes contenders
+    /// near an earlier new contender, or sharing two mechanics, the title or the cast with it.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<Part, BTreeMap<String, u64>> = BTreeMap::new();
@@ -293,7 +294,7 @@ impl Fit {
     }
 }
 
-/// Returns the requirements of a selection with the achieved figures. Difficulties may deviate by one level, but
+/// Returns the requirements for a selection with the achieved figures. Difficulties may deviate by one level, but
 /// quotas are exact.
 pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -> Vec<Bin> {
     let counts = Counts::of(recipe, taken.iter().map(|&at| &contenders[at]));
@@ -334,7 +335,7 @@ struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    /// Makes the initial selection from the first contenders of an order.
+    /// Creates the initial selection from the first contenders in an order.
     fn of(
         recipe: &'a Recipe,
         contenders: &'a [Contender],
@@ -356,8 +357,8 @@ impl<'a> Choice<'a> {
         Choice { contenders, taken, left, counts }
     }
 
-    /// Makes the best swap until no swap helps. Each swap reduces the miss, so this terminates. Cost: quadratic in
-    /// the number of candidates, per swap.
+    /// Makes the best swap repeatedly, until no swap helps. Each swap reduces the miss, so the loop terminates. The
+    /// cost per swap is quadratic in the number of candidates.
     fn improve(&mut self) {
         loop {
             let now = self.counts.miss();
@@ -387,7 +388,7 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// The figures of a selection for every requirement.
+/// A selection's figures for every requirement.
 #[derive(Default)]
 struct Counts<'a> {
     histogram: Vec<(Difficulty, i64)>,

@@ -1,5 +1,4 @@
-//! Shards: slices of a release's jobs, which run on different machines or at different times and are merged
-//! afterwards.
+//! Shards: slices of a release's jobs that run on different machines or at different times and are merged afterwards.
 //!
 //! A shard is a folder that is either complete or absent, like a release:
 //!
@@ -34,17 +33,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// The file at the top of a shard that describes it.
+/// The file that describes a shard, at the shard's top level.
 pub const SHARD_FILE: &str = "SHARD.json";
 /// The version of the shard format.
 const SHARD_FORMAT: u32 = 1;
 
-/// A slice of the jobs: `2/4` is the second of four slices. Jobs are dealt in turn, so that all slices take about the
-/// same time.
+/// A slice of the jobs: `2/4` is the second of four slices. Jobs are dealt in turn, so that all slices take similar
+/// time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
-    /// The number of the shard, counted from 1.
+    /// The shard's number, counted from 1.
     number: u32,
     of: u32,
 }
@@ -83,7 +82,7 @@ struct ShardFile {
     jobs: Vec<Item>,
 }
 
-/// The fields that every version of `SHARD.json` has.
+/// The fields common to all versions of `SHARD.json`.
 #[derive(Deserialize)]
 struct Version {
     format: u32,
@@ -95,8 +94,8 @@ impl Shard {
         plan.jobs().iter().copied().skip(self.number as usize - 1).step_by(self.of as usize).collect()
     }
 
-    /// Returns the shard in a folder, of any generation, and the name of its recipe. Returns `None` unless the folder
-    /// holds exactly the files that its `SHARD.json` lists. The content of these files is not read.
+    /// Returns the shard in a folder, of any generation, and its recipe's name. Returns `None` unless the folder
+    /// contains exactly the files listed in its `SHARD.json`. Does not read the content of these files.
     pub fn at(folder: &Path) -> Option<(Shard, String)> {
         let bytes = folder::read(folder, SHARD_FILE, MANIFEST_LIMIT).ok()?;
         // Any generation is accepted. Shards of an earlier generation can no longer be merged here, but they are
@@ -111,8 +110,8 @@ impl Shard {
         is_whole.then_some((file.shard, file.recipe.name))
     }
 
-    /// Returns `true` if a folder holds this shard of this plan, with all its files. The content of these files is
-    /// not read.
+    /// Returns `true` if a folder contains this shard of the given plan, with all its files. Does not read the
+    /// content of these files.
     ///
     /// # Errors
     /// Returns an error if the plan has no digest.
@@ -129,7 +128,7 @@ impl Shard {
         Ok(is_mine && Shard::at(folder).is_some())
     }
 
-    /// Writes the shard's folder from a job store that holds all results of the shard.
+    /// Writes the shard's folder from a job store that contains all of the shard's results.
     ///
     /// # Errors
     /// Returns an error if a job's result is missing, or if a file system operation fails.
@@ -158,7 +157,7 @@ impl Shard {
     }
 }
 
-/// Returns the path of a job's file in a shard.
+/// Returns the path of a job's file within a shard.
 fn path(name: &str) -> String {
     format!("jobs/{name}.json")
 }
@@ -174,17 +173,17 @@ pub enum MergeError {
     /// `SHARD.json` is invalid.
     #[error("{}: {what}", .path.in_message())]
     Unsound {
-        /// The folder of the shard.
+        /// The shard's folder.
         path: PathBuf,
-        /// The fault of `SHARD.json`.
+        /// The problem with `SHARD.json`.
         what: String,
     },
     /// Two shards do not belong together.
     #[error("{} and {} cannot be merged: {what}", .one.in_message(), .two.in_message())]
     Apart {
-        /// The folder of the first shard.
+        /// The first shard's folder.
         one: PathBuf,
-        /// The folder of the second shard.
+        /// The second shard's folder.
         two: PathBuf,
         /// The property in which the shards differ.
         what: &'static str,
@@ -192,10 +191,10 @@ pub enum MergeError {
     /// Some shards of the release are missing.
     #[error("shards are missing: {0}")]
     Missing(String),
-    /// The jobs were not made from the recipe that the shards state.
+    /// The jobs were not run from the recipe stated in the shards.
     #[error("the shards were not made from the recipe that they state: mint the shards again")]
     OtherRecipe,
-    /// The release cannot be made from the jobs.
+    /// The release cannot be minted from the jobs.
     #[error(transparent)]
     Mint(MintError),
     /// A file system operation failed.
@@ -219,16 +218,16 @@ pub struct Shards {
     plan: Digest,
     /// Each shard with its folder and the paths of its job files.
     shards: Vec<(PathBuf, Shard, BTreeSet<String>)>,
-    /// The folder and the expected file of each job, by the path of the file.
+    /// The folder and the expected content of each job file, by path.
     jobs: BTreeMap<String, (PathBuf, Item)>,
 }
 
 impl Shards {
-    /// Opens the shards in some folders, in any order. Their content is not trusted.
+    /// Opens the shards in the given folders, in any order. The shards' content is not trusted.
     ///
     /// # Errors
-    /// Returns an error if a folder is not a shard, its version or recipe differs from that of the first shard, or a
-    /// shard is missing or duplicate.
+    /// Returns an error if a folder is not a shard, its version or recipe differs from the first shard's, or a shard
+    /// is missing or duplicate.
     pub fn open(folders: &[PathBuf]) -> Result<Shards, MergeError> {
         let mut read = Vec::new();
         for folder in folders {
@@ -271,12 +270,12 @@ impl Shards {
         Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, jobs })
     }
 
-    /// Runs the checks that are cheap compared with minting. Each shard must have exactly the jobs that the plan
+    /// Runs the checks that are cheap compared with minting. Each shard must contain exactly the jobs that the plan
     /// deals to it. Every game in the jobs must match its card, and its witnesses must replay to wins of its own
     /// levels.
     ///
-    /// Only minting again shows that the seed gives these games, and that the judges found these figures. Cost: a
-    /// replay of every witness, on all threads of the current rayon pool.
+    /// Only minting again can show that the seed produces these games, and that the judges measured these figures.
+    /// Costs a replay of every witness, on all threads of the current rayon pool.
     ///
     /// # Errors
     /// Returns an error if a shard or a job's result differs from its minted form, or if a file system operation
@@ -311,18 +310,18 @@ impl Shards {
         })
     }
 
-    /// Returns the recipe that all shards belong to.
+    /// Returns the recipe common to all shards.
     pub fn recipe(&self) -> &Recipe {
         &self.recipe
     }
 
-    /// Returns `true` if the shards hold the jobs of this plan.
+    /// Returns `true` if the shards contain the jobs of this plan.
     pub fn are_of(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         Ok(plan.digest()? == self.plan)
     }
 }
 
-/// Returns the first fault of a game in a result of a plan with this root seed.
+/// Returns the first problem with a game in the result of a plan with the given root seed.
 fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
     let FrozenGame { text, card, difficulties, levels, witnesses, paths, .. } = frozen;
     let id = card.id.escape_debug();

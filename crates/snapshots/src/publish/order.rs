@@ -1,4 +1,5 @@
-//! Minting into a folder: planned, run job by job, resumed after an interruption, and published in one step.
+//! Minting into a folder: plans the mint, runs its jobs, resumes after an interruption, and publishes the result in
+//! one step.
 
 use crate::contents::integrity::check_integrity;
 use crate::draft::Draft;
@@ -21,23 +22,23 @@ use std::path::{Path, PathBuf};
 /// The resources that a program provides for minting.
 #[derive(Clone, Copy, Debug)]
 pub struct Tools<'a> {
-    /// The hand-written games of the corpus.
+    /// The hand-written corpus games.
     pub corpus: &'a Corpus,
-    /// The digest of the `Cargo.lock` that the program was built with.
+    /// The digest of the `Cargo.lock` used to build the program.
     pub lockfile: Digest,
     /// The reference players that recipes can request.
     pub players: &'a dyn MarkPlayers,
 }
 
-/// A release, or a shard of one, to be minted into a folder.
+/// A release or shard to be minted into a folder.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// The recipe, including its parent and the value of its beacon.
+    /// The recipe, including its parent and its beacon's value.
     pub recipe: Recipe,
-    /// The secret of a sealed release.
+    /// A sealed release's secret.
     pub secret: Option<Secret>,
-    /// The output folder, which must be absent or empty. A sealed release becomes two folders in it, `public` and
-    /// `held`.
+    /// The output folder, which must be absent or empty. For a sealed release, it will contain two folders, `public`
+    /// and `held`.
     pub out: PathBuf,
     /// The shard; `None` for the whole release.
     pub shard: Option<Shard>,
@@ -45,14 +46,14 @@ pub struct Order {
     pub resume: bool,
 }
 
-/// An order whose recipe can be minted.
+/// An order with a mintable recipe.
 #[derive(Debug)]
 pub struct Prepared<'a> {
-    /// The plan of the whole release.
+    /// The whole release's plan.
     pub plan: Plan<'a>,
-    /// The jobs of the order.
+    /// The order's jobs.
     pub jobs: Vec<Job>,
-    /// `true` if the folder already holds the ordered result, which only a resuming order accepts.
+    /// `true` if the folder already contains the requested result. Only a resuming order accepts an existing result.
     pub is_complete: bool,
     order: &'a Order,
     tools: Tools<'a>,
@@ -61,7 +62,7 @@ pub struct Prepared<'a> {
 /// The result of a mint.
 #[derive(Clone, Debug)]
 pub enum Outcome {
-    /// The folder already held the complete result.
+    /// The folder already contained the complete result.
     Complete,
     /// A shard with the given number of jobs was written.
     Shard(usize),
@@ -70,10 +71,10 @@ pub enum Outcome {
 }
 
 impl Order {
-    /// Plans the mint. Nothing is written.
+    /// Plans the mint, without writing anything.
     ///
     /// # Errors
-    /// Returns an error if the recipe cannot be minted with this secret and these tools, or if a file system
+    /// Returns an error if the recipe cannot be minted with the given secret and tools, or if a file system
     /// operation fails.
     pub fn prepare<'a>(
         &'a self,
@@ -97,7 +98,7 @@ impl Order {
         self.prepare(tools, progress)?.mint(progress)
     }
 
-    /// Returns `true` if the folder holds the result of this plan, or of the ordered shard of the plan.
+    /// Returns `true` if the folder contains the result of this plan, or of the requested shard of the plan.
     fn is_complete(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         if let Some(shard) = self.shard {
             return shard.is_whole(plan, &self.out);
@@ -118,13 +119,13 @@ impl Order {
 
 impl Prepared<'_> {
     /// Runs the remaining jobs, and publishes the release or the shard. The folder is either complete or absent.
-    /// Until the folder is complete, the finished jobs lie beside it ([`Draft`]).
+    /// Until the folder is complete, the finished jobs are stored next to it ([`Draft`]).
     ///
     /// Cost: minutes for tens of games, on all threads of the current rayon pool.
     ///
     /// # Errors
-    /// Returns an error if the folder is occupied, the candidates do not meet the recipe, or a file system operation
-    /// fails.
+    /// Returns an error if the folder is occupied, the candidates do not meet the recipe's requirements, or a file
+    /// system operation fails.
     pub fn mint(&self, progress: &dyn Progress) -> Result<Outcome, MintError> {
         let Prepared { plan, jobs, order, tools, .. } = self;
         if self.is_complete {
@@ -155,10 +156,10 @@ impl Prepared<'_> {
 }
 
 impl Shards {
-    /// Merges the shards. The result is bit-identical to a release minted in one piece. `secret` is the secret of a
-    /// sealed release.
+    /// Merges the shards. The result is bit-identical to a release minted in one piece. `secret` is a sealed
+    /// release's secret.
     ///
-    /// Cost: that of [`Shards::check`], on all threads of the current rayon pool.
+    /// Costs as much as [`Shards::check`], on all threads of the current rayon pool.
     ///
     /// # Errors
     /// Returns an error if a shard differs from its minted form, the folder `out` is occupied, or a file system
@@ -177,11 +178,11 @@ impl Shards {
     }
 }
 
-/// Draws the secret for the commitment of a recipe ([`Recipe::to_commit`]). The recipe is planned first, because the
-/// commitment covers all of it.
+/// Draws the secret for a recipe's commitment ([`Recipe::to_commit`]). The recipe is planned first, because the
+/// commitment covers the whole recipe.
 ///
 /// # Errors
-/// Returns an error if the recipe cannot be minted with these tools.
+/// Returns an error if the recipe cannot be minted with the given tools.
 pub fn commit(
     recipe: &Recipe,
     random: [u8; 64],
@@ -200,7 +201,7 @@ pub fn commit(
     Ok(secret)
 }
 
-/// Makes the plan of a recipe, and checks that there are enough rules and players for it.
+/// Creates a recipe's plan, and checks that there are enough rules and players for it.
 fn plan<'a>(
     recipe: &'a Recipe,
     secret: Option<&Secret>,
@@ -214,7 +215,7 @@ fn plan<'a>(
     Ok(plan)
 }
 
-/// Lays out a release whose jobs are finished, and publishes the release. A sealed release becomes two folders.
+/// Lays out a release with finished jobs, and publishes it. A sealed release becomes two folders.
 fn publish(
     plan: &Plan<'_>,
     secret: Option<&Secret>,
@@ -234,8 +235,8 @@ fn publish(
 }
 
 impl Minted {
-    /// Completes a draft that holds the files of the release, by adding the manifest and the papers. `place` maps
-    /// their paths.
+    /// Completes a draft that contains the release files, by adding the manifest and the papers. `place` maps the
+    /// paths of the added files.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.

@@ -1,4 +1,4 @@
-//! Minting a release again from the recipe in its manifest, and comparing the result byte by byte.
+//! Mints a release again from the recipe in its manifest, and compares the result byte by byte.
 
 use crate::Digest;
 use crate::contents::integrity::check_integrity;
@@ -21,14 +21,14 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use validators::{Criteria, Criterion};
 
-/// A reason why a release cannot be minted again here.
+/// A reason why a release cannot be minted again on this machine.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegenerateError {
-    /// A different version of the generators made the release.
+    /// The release was minted by a different version of the generators.
     #[error("this release was minted by {}; this is arcade {CURRENT}: {}", .0, next_move(.0))]
     OtherVersion(MintedBy),
-    /// No version can have written the manifest.
+    /// The manifest cannot have been written by any version.
     #[error(
         "{MANIFEST_FILE} is damaged or was changed: {0}; fetch the release again, and run `arcade verify` on it"
     )]
@@ -44,7 +44,7 @@ pub enum RegenerateError {
     /// The recipe in the manifest is malformed.
     #[error("the manifest's recipe is not valid: {0}")]
     NotARecipe(serde_json::Error),
-    /// The recipe in the manifest has a value out of range.
+    /// The recipe in the manifest contains an out-of-range value.
     #[error("the manifest's recipe: {0}")]
     Recipe(#[from] RecipeError),
     /// The folder cannot be read.
@@ -52,7 +52,7 @@ pub enum RegenerateError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// Recommends the command that installs the version to regenerate with.
+/// Returns the command that installs the version required for regeneration.
 fn next_move(minted_by: &MintedBy) -> String {
     match minted_by.install_command() {
         Some(command) => {
@@ -74,15 +74,16 @@ pub struct Regenerated {
 /// A comparison of a release with a new release from the same recipe.
 #[derive(Clone, Debug)]
 pub struct Compared {
-    /// The differences, each naming the file; empty if every byte is the same.
+    /// The differences, each with the file name; empty if all bytes are equal.
     pub differences: Vec<String>,
-    /// `false` if the folder holds only a manifest, so that nothing else was compared.
+    /// `false` if the folder contains only a manifest, so that nothing else was compared.
     pub has_files: bool,
-    /// `true` if the release was minted with different dependencies (`Cargo.lock`), which alone is not a difference.
+    /// `true` if the release was minted with different dependencies (`Cargo.lock`). This alone does not count as a
+    /// difference.
     pub other_lockfile: bool,
 }
 
-/// A release to be minted again. Its jobs run like those of any other release ([`make_jobs`](crate::mint::make_jobs)).
+/// A release to be minted again. Its jobs run as for any other release ([`make_jobs`](crate::mint::make_jobs)).
 #[derive(Debug)]
 pub struct Regeneration {
     root: PathBuf,
@@ -134,8 +135,8 @@ impl Regeneration {
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
 
-    /// Returns the maximum number of forward-model calls that the recipe allows for one level, in searches for a win
-    /// and in its players' episodes.
+    /// Returns the maximum number of forward-model calls that the recipe allows per level, in win searches and in its
+    /// players' episodes.
     pub fn calls_per_level(&self) -> u64 {
         let of = |criteria: &Criteria| {
             let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
@@ -153,15 +154,15 @@ impl Regeneration {
         self.recipe.corpus.criteria.as_ref().map_or(0, of).max(of(&self.recipe.criteria))
     }
 
-    /// Makes the plan of the release's recipe.
+    /// Creates the plan of the release's recipe.
     ///
     /// # Errors
-    /// Returns an error if the recipe cannot be minted with this corpus.
+    /// Returns an error if the recipe cannot be minted with the given corpus.
     pub fn plan<'a>(&'a self, corpus: &'a Corpus) -> Result<Plan<'a>, MintError> {
         Plan::new(&self.recipe, self.secret.as_ref(), corpus)
     }
 
-    /// Lays the release out from a job store that holds all results, and compares every file. The digest of
+    /// Lays out the release from a job store that contains all results, and compares every file. The digest of
     /// `Cargo.lock` in the manifest is provenance and may differ. Every file except the manifest is also passed to
     /// `also`.
     ///
@@ -184,10 +185,10 @@ impl Regeneration {
     }
 
     /// Compares the release with the release in the folder `out`, if `out` is complete and this version minted it from
-    /// the same recipe. Returns the manifest in `out` and the comparison. This function mints nothing.
+    /// the same recipe. Returns the manifest in `out` and the comparison. Does not mint anything.
     ///
     /// # Errors
-    /// Returns an error if `out` holds a manifest that cannot be read, or if a file system operation fails.
+    /// Returns an error if `out` contains an unreadable manifest, or if a file system operation fails.
     pub fn compare_complete(&self, out: &Path) -> Result<Option<(Manifest, Compared)>, SnapshotError> {
         let found = match check_integrity(out) {
             Ok(found) => found,
@@ -214,12 +215,12 @@ impl Regeneration {
 /// A comparison of the files in a folder with the minted files.
 struct Comparison<'a> {
     root: &'a Path,
-    /// The files that have not yet been compared with a minted one.
+    /// The files not yet compared with a minted file.
     there: BTreeSet<String>,
-    /// The paths that already have their own problem.
+    /// The paths with an individually reported problem.
     named: BTreeSet<String>,
     differences: Vec<String>,
-    /// `false` if the folder holds only a manifest.
+    /// `false` if the folder contains only a manifest.
     has_files: bool,
 }
 

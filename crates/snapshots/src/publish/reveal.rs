@@ -1,4 +1,4 @@
-//! The reveal of a sealed release, which joins its two parts.
+//! The reveal of a sealed release, in which its two parts are joined.
 
 use crate::contents::disclose::{LIST_LIMIT, disclose, salt_flaw};
 use crate::contents::integrity::check_integrity;
@@ -26,13 +26,13 @@ pub enum RevealError {
     /// The release is open, or has no commitment.
     #[error("`{0}` is not sealed: there is nothing to reveal")]
     Open(String),
-    /// No coin has chosen between wins.
+    /// The release has no wins chosen by coins.
     #[error(
         "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are \
          revealed with everything else, without --solutions"
     )]
     NoSecondWins(String),
-    /// The two parts differ from the content that the manifest commits to.
+    /// The two parts differ from the content to which the manifest commits.
     #[error("the two parts do not match the commitments of the manifest: {}", .0.join("; "))]
     Problems(Vec<String>),
     /// A part cannot be read, or the result cannot be written.
@@ -42,13 +42,13 @@ pub enum RevealError {
 
 /// Merges the two parts of a sealed release, `public` and `held`, and the papers into a draft, and returns the
 /// manifest of the public part. The files must be exactly the files under the root of that manifest. The secret must
-/// be the committed one, and the witnesses must have been played under it.
+/// match the commitment, and the witnesses must have been played under that secret.
 ///
 /// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
 /// # Errors
-/// Returns an error if a file is missing, changed or unlisted, if the seed or the nonce is not the committed one, or
-/// if a file system operation fails.
+/// Returns an error if a file is missing, changed or unlisted, if the seed or the nonce does not match the
+/// commitment, or if a file system operation fails.
 pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result<Manifest, RevealError> {
     let integrity = check_integrity(public)?;
     let mut manifest = integrity.manifest;

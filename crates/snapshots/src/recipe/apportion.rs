@@ -1,8 +1,7 @@
-//! Apportionment of a whole number in proportion to weights.
+//! Apportions an integer in proportion to weights.
 
 /// Divides a number in proportion to weights (Hamilton's method). Each weight gets its quota rounded down, and the
-/// rest goes to the largest remainders. Among equal remainders, the earlier weights come first. If all weights are
-/// 0, all results are 0.
+/// rest goes to the largest remainders. Ties go to the earlier weights. If all weights are 0, all results are 0.
 pub(crate) fn apportion(number: u32, weights: &[f64]) -> Vec<u32> {
     let total: f64 = weights.iter().sum();
     if total <= 0.0 {

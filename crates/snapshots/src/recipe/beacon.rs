@@ -5,7 +5,7 @@ use base::{Digest, Seed};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// The key of the beacon's table in a recipe.
+/// The key of the beacon table in a recipe.
 pub(crate) const BEACON: &str = "beacon";
 
 /// A round of a public source of randomness. The recipe states the round before anybody knows its value.
@@ -22,7 +22,7 @@ pub struct BeaconPart {
 }
 
 impl BeaconPart {
-    /// Mixes the value into the seed of a secret; `None` if the value is not known yet.
+    /// Mixes the value into the seed of a secret; `None` if the value is not yet known.
     pub(crate) fn mix(&self, seed: Seed) -> Option<Seed> {
         let value = self.value?;
         Some(seed.child(&format!("beacon {} {value}", self.source), self.round))
@@ -34,7 +34,7 @@ impl BeaconPart {
         recipe.get(BEACON).and_then(|part| serde_json::from_value(part.clone()).ok())
     }
 
-    /// Checks the beacon of a hand-written recipe. The release must be sealed, and the value must still be
+    /// Checks the beacon in a hand-written recipe. The release must be sealed, and the value must still be
     /// unknown.
     pub(crate) fn check(&self, is_sealed: bool) -> Result<(), RecipeError> {
         if !is_sealed {
@@ -56,7 +56,7 @@ impl BeaconPart {
         }
     }
 
-    /// Sets the value of a round.
+    /// Sets the round's value.
     ///
     /// # Errors
     /// Returns an error if the value belongs to a different source or round.
@@ -95,7 +95,7 @@ mod tests {
         check(&format!("{sealed}{BEACON_TABLE}value = '{}'", Digest::of(b"")), "remove the value");
     }
 
-    /// The commitment covers the round but not its value, and the seed depends on both round and value.
+    /// The commitment covers the round but not its value, and the seed depends on both the round and its value.
     #[test]
     fn the_seed_depends_on_the_value_and_the_commitment_does_not() {
         let recipe = Recipe::to_commit(&format!("{GOOD}{BEACON_TABLE}")).unwrap();

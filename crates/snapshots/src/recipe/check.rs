@@ -1,4 +1,4 @@
-//! Parsing of recipes, and checks of their values.
+//! Parses recipes and checks their values.
 
 use crate::recipe::Recipe;
 use crate::recipe::error::{MAX_RECIPE, RecipeError, wrong};
@@ -24,8 +24,8 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// Parses and checks a recipe that is to be minted. If the recipe has neither a seed nor a commitment and a
-    /// secret is given, the error states the commitment that the recipe needs.
+    /// Parses and checks a recipe for minting. If the recipe has neither a seed nor a commitment and a secret
+    /// is given, the error states the commitment that the recipe needs.
     ///
     /// # Errors
     /// Returns the first problem, with its position or key.
@@ -55,7 +55,7 @@ impl Recipe {
         })
     }
 
-    /// Parses and checks a recipe that is to be committed to. Its `seed` and `commitment` are dropped.
+    /// Parses and checks a recipe for a commitment. Its `seed` and `commitment` are dropped.
     ///
     /// # Errors
     /// Returns the first problem, with its position or key.

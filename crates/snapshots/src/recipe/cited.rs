@@ -1,4 +1,4 @@
-//! The title and the authors of a release, for citations.
+//! The title and authors of a release, for citations.
 
 /// The names for citing a release.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ impl<'a> Cited<'a> {
         Cited { name, authors, publisher }
     }
 
-    /// Returns the title of the release.
+    /// Returns the release's title.
     pub(crate) fn title(&self) -> String {
         match (self.publisher, self.authors) {
             (Some(publisher), _) => format!("{publisher} {}", self.name),
@@ -23,7 +23,8 @@ impl<'a> Cited<'a> {
         }
     }
 
-    /// Returns the authors: people, or else the publisher, or else the authors of the programs.
+    /// Returns the authors: the people if any, otherwise the publisher, otherwise the programs'
+    /// authors.
     pub(crate) fn authors(&self) -> Vec<&str> {
         match (self.authors, self.publisher) {
             ([], Some(publisher)) => vec![publisher],
@@ -32,7 +33,8 @@ impl<'a> Cited<'a> {
         }
     }
 
-    /// Returns a sentence about the publisher and the authors; `None` if the recipe states neither.
+    /// Returns a sentence about the publisher and the authors; `None` if the recipe does not state
+    /// either.
     pub(crate) fn sentence(&self) -> Option<String> {
         match (self.publisher, self.authors) {
             (None, []) => None,

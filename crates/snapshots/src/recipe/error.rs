@@ -9,15 +9,16 @@ pub const MAX_RECIPE: usize = 1 << 16;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecipeError {
-    /// The recipe is not TOML, or not of this shape. The message gives the line, column and key.
+    /// The recipe is not TOML, or does not have the expected structure. The message contains the
+    /// line, column and key.
     #[error("{0}")]
     Syntax(Box<toml::de::Error>),
-    /// A key belongs to a different table, or to no table at all.
+    /// A key belongs to a different table, or to none.
     #[error("{}\n{help}", .source.to_string().trim_end())]
     Misplaced {
         /// The error, with its position.
         source: Box<toml::de::Error>,
-        /// The table that the key belongs to.
+        /// The table to which the key belongs.
         help: String,
     },
     /// A value is out of range.
@@ -25,21 +26,21 @@ pub enum RecipeError {
     Value {
         /// The key, in dotted form.
         key: &'static str,
-        /// The requirement that the value does not meet.
+        /// The unmet requirement.
         message: String,
     },
-    /// A criterion is out of range.
+    /// A criterion's value is out of range.
     #[error("`{table}.{}` {}", .problem.key, .problem.message)]
     Criteria {
-        /// The table of the criterion.
+        /// The criterion's table.
         table: &'static str,
         /// The problem with the criterion.
         problem: CriteriaError,
     },
-    /// The release is sealed, and its secret was not given.
+    /// The release is sealed, and its secret was not provided.
     #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
     Sealed,
-    /// The secret is not the committed one.
+    /// The secret does not match the commitment.
     #[error(
         "the secret does not match the recipe's `commitment`: pass the file that `--commit` wrote with \
          the commitment"
@@ -51,18 +52,18 @@ pub enum RecipeError {
          {0}, or commit again with `arcade release RECIPE --commit`"
     )]
     OtherRecipe(&'static str),
-    /// The recipe states a beacon whose value was not given.
+    /// The recipe states a beacon whose value was not provided.
     #[error(
         "the recipe specifies round {round} of {source_name}: pass its value with --beacon FILE, once it is \
          published"
     )]
     NoBeacon {
-        /// The source of the beacon.
+        /// The beacon's source.
         source_name: String,
-        /// The round of the beacon.
+        /// The beacon's round.
         round: u64,
     },
-    /// A secret was given for an open release.
+    /// A secret was provided for an open release.
     #[error(
         "the release is open: its recipe has a `seed`, so omit --secret; to seal it, replace `seed` with the \
          secret's `commitment`"

@@ -1,4 +1,4 @@
-//! The record of earlier content in a recipe. A release may not repeat that content.
+//! A recipe's record of earlier content, which the release must not repeat.
 
 use crate::recipe::error::RecipeError;
 use base::Digest;
@@ -29,7 +29,7 @@ impl Known {
     /// Computes the forms of the games. Cost: about a millisecond per game.
     ///
     /// # Errors
-    /// Returns an error if a text is not a game.
+    /// Returns an error if an entry is not a game.
     pub(crate) fn forms(&self) -> Result<Vec<GameForm>, RecipeError> {
         let form = |(at, text): (usize, &String)| {
             let wrong = |_| RecipeError::Value {
@@ -53,8 +53,8 @@ impl Known {
     }
 }
 
-/// Returns the canonical item (rules and level) for a level of a game. Items are equal if they differ only in names,
-/// in the order of rules or by a symmetry of the board.
+/// Returns the canonical item (rules and level) for a game's level. Canonical items are equal for levels that differ
+/// only in names, rule order or a board symmetry.
 pub(crate) fn item(form: &GameForm, likeness: &LevelSimilarity, level: &engine::Level) -> Digest {
     Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }

@@ -103,17 +103,17 @@ pub struct Recipe {
 
 impl Recipe {
     /// Returns the digest that a commitment covers. The digest excludes `seed`, `commitment`, `known` and the value
-    /// of the beacon. `known` follows from `parent`, and nobody knows the beacon's value yet.
+    /// of the beacon. `known` follows from `parent`, and the beacon's value is not yet known.
     pub fn committed(&self) -> Digest {
         let recipe = serde_json::to_value(self).expect("a recipe is plain data");
         secret::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
     }
 
-    /// Returns the seed from which everything in the release is derived. `secret` is the secret of a sealed release.
+    /// Returns the seed from which everything in the release is derived. `secret` is a sealed release's secret.
     ///
     /// # Errors
-    /// Returns an error if the release is sealed and the secret is missing, differs from the committed one, or was
-    /// drawn for a different recipe. Also returns an error if the release is open and a secret was given.
+    /// Returns an error if the release is sealed and the secret is missing, does not match the commitment, or was
+    /// drawn for a different recipe. Also returns an error if the release is open and a secret was provided.
     pub fn root_seed(&self, secret: Option<&Secret>) -> Result<Seed, RecipeError> {
         let Some(secret) = secret else {
             return self.seed.as_deref().map(Seed::from_text).ok_or(RecipeError::Sealed);
@@ -132,7 +132,7 @@ impl Recipe {
         }
     }
 
-    /// Returns advice for a recipe that `secret` was not drawn for, most likely because of its parent.
+    /// Returns advice for a mismatch between `secret` and the recipe, most likely caused by the recipe's parent.
     fn mismatch_advice(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
@@ -146,8 +146,8 @@ impl Recipe {
         }
     }
 
-    /// Returns, as sentences, the guarantees that a release of this recipe lacks. The result is empty if the recipe
-    /// follows an earlier release and requests gates and `skill`.
+    /// Returns, as sentences, the guarantees that a release from this recipe lacks; empty if the recipe follows an
+    /// earlier release and requests gates and `skill`.
     pub fn caveats(&self) -> Vec<&'static str> {
         let mut caveats = Vec::new();
         if self.parent.is_none() && self.new_games() > 0 {
@@ -224,7 +224,7 @@ impl Recipe {
         }
     }
 
-    /// Returns the sections of puzzles.
+    /// Returns the puzzle sections.
     fn puzzle_parts(&self) -> impl Iterator<Item = &PuzzlePart> {
         PuzzleKind::ALL.into_iter().filter_map(|kind| self.puzzles_of(kind))
     }

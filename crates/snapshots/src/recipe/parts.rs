@@ -1,4 +1,4 @@
-//! The parts of a recipe that determine which games are made: corpus games, generated games, and their kinds.
+//! The recipe parts that determine which games are generated: corpus games, generated games, and their kinds.
 
 use generators::games::Kind;
 use serde::{Deserialize, Serialize};
@@ -75,17 +75,17 @@ base::with_defaults! {
     }
 }
 
-/// The weights of the methods of making games.
+/// The weights of the generation methods.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mix {
-    /// The weight of games that are drawn at random.
+    /// The weight of randomly drawn games.
     #[serde(default)]
     pub constructive: f64,
-    /// The weight of games that are found by search.
+    /// The weight of games found by search.
     #[serde(default)]
     pub search: f64,
-    /// The weight of games that evolve in archives.
+    /// The weight of games evolved in archives.
     #[serde(default)]
     pub evolutionary: f64,
 }

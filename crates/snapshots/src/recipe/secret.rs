@@ -15,19 +15,19 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
-/// The secret of a sealed release: the source of its seed, to which the recipe commits.
+/// A sealed release's secret: the source of its seed, to which the recipe commits.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Secret {
-    /// The name of the release that the secret was drawn for.
+    /// The name of the release for which the secret was drawn.
     pub name: String,
     /// The text from which the seed is derived: 64 hexadecimal digits.
     pub seed: String,
     /// The nonce, which prevents the seed from being guessed: 64 hexadecimal digits.
     pub nonce: Digest,
-    /// The digest of the recipe that the secret was drawn for ([`Recipe::committed`](crate::Recipe::committed));
-    /// `None` in secrets of generations before [`COMMITS_TO_RECIPE_SINCE`], whose commitments cover only the seed and
-    /// the nonce.
+    /// The digest of the recipe for which the secret was drawn ([`Recipe::committed`](crate::Recipe::committed));
+    /// `None` in secrets from generations before [`COMMITS_TO_RECIPE_SINCE`], whose commitments cover only the seed
+    /// and the nonce.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recipe: Option<Digest>,
 }
@@ -35,19 +35,18 @@ pub struct Secret {
 /// The first generation whose commitments cover the recipe, and whose seeds also depend on the nonce.
 pub const COMMITS_TO_RECIPE_SINCE: u32 = 12;
 
-/// The key derivation contexts. Changing one of them changes every secret or every commitment.
+/// The key derivation contexts. Changing a context changes every secret or every commitment.
 const SEED_CONTEXT: &str = "infinite-arcade 2 seed of a secret";
 const NONCE_CONTEXT: &str = "infinite-arcade 2 nonce of a secret";
 const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
 const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
 
 /// The minimum number of different bytes, and of different byte-to-byte steps, in 32 random bytes. All but one in a
-/// billion drawn secrets exceed this minimum, while a sequence with a period of at most 16 bytes falls below it.
+/// billion drawn secrets reach this minimum, while a sequence with a period of at most 16 bytes does not.
 const DISTINCT: usize = 17;
 
 impl Secret {
-    /// Makes a secret for a recipe from 64 random bytes. One half of the bytes is for the seed, and the other half is
-    /// for the nonce.
+    /// Creates a recipe's secret from 64 random bytes. Half of the bytes form the seed, and half form the nonce.
     pub fn draw(name: &str, recipe: Digest, chance: [u8; 64]) -> Secret {
         let (seed, nonce) = chance.split_at(32);
         // The bytes are hashed, so that even poor randomness gives the full length.
@@ -61,7 +60,7 @@ impl Secret {
     }
 
     /// Computes the digest over the seed, the nonce and the recipe, in its own domain. For a secret without a recipe,
-    /// it is BLAKE3(seed ‖ nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
+    /// the digest is BLAKE3(seed ‖ nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
     pub fn commitment(&self) -> Digest {
         let Some(recipe) = self.recipe else {
             return Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat());
@@ -74,8 +73,8 @@ impl Secret {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Derives the salt for the list of a withheld part. The salt reveals nothing about the secret or about the other
-    /// part's salt.
+    /// Derives the salt for a withheld part's list. The salt reveals nothing about the secret or the other part's
+    /// salt.
     pub(crate) fn salt(&self, part: HeldPart) -> Digest {
         let mut hasher = blake3::Hasher::new_derive_key(SALT_CONTEXT);
         for part in [self.seed.as_bytes(), self.nonce.as_bytes(), part.list().as_bytes()] {
@@ -86,13 +85,13 @@ impl Secret {
     }
 
     /// Returns the seed from which everything in the release is derived. The seed is a child of the secret's seed
-    /// text and depends on the nonce, so that guessing only the text or only the nonce is useless.
+    /// text and depends on the nonce, so that guessing only one of the two is useless.
     pub fn root_seed(&self) -> Seed {
         Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
     }
 
-    /// Returns the seed of a release with this recipe, with the value of the recipe's beacon mixed in if there is a
-    /// beacon; `None` if the beacon has no value.
+    /// Returns the seed of a release with the given recipe, mixed with the value of the recipe's beacon if there is
+    /// one; `None` if the beacon has no value.
     pub(crate) fn seed_for(&self, recipe: &Value) -> Option<Seed> {
         match recipe.get(BEACON) {
             None => Some(self.root_seed()),
@@ -100,10 +99,10 @@ impl Secret {
         }
     }
 
-    /// Checks that the seed and the nonce look random instead of made up.
+    /// Checks that the seed and the nonce look random rather than made up.
     ///
     /// # Errors
-    /// Returns the first fault as a sentence.
+    /// Returns the first problem as a sentence.
     pub fn check(&self) -> Result<(), String> {
         let Ok(seed) = self.seed.parse::<Digest>() else {
             return Err("the `seed` is not 64 lower-case hexadecimal digits".to_owned());
@@ -126,8 +125,8 @@ impl Secret {
         Ok(())
     }
 
-    /// Returns a sentence about the fault of the secret of a release with this manifest; `None` if the secret is the
-    /// committed one.
+    /// Returns a sentence about the problem with the secret of a release with the given manifest; `None` if the
+    /// secret matches the commitment.
     ///
     /// # Errors
     /// Returns an error if the manifest's recipe has no canonical JSON.
@@ -147,17 +146,16 @@ impl Secret {
         Ok(self.check().err())
     }
 
-    /// Returns `true` if the witness's seed is derived from this secret and the recipe's beacon along the path that
-    /// the witness states. A secret of an earlier generation always passes the check.
+    /// Returns `true` if the witness's seed is derived from this secret and the recipe's beacon along the path stated
+    /// in the witness. A secret from an earlier generation always passes the check.
     pub(crate) fn leads_to(&self, witness: &Witness, recipe: &Value) -> bool {
         let seed = self.seed_for(recipe).map(|seed| SeedPath::new(seed, witness.path.clone()).seed());
         self.recipe.is_none() || seed == Some(witness.episode.seed)
     }
 }
 
-/// Returns the digest of the part of a recipe that a commitment covers: everything except the field that the
-/// commitment replaces (`seed`), the commitment itself, the data that follows from the parent (`known`), and the
-/// value of the beacon.
+/// Returns the digest of the recipe without the parts that a commitment does not cover: `seed` (which the commitment
+/// replaces), the commitment itself, `known` (which follows from the parent), and the beacon's value.
 ///
 /// # Errors
 /// Returns an error if the recipe has no canonical JSON.
@@ -173,10 +171,11 @@ pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
 /// The maximum size of a secret file, in bytes.
 const SECRET_LIMIT: u64 = 4096;
 
-/// Reads a secret that `--commit` wrote.
+/// Reads a secret written by `--commit`.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read, holds no secret, or holds a secret that was made up instead of drawn.
+/// Returns an error if the file cannot be read, does not contain a secret, or contains a secret that was made up
+/// rather than drawn.
 pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
     let bytes = match disk::read_start(file, SECRET_LIMIT + 1) {
         Err(source) if source.kind() == io::ErrorKind::InvalidInput => {
@@ -209,7 +208,7 @@ fn parse(bytes: &[u8], file: &Path) -> Result<Secret, SnapshotError> {
     serde_json::from_slice(bytes).map_err(|source| SnapshotError::NotASecret { path, source })
 }
 
-/// The fault of a witness that was not played under the release's secret.
+/// The problem of a witness that was not played under the release's secret.
 pub(crate) const UNRELATED_WITNESS: &str = "the seed is not derived from the release's secret";
 
 #[cfg(test)]
@@ -273,7 +272,7 @@ mod tests {
         assert_eq!(Secret { name: "x".to_owned(), ..secret.clone() }.commitment(), secret.commitment());
     }
 
-    /// Guessing the text of the seed is useless without the nonce.
+    /// Guessing the seed's text is useless without the nonce.
     #[test]
     fn games_come_from_the_nonce_too() {
         let secret = drawn();
@@ -299,7 +298,7 @@ mod tests {
         assert_ne!(digest(&|recipe| recipe["corpus"]["known"] = json!(2)), same);
     }
 
-    /// The seed of a witness follows from its path, under one secret only.
+    /// A witness's seed follows from its path, under one secret only.
     #[test]
     fn witnesses_belong_to_one_secret() {
         let secret = drawn();

@@ -1,4 +1,4 @@
-//! The result of a job, as data that can be stored and transferred.
+//! A job's result, as data that can be stored and transferred.
 
 use super::marks::Wins;
 use super::memory::{SecondWin, Sibling};
@@ -9,49 +9,48 @@ use forge::card::Card;
 use serde::{Deserialize, Serialize};
 use validators::Difficulty;
 
-/// The result of a job: its games, or no games if no candidate passed.
+/// A job's result: its games, or no games if no candidate passed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JobResult {
-    /// The games that passed.
+    /// The passing games.
     pub games: Vec<FrozenGame>,
-    /// The number of candidates tried, and the reasons for rejections.
+    /// The number of candidates tried, and the rejections by reason.
     pub tally: Tally,
 }
 
-/// The texts of a game, without the canary of a release.
+/// A game's texts, without a release's canary.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrozenGame {
     /// The rules, headed by the title.
     pub text: String,
-    /// The card of the game. Its ladders come from episodes that were used neither by the judges nor by the
-    /// selection.
+    /// The game's card. Its ladders come from episodes that were not used by the judges or by the selection.
     pub card: Card,
-    /// The difficulty that the judges measured for each level, which the selection uses; empty if no ladder was
+    /// The difficulty measured by the judges for each level, for use in selection; empty if no ladder was
     /// played.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub difficulties: Vec<Difficulty>,
-    /// The texts of the levels.
+    /// The level texts.
     pub levels: Vec<String>,
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,
-    /// For each episode, the steps from the release's root seed to its seed.
+    /// For each episode, the steps from the release's root seed to the episode's seed.
     pub paths: Vec<Vec<SeedStep>>,
-    /// The wins of the reference players on each level; empty if the recipe requests none.
+    /// The reference players' wins on each level; empty if the recipe does not request reference players.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<Wins>,
-    /// The sibling that a coin withholds, if the recipe requests one and one exists.
+    /// The sibling withheld by a coin, if the recipe requests siblings and the game has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<Sibling>,
-    /// The win of each level that a coin withholds; `None` for a level without such a win. The list is empty if
-    /// the recipe requests no second wins.
+    /// For each level, the win withheld by a coin; `None` for a level without such a win. The list is empty if
+    /// the recipe does not request second wins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub seconds: Vec<Option<SecondWin>>,
 }
 
 impl FrozenGame {
-    /// Returns the titles and rules under which the game is known: the game's own, and those of its sibling.
+    /// Returns the titles and rules under which the game is known: its own and its sibling's.
     pub(crate) fn guises(&self) -> impl Iterator<Item = (&str, &str)> {
         let sibling = self.sibling.iter().map(|sibling| (&*sibling.title, &*sibling.text));
         std::iter::once((&*self.card.title, &*self.text)).chain(sibling)

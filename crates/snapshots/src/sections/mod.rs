@@ -1,4 +1,5 @@
-//! Sections of a recipe that add something to its games. Each section is a module here and an entry in [`SECTIONS`].
+//! Recipe sections that add to a recipe's games. Each section is a module in this folder and an entry in
+//! [`SECTIONS`].
 
 pub(crate) mod frozen;
 pub mod marks;
@@ -11,7 +12,7 @@ use crate::format::manifest::Manifest;
 use puzzles::PuzzleKind;
 use section::Section;
 
-/// The sections, in the order in which they act on a game. Reference players come last, so that they play the
+/// The sections, in the order in which they process a game. Reference players come last, so that they play under the
 /// published names.
 pub(crate) const SECTIONS: [&dyn Section; 7] = [
     &tiers::TiersSection,
@@ -23,7 +24,7 @@ pub(crate) const SECTIONS: [&dyn Section; 7] = [
     &marks::MarksSection,
 ];
 
-/// Returns the paths of the release-wide files that sections have added.
+/// Returns the paths of the release-wide files added by sections.
 pub(crate) fn summary_paths(manifest: &Manifest) -> Vec<String> {
     SECTIONS.iter().filter_map(|section| section.summary_path(manifest)).collect()
 }

@@ -1,8 +1,8 @@
-//! The mirrored twin: the board reflected left to right, together with every direction in the rules.
+//! The mirrored twin: the board and every direction in the rules, reflected left to right.
 //!
 //! A game without a mirror image is rejected with a reason. Possible reasons are sprites whose class prefers a side,
-//! sprites whose width is not one cell, and a dependence on the order in which the sprites of a row are processed.
-//! This dependence is detected by playing both worlds side by side, in games without randomness.
+//! sprites whose width is not one cell, and dependence on the order in which a row's sprites are processed. In games
+//! without randomness, this dependence is detected by playing both worlds side by side.
 
 use super::{Made, Original, Twin, TwinError, TwinGame, replayed};
 use agents::{PortfolioConfig, Solution, solve};
@@ -18,12 +18,12 @@ use std::collections::{BTreeMap, BTreeSet};
 const TICKS: usize = 150;
 /// The number of random episodes on each level.
 const PLAYS: u64 = 2;
-/// The number of seeds with which the mirrored actions of a witness are tried in a stochastic game.
+/// The number of seeds with which a witness's mirrored actions are tried in a stochastic game.
 const CHANCES: u64 = 16;
 /// The budget in forward-model calls for finding a new witness in a stochastic game.
 const CALLS: u64 = 50_000;
 
-/// The words that are swapped in the names of types that face a side.
+/// The words to swap in the names of types that face a side.
 const SIDES: [(&str, &str); 2] = [("left", "right"), ("west", "east")];
 
 pub(super) fn twin(original: &Original<'_>) -> Result<TwinGame, TwinError> {
@@ -128,8 +128,8 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the renamings of types that face a side and are named after it. For example, `westvane` and `eastvane`
-/// swap.
+/// Returns the renamings of types that face a side and are named after that side. For example, `westvane` and
+/// `eastvane` are swapped.
 fn swapped_names(game: &Game) -> BTreeMap<String, String> {
     let names: BTreeSet<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
     let swap = |stype: SpriteType| {
@@ -220,7 +220,7 @@ fn sprites(lines: &mut [SpriteLine]) {
     }
 }
 
-/// Returns the types that do not face the mirrored direction. Both games have their types in the same order.
+/// Returns the types that do not face the mirrored direction. Both games declare their types in the same order.
 fn misdirected(game: &Game, rules: &Description) -> Result<Vec<SpriteType>, String> {
     let twin = Game::compile(rules).map_err(|problems| format!("the game does not compile: {problems}"))?;
     let wrong = |stype: &SpriteType| {
@@ -255,7 +255,7 @@ struct Worlds<'a> {
 }
 
 impl Worlds<'_> {
-    /// Plays actions in one world and their mirror images in the other, and compares the observations.
+    /// Plays actions in one world and their mirror images in the other world, and compares the observations.
     ///
     /// # Errors
     /// Returns the first tick, from 0, after which the two worlds differ.
@@ -286,8 +286,8 @@ impl Worlds<'_> {
     }
 }
 
-/// Searches for an episode that wins the level of a stochastic game. The original's actions are tried with different
-/// seeds first, and then a search with a small budget.
+/// Searches for a winning episode on a stochastic game's level. Tries the original's actions with different seeds
+/// first, and then a search with a small budget.
 fn another(analysis: &Analysis, level: &Level, known: &Episode, seed: Seed) -> Option<Episode> {
     let game = analysis.game();
     for chance in 0..CHANCES {
@@ -308,7 +308,7 @@ mod tests {
     use super::super::of_game;
     use super::*;
 
-    /// Mirrors a game of these sprites and rules, with one level.
+    /// Mirrors a one-level game with the given sprites and rules.
     fn mirror(sprites: &str, rules: &str, level: &str) -> Result<TwinGame, TwinError> {
         let source = format!(
             "BasicGame\n  SpriteSet\n    gate > Door\n{sprites}  LevelMapping\n    g > gate\n    b > boat\n    \
@@ -402,7 +402,7 @@ mod tests {
         );
     }
 
-    /// Only one raft can exist. The first boat in the row spawns the raft, and the mirror image has the other boat
+    /// Only one raft can exist. The first boat in the row spawns it, and in the mirror image the other boat comes
     /// first.
     #[test]
     fn games_that_depend_on_the_order_in_a_row_are_refused() {

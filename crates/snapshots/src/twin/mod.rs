@@ -1,5 +1,5 @@
-//! Twins of games, which have the same mechanics under a different theme. Twins help test whether a model remembers
-//! or understands ([the properties of each kind](../../../../docs/how-to/twins.md)).
+//! Twins: games with the same mechanics under a different theme. Twins help to test whether a model remembers or
+//! understands ([the properties of each kind](../../../../docs/how-to/twins.md)).
 
 mod mirrored;
 mod released;
@@ -16,15 +16,15 @@ use std::fmt;
 use std::str::FromStr;
 
 base::named_enum! {
-    /// The kind of a twin, which determines how the surface changes.
+    /// The kind of twin, which determines how the game's surface changes.
     pub enum Twin {
         /// Names and level characters no longer carry meaning.
         Masked = "masked",
-        /// The board is reflected left to right, together with every direction in the rules.
+        /// The board and every direction in the rules are reflected left to right.
         Mirrored = "mirrored",
         /// The game has a different theme.
         Renamed = "renamed",
-        /// The renaming that a coin withheld until the reveal ([`crate::sections::memory`]).
+        /// The renaming withheld by a coin until the reveal ([`crate::sections::memory`]).
         Sibling = "sibling",
     }
 }
@@ -44,21 +44,21 @@ impl FromStr for Twin {
     }
 }
 
-/// A game under a different surface.
+/// A game with a different surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TwinGame {
     /// The rules, headed by the title and the canary.
     pub text: String,
-    /// The levels, in the order of the original.
+    /// The levels, in the original's order.
     pub levels: Vec<String>,
-    /// A winning episode for each level; `None` if the original has none, or if its actions do not win here and no
-    /// other win was found.
+    /// A winning episode for each level; `None` if the original has no win, or if its actions do not win in the twin
+    /// and no other win was found.
     pub witnesses: Vec<Option<Episode>>,
-    /// The title of the twin.
+    /// The twin's title.
     pub title: String,
-    /// A description of the player and more, as far as the surface reveals it.
+    /// A description of the player and the rest of the game, as far as the surface reveals it.
     pub description: String,
-    /// The goal, in one sentence.
+    /// The goal, as one sentence.
     pub goal: String,
 }
 
@@ -72,15 +72,15 @@ pub enum TwinError {
     /// A level does not belong to the game.
     #[error("lvl{number}.txt is not a level of this game: {problems}")]
     Level {
-        /// The number of the level, from 0.
+        /// The level's number, from 0.
         number: usize,
-        /// The diagnostics of the level.
+        /// The level's diagnostics.
         problems: Diagnostics,
     },
     /// The rules cannot be mirrored faithfully.
     #[error("the game cannot be mirrored: {0}")]
     Unmirrorable(String),
-    /// No coin withheld a sibling, or the sibling was not revealed.
+    /// The game has no withheld sibling, or the sibling was not revealed.
     #[error("the game has no sibling, or the sibling was not revealed")]
     NoSibling,
     /// The game has no second theme.
@@ -88,10 +88,10 @@ pub enum TwinError {
     NoTheme(#[from] GenerateError),
 }
 
-/// Makes the twin of a game, with the same mechanics, level by level. `witnesses` are episodes that win the levels,
-/// in the order of the levels, and may be fewer than the levels. The same arguments give the same twin.
+/// Creates a game's twin, with the same mechanics, level by level. `witnesses` are the levels' winning episodes in
+/// level order, and may be fewer than the levels. The same arguments produce the same twin.
 ///
-/// Cost: well under a second, unless a witness must be searched for.
+/// Cost: well under a second, unless a witness search is needed.
 ///
 /// # Errors
 /// Returns an error if the rules or the levels do not load, or if the game has no twin of this kind.
@@ -105,7 +105,7 @@ pub fn of_game(
     of_levels(kind, source, levels, known)
 }
 
-/// Makes a twin like [`of_game`], except that any level may lack a witness.
+/// Creates a twin as [`of_game`] does, except that any level may lack a witness.
 fn of_levels(
     kind: Twin,
     source: &str,
@@ -121,8 +121,8 @@ fn of_levels(
     }
 }
 
-/// Makes a renamed twin from the caller's seed, instead of a publicly known one. Also returns the name of the twin's
-/// scene.
+/// Creates a renamed twin from the caller's seed instead of a publicly known seed. Also returns the name of the
+/// twin's scene.
 pub(crate) fn renamed(
     source: &str,
     levels: &[String],
@@ -133,10 +133,10 @@ pub(crate) fn renamed(
     Original::load(source, levels, known)?.renamed(seed)
 }
 
-/// The original of a twin.
+/// A twin's original.
 struct Original<'a> {
     game: Game,
-    /// The canonical texts of the levels.
+    /// The canonical level texts.
     levels: Vec<String>,
     /// The witnesses, with one entry per level.
     witnesses: Vec<Option<&'a Episode>>,
@@ -158,12 +158,12 @@ impl<'a> Original<'a> {
         Ok(Original { game, levels, witnesses })
     }
 
-    /// Returns the seed for the draws of a twin, which depends only on the game and the kind.
+    /// Returns the seed for a twin's random draws. The seed depends only on the game and the kind.
     fn seed(&self, kind: Twin) -> Seed {
         Seed::from_text(&format!("twin {} of {}", kind.name(), self.game.digest()))
     }
 
-    /// Returns the title that releases write above the rules.
+    /// Returns the title that releases place above the rules.
     fn title(&self) -> Option<String> {
         let comments = self.game.description().header.trivia.above.iter().map(|line| line.trim());
         comments.filter(|line| !line.is_empty() && !line.starts_with(CANARY)).map(str::to_owned).next()
@@ -198,8 +198,8 @@ struct Made {
 }
 
 impl Made {
-    /// Makes a twin from rules. The image of an action must have the same effect in these rules as the original
-    /// action has in the original.
+    /// Creates a twin from rules. The image of an action must have the same effect in these rules as the action
+    /// itself has in the original.
     fn of(
         original: &Original<'_>,
         rules: &Description,
@@ -227,7 +227,7 @@ impl Made {
         format!("Game {}", self.game.digest().short())
     }
 
-    /// Adds the text, headed by the title and by the canary of the original if the original has a canary.
+    /// Adds the text, headed by the title and by the original's canary if there is one.
     fn headed(self, original: &Original<'_>) -> TwinGame {
         let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
         let canaries = comments.filter(|line| line.starts_with(CANARY));

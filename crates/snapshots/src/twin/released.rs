@@ -1,4 +1,4 @@
-//! Twins of the games of a release.
+//! Twins of released games.
 
 use super::{Made, Original, Twin, TwinError, TwinGame, of_levels};
 use crate::released::{ReleasedGame, ReleasedSibling};
@@ -6,7 +6,7 @@ use crate::released::{ReleasedGame, ReleasedSibling};
 /// The words that indicate a side. (The word `left` mostly means "remaining".)
 const SIDES: [&str; 7] = ["leftward", "leftwards", "right", "rightward", "rightwards", "west", "east"];
 
-/// Makes the twin of a released game. A mirrored twin keeps the texts of the game's card unless they mention a side.
+/// Creates a released game's twin. A mirrored twin reuses the texts on the game's card unless they mention a side.
 ///
 /// # Errors
 /// Returns an error if the game has no twin of this kind.
@@ -29,7 +29,7 @@ pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, Twin
     Ok(twin)
 }
 
-/// Makes the sibling twin of a game, with the game's witnesses.
+/// Creates a game's sibling twin, with the game's witnesses.
 fn of_sibling(released: &ReleasedGame, sibling: &ReleasedSibling) -> Result<TwinGame, TwinError> {
     let original = Original {
         game: sibling.game.clone(),

@@ -1,4 +1,4 @@
-//! Plans of courts: open ground around a landmark.
+//! Plans for courts: open ground around a landmark.
 
 use super::between;
 use crate::boards::canvas::Canvas;
@@ -6,7 +6,7 @@ use base::Sampler;
 
 /// The sizes of pillars, as columns and rows.
 const PILLARS: [(usize, usize); 5] = [(1, 2), (2, 1), (2, 2), (3, 1), (1, 3)];
-/// The shapes of islands as rectangles at an offset: an angle, a step, a bar, a block, a hook.
+/// The shapes of islands, each a set of rectangles with offsets: an angle, a step, a bar, a block, a hook.
 const SHAPES: [&[(usize, usize, usize, usize)]; 6] = [
     &[(0, 0, 1, 2), (0, 1, 3, 1)],
     &[(0, 0, 2, 1), (1, 1, 2, 1)],
@@ -16,7 +16,7 @@ const SHAPES: [&[(usize, usize, usize, usize)]; 6] = [
     &[(0, 0, 3, 1), (1, 1, 1, 1)],
 ];
 
-/// Draws a court with rows of pillars, which are shifted from row to row, and an open quarter.
+/// Draws a court with rows of pillars that are shifted from row to row, and one open quarter.
 pub(super) fn courtyard(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let (across, down) = *sampler.choose(&PILLARS);
@@ -60,7 +60,7 @@ pub(super) fn ring(canvas: &mut Canvas, sampler: &mut Sampler) {
     }
 }
 
-/// Draws a court within a moat, which can be crossed at one or two points.
+/// Draws a court inside a moat that can be crossed at one or two points.
 pub(super) fn moat(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let across = between(sampler, 4, width.saturating_sub(4));
@@ -83,7 +83,7 @@ pub(super) fn moat(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark(inside, (across - 2, bottom.saturating_sub(inside.1)));
 }
 
-/// Draws a walled keep in a corner, whose wall has a jog, and a short matching wall outside.
+/// Draws a walled keep in a corner with a jog in its wall, and a short matching wall outside.
 pub(super) fn keep(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let x = between(sampler, 4, (width * 3 / 5).max(4));

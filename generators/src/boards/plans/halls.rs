@@ -1,4 +1,4 @@
-//! Plans of halls: open ground with partitions.
+//! Plans for halls: open ground with partitions.
 
 use super::between;
 use crate::boards::canvas::Canvas;
@@ -23,7 +23,7 @@ pub(super) fn aisles(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((end, 1), (3, height));
 }
 
-/// Draws two wide avenues that cross between four blocks of different sizes. One of the blocks is hollow.
+/// Draws two wide avenues that cross between four blocks of different sizes. One block is hollow.
 pub(super) fn cross(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let wide = if height < 7 { 2 } else { between(sampler, 2, 3) };
@@ -95,7 +95,7 @@ pub(super) fn banks(canvas: &mut Canvas, sampler: &mut Sampler) {
     }
 }
 
-/// Draws two or three walls of unequal lengths, alternately from opposite sides, each with a hook at its end.
+/// Draws two or three walls of unequal lengths from alternating sides, each with a hook at its end.
 pub(super) fn staggered(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let mut x = between(sampler, 3, 4);
@@ -118,7 +118,7 @@ pub(super) fn staggered(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((width - 2, if from_top { height / 2 } else { 1 }), (3, height / 2 + 1));
 }
 
-/// Draws two or three terraces. Each border has a step in it, and its gates are far from the gates of the next border.
+/// Draws two or three terraces. Each border contains a step, and its gates are far from the next border's gates.
 pub(super) fn terraces(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let borders = if width >= 12 { 2 } else { 1 };

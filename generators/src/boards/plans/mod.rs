@@ -1,4 +1,4 @@
-//! The plans of boards. Each plan is a site with a landmark, drawn in its own proportions.
+//! Board plans. Each plan is a site with a landmark, drawn with its own proportions.
 
 mod courts;
 mod halls;
@@ -6,7 +6,7 @@ mod halls;
 use super::canvas::{Canvas, narrow};
 use base::{Sampler, Seed};
 
-/// The number of draws of a plan before a different kind is tried.
+/// The number of attempts to draw a plan before a different kind is tried.
 const DRAWS: u64 = 6;
 /// The maximum fraction of a plan's floor that may be narrow.
 const MAX_NARROW: f64 = 0.3;
@@ -18,7 +18,7 @@ pub(crate) enum PlanKind {
     Courtyard,
     /// A path around a block with a niche.
     Ring,
-    /// A court within a moat.
+    /// A court inside a moat.
     Moat,
     /// A hall with long partitions.
     Aisles,
@@ -30,7 +30,7 @@ pub(crate) enum PlanKind {
     Keep,
     /// Blocks of one or two shapes, scattered over open ground.
     Islands,
-    /// Walls alternately from both sides, each with a hook.
+    /// Walls from alternating sides, each with a hook.
     Staggered,
     /// Terraces one above the other, with gates.
     Terraces,
@@ -85,7 +85,8 @@ fn between(sampler: &mut Sampler, low: usize, high: usize) -> usize {
     sampler.between(low, high.max(low))
 }
 
-/// Draws a plan of a given size: a kind, its proportions, an outline and an orientation; `None` if no draw is sound.
+/// Draws a plan of a given size: a kind, its proportions, an outline and an orientation. Returns `None` if no draw
+/// is sound.
 pub(crate) fn draw_plan((columns, rows): (usize, usize), seed: Seed) -> Option<(PlanKind, Canvas)> {
     (0..DRAWS).find_map(|draw| {
         let sampler = &mut seed.child("plan", draw).sampler();

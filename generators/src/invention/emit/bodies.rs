@@ -7,10 +7,10 @@ use crate::invention::merge::Merged;
 use engine::syntax::{InteractionLine, Param, Word};
 use std::collections::BTreeSet;
 
-/// The types of a game by their bodies.
+/// A game's types, grouped by body.
 pub(super) struct Bodies {
     pub(super) of: Vec<(String, Body)>,
-    /// Movers that turn around when they are stopped.
+    /// Movers that turn around when stopped.
     pub(super) marching: BTreeSet<String>,
     /// Types that stand still until they turn into a different type.
     pub(super) still: BTreeSet<String>,
@@ -30,7 +30,7 @@ impl Bodies {
         self.of.iter().filter(move |(_, other)| *other == body).map(|(name, _)| name.as_str())
     }
 
-    /// Returns the rules of pushing.
+    /// Returns the rules for pushing.
     pub(super) fn pushes(&self, before: &[InteractionLine]) -> Vec<InteractionLine> {
         let moving: Vec<&str> = self.with(Body::Mover).chain(self.with(Body::Flash)).collect();
         let push = |name: &str| {
@@ -51,7 +51,7 @@ impl Bodies {
         lines.filter(|line| !line.second.is_empty()).collect()
     }
 
-    /// Returns the rules of blocking.
+    /// Returns the rules for blocking.
     pub(super) fn stops(&self, before: &[InteractionLine]) -> Vec<InteractionLine> {
         let solid = |mover: &str| -> Vec<&str> {
             let all = ["wall"].into_iter().chain(self.with(Body::Solid));
@@ -72,7 +72,7 @@ impl Bodies {
         lines
     }
 
-    /// Returns the rules of picking up, for items that the hero does not take by a rule of a mechanic.
+    /// Returns the rules for picking up items, for items that a mechanic's rules do not let the hero take.
     pub(super) fn picks_up(&self, taken: &BTreeSet<String>) -> Vec<InteractionLine> {
         let items = self.with(Body::Item).filter(|item| !taken.contains(*item));
         let pick = |item| {
@@ -94,8 +94,7 @@ fn is_settled(before: &[InteractionLine], one: &str, other: &str) -> bool {
     })
 }
 
-/// Returns `true` if touching a type harms the player, although touching is also what the player wants to do
-/// with the type.
+/// Returns `true` if touching a type harms the player, although the player also needs to touch the type.
 pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[InteractionLine]) -> bool {
     let meets = |line: &InteractionLine, first: &str, second: &str| {
         line.first.text == first && line.second.iter().any(|word| word.text == second)

@@ -1,4 +1,4 @@
-//! The clauses of a mechanic, with the names of types.
+//! A mechanic's clauses, with type names.
 
 use super::name;
 use super::own_name;
@@ -19,7 +19,7 @@ pub(super) struct Clauses {
     pub(super) terminations: Vec<TerminationLine>,
 }
 
-/// Reads the clauses of a mechanic, and replaces its ports by the names of their types.
+/// Reads a mechanic's clauses, and replaces its ports with the names of their types.
 pub(super) fn clauses(invention: &Invention, types: &[Merged], at: usize) -> Result<Clauses, GenerateError> {
     let mechanic = invention.mechanics[at];
     let values = &invention.values[at];
@@ -95,7 +95,7 @@ pub(in crate::invention) fn names_of(
     ports.chain(own).collect()
 }
 
-/// Extends the rules of other mechanics to states that still count as the port's type.
+/// Extends other mechanics' rules to states that still count as the port's type.
 pub(super) fn extend_to_states(invention: &Invention, types: &[Merged], clauses: &mut [Clauses]) {
     for (at, mechanic) in invention.mechanics.iter().enumerate() {
         let names = names_of(mechanic, types, at);

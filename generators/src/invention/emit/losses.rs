@@ -1,4 +1,4 @@
-//! Losing: the loss of things that an ending wants kept, and the loss of the player.
+//! Losing: the loss of objects that an ending needs, and the loss of the player.
 
 use super::clauses::Clauses;
 use super::{REMOVING, lost_name, name, own_name};
@@ -7,7 +7,7 @@ use crate::invention::mechanic::{Origin, OwnType, Port, Tag};
 use crate::invention::merge::{Merged, PortId};
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine, Word};
 
-/// Makes every loss of a goal end the game, unless the ending only wants the goal removed. Returns the types that can
+/// Makes every loss of a goal end the game, unless the ending only needs the goal removed. Returns the types that can
 /// be lost in this way.
 pub(super) fn lose_with_goals(
     invention: &Invention,
@@ -39,7 +39,7 @@ pub(super) fn lose_with_goals(
     losses
 }
 
-/// Returns the states that still count as the type for an ending, because their mechanic neither removes nor spends the
+/// Returns the states that an ending still counts as the type, because their mechanic does not remove or spend the
 /// type.
 fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<String> {
     let merged = &types[class];
@@ -54,7 +54,7 @@ fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<
     merged.ports.iter().flat_map(of_port).collect()
 }
 
-/// Makes an ending that counts a type also count the lasting states of the type.
+/// Makes an ending that counts a type also count the type's lasting states.
 pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut TerminationLine) {
     let value = |line: &TerminationLine, key: &str| {
         line.params.iter().find(|param| param.key.text == key).map(|param| param.value.text.clone())
@@ -73,7 +73,7 @@ pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut T
     line.params.splice(0..0, counted);
 }
 
-/// Makes every rule that removes a thing leave a marker. Returns `true` if there is such a rule.
+/// Makes every rule that removes an object leave a marker. Returns `true` if there is such a rule.
 fn mark_losses(lines: &mut Vec<InteractionLine>, thing: &str, lost: &str) -> bool {
     let mut marked = Vec::new();
     let mut is_lost = false;
@@ -100,7 +100,7 @@ fn mark_losses(lines: &mut Vec<InteractionLine>, thing: &str, lost: &str) -> boo
     is_lost
 }
 
-/// Returns `true` if some rule kills the player.
+/// Returns `true` if a rule kills the player.
 pub(super) fn is_deadly(sprites: &[SpriteLine], rules: &[InteractionLine]) -> bool {
     let heroes = sprites.last().map_or(&[][..], |hero| &hero.children);
     let is_hero =

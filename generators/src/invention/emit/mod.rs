@@ -1,5 +1,4 @@
-//! The conversion of merged ports to rules: the clauses of the mechanics with the names of types, and the rules that
-//! follow from bodies.
+//! Converts merged ports to rules: the mechanics' clauses with type names, and the rules that follow from bodies.
 
 mod bodies;
 mod clauses;
@@ -19,7 +18,7 @@ use engine::{Description, Diagnostic, Game};
 use losses::{count_states, is_deadly, lose_with_goals};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The rules of an invention, with internal names.
+/// An invention's rules, with internal names.
 pub(in crate::invention) struct Written {
     pub(in crate::invention) description: Description,
     /// The mechanic of each interaction, by its index; `None` for interactions that follow from bodies.
@@ -27,8 +26,8 @@ pub(in crate::invention) struct Written {
 }
 
 impl Written {
-    /// Removes the partner that the compiler warns about from a rule that follows from bodies. Returns `false` if the
-    /// rule belongs to a mechanic.
+    /// Removes from a rule that follows from bodies the partner that triggers a compiler warning. Returns `false` if
+    /// the rule belongs to a mechanic.
     pub(in crate::invention) fn leave_out(
         &mut self,
         dressed: &mut Description,
@@ -65,7 +64,7 @@ pub(in crate::invention) fn own_name(mechanic: usize, own: &str) -> String {
     format!("own{mechanic}{}", english::capital(own))
 }
 
-/// Returns the internal name of the marker for a lost goal.
+/// Returns the internal name of a lost goal's marker.
 pub(in crate::invention) fn lost_name(class: usize) -> String {
     format!("lost{class}")
 }
@@ -73,10 +72,10 @@ pub(in crate::invention) fn lost_name(class: usize) -> String {
 /// The effects that remove the first sprite whenever two sprites meet.
 const REMOVING: [&str; 3] = ["killSprite", "transformTo", "killBoth"];
 
-/// Writes the rules of an invention.
+/// Writes an invention's rules.
 ///
 /// # Errors
-/// Returns an error if two mechanics give a class to the same type.
+/// Returns an error if two mechanics assign a class to the same type.
 pub(in crate::invention) fn write(invention: &Invention, types: &[Merged]) -> Result<Written, GenerateError> {
     let mut clauses: Vec<Clauses> =
         (0..invention.mechanics.len()).map(|at| clauses(invention, types, at)).collect::<Result<_, _>>()?;
@@ -148,7 +147,7 @@ fn is_hero(origin: &Origin) -> bool {
     matches!(origin, Origin::State { port, .. } if port == "hero")
 }
 
-/// Writes the SpriteSet. Types that are drawn below others come first, and the hero comes last.
+/// Writes the SpriteSet. Types drawn below others come first, and the hero comes last.
 fn sprites(
     types: &[Merged],
     bodies: &Bodies,
@@ -179,8 +178,8 @@ fn sprites(
     Ok(lines)
 }
 
-/// Returns `true` if the line that a mechanic writes for a type counts. For a mover, only the line of the mechanic that
-/// moves it counts.
+/// Returns `true` if a mechanic's line for a type is used. For a mover, only the line from the mechanic that moves it
+/// is used.
 fn is_of(types: &[Merged], mechanic: usize, own: &str) -> bool {
     let merged = types.iter().enumerate().find(|(class, _)| name(*class) == own);
     merged.is_none_or(|(_, merged)| {
@@ -214,7 +213,7 @@ fn termination(class: &str, params: &[(&str, &str)]) -> TerminationLine {
     TerminationLine { class: Word::from(class), params, ..TerminationLine::default() }
 }
 
-/// Returns the names of the types whose lines have a class.
+/// Returns the names of the types whose lines specify a class.
 fn of_class(lines: &[SpriteLine], class: &str) -> BTreeSet<String> {
     let has = |line: &&SpriteLine| line.class.as_ref().is_some_and(|word| word.text == class);
     lines.iter().filter(has).map(|line| line.name.text.clone()).collect()

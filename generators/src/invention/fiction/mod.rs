@@ -1,4 +1,4 @@
-//! The words of an invented game: a setting, nouns that fit everything a type does, a title, and sentences that
+//! The texts of an invented game: a setting, nouns that fit everything a type does, a title, and sentences that
 //! explain the rules.
 
 mod nouns;
@@ -27,10 +27,10 @@ pub(super) use nouns::Noun;
 use nouns::{Place, Words};
 use std::collections::BTreeMap;
 
-/// The colours of players.
+/// The colours available to heroes.
 const HEROES: [&str; 2] = ["GREEN", "LIGHTGREEN"];
 
-/// The words of a game.
+/// A game's texts.
 pub(super) struct Fiction {
     place: &'static Place,
     hero: &'static str,
@@ -42,7 +42,7 @@ pub(super) struct Fiction {
     pub(super) goal: String,
 }
 
-/// A type that needs its own noun: its internal name, its body, and the predicates that the noun needs.
+/// A type that needs its own noun: its internal name, its body, and the predicates that the noun must satisfy.
 type Wanted = (String, Body, Predicates);
 
 impl Fiction {
@@ -52,7 +52,7 @@ impl Fiction {
         Words::get().places.keys().any(|place| assign(&wanted, place, None).is_some())
     }
 
-    /// Draws the words of a game.
+    /// Draws a game's texts.
     ///
     /// # Errors
     /// Returns an error if no setting has a noun for every type, or if a sentence contains an unknown type.
@@ -108,7 +108,7 @@ impl Fiction {
         self.names.get(internal).map_or("", String::as_str)
     }
 
-    /// Gives rules with internal names their final names, colours, images and characters.
+    /// Replaces internal names in rules with final names, colours, images and characters.
     pub(super) fn dress(&self, mut description: Description) -> Description {
         ways::set_obstacles(&mut description);
         let roles: BTreeMap<&str, &Casting> =
@@ -155,7 +155,7 @@ fn wanted(types: &[Merged], mechanics: &[&'static Mechanic]) -> Vec<Wanted> {
     wanted
 }
 
-/// Assigns a noun of a setting to each of the types: the first noun that fits, or a drawn one.
+/// Assigns a noun from a setting to each type: the first fitting noun, or a random one.
 fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> Option<Nouns> {
     let mut nouns = Nouns::new();
     for (stype, body, needs) in wanted {
@@ -177,14 +177,14 @@ fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> 
     Some(nouns)
 }
 
-/// Returns the last word of a noun. Things with the same last word look similar.
+/// Returns the last word of a noun. Objects with the same last word look similar.
 fn last_word(noun: &str) -> String {
     let at = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or_default();
     noun[at..].to_ascii_lowercase()
 }
 
-/// Returns the castings of all types. A casting is a role for colours and images, or the thing of which a type is a
-/// state.
+/// Returns the castings of all types. A casting is a role for colours and images, or the type of which this type is
+/// a state.
 fn castings(invention: &Invention, types: &[Merged]) -> BTreeMap<String, Casting> {
     let mut castings = BTreeMap::from([("hero".to_owned(), Casting::Role("hero".to_owned()))]);
     for (class, merged) in types.iter().enumerate() {
@@ -210,7 +210,7 @@ fn castings(invention: &Invention, types: &[Merged]) -> BTreeMap<String, Casting
     castings
 }
 
-/// The roles of the vocabulary by predicate, from most to least informative.
+/// The vocabulary's roles by predicate, from most to least informative.
 const ROLES: &[(&str, &str)] = &[
     ("hunts", "hunter"),
     ("steals", "thief"),
@@ -239,7 +239,7 @@ const ROLES: &[(&str, &str)] = &[
     ("heavy", "crate"),
 ];
 
-/// Returns the role that determines colours and images, for a noun without a colour or image of its own.
+/// Returns the role that determines colours and images for a noun without its own colour or image.
 fn role(predicates: Predicates, body: Body) -> &'static str {
     let told = ROLES.iter().find(|(word, _)| predicates.words().any(|other| other == *word));
     told.map_or_else(
@@ -266,7 +266,7 @@ fn add_states(castings: &BTreeMap<String, Casting>, nouns: &mut Nouns) {
     }
 }
 
-/// Returns the nouns of a mechanic's ports and types, by their names in the mechanic.
+/// Returns the nouns for a mechanic's ports and types, by their names in the mechanic.
 fn ports_in_words(mechanic: &Mechanic, types: &[Merged], at: usize, nouns: &Nouns) -> Nouns {
     let names = emit::names_of(mechanic, types, at);
     let own = names.into_iter().filter_map(|(port, internal)| Some((port, nouns.get(&internal)?.clone())));
@@ -323,7 +323,7 @@ fn dilemmas(types: &[Merged], nouns: &Nouns, sampler: &mut Sampler) -> Vec<Strin
     said
 }
 
-/// Draws a title from the two things that fill the most ports, the hero and the setting.
+/// Draws a title from the two types that fill the most ports, the hero and the setting.
 fn title(types: &[Merged], nouns: &Nouns, place: &str, sampler: &mut Sampler) -> Result<String, String> {
     let joint = |(_, merged): &(usize, &Merged)| std::cmp::Reverse(merged.ports.len());
     let things: Vec<&String> = types

@@ -9,13 +9,13 @@ use std::sync::OnceLock;
 const NOUNS: &str = include_str!("../../../mechanics/nouns.txt");
 const PLACES: &str = include_str!("../../../mechanics/places.toml");
 
-/// The kind of thing that a noun denotes. The kinds are the headings of the table.
+/// The kind of object that a noun denotes. The kinds are the headings in the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     Mover,
     Item,
     Crate,
-    /// A solid thing or a piece of ground.
+    /// A solid object or a piece of ground.
     Place,
     Flash,
 }
@@ -43,7 +43,7 @@ impl Form {
     }
 }
 
-/// A noun of the table.
+/// A noun in the table.
 #[derive(Clone, Debug)]
 pub(crate) struct Noun {
     pub(crate) word: &'static str,
@@ -53,7 +53,7 @@ pub(crate) struct Noun {
 }
 
 impl Noun {
-    /// Returns the table of nouns.
+    /// Returns the noun table.
     pub(crate) fn all() -> &'static [Noun] {
         static ALL: OnceLock<Vec<Noun>> = OnceLock::new();
         ALL.get_or_init(|| {
@@ -79,18 +79,18 @@ impl Noun {
         Ok(Noun { word, form, predicates: predicates.parse()?, places: places.split_whitespace().collect() })
     }
 
-    /// Returns `true` if the noun fits a type with this body that needs these predicates.
+    /// Returns `true` if the noun fits a type with the given body and required predicates.
     pub(crate) fn fits(&self, body: Body, needs: Predicates) -> bool {
         self.form == Form::of(body) && self.predicates.includes(needs)
     }
 
-    /// Returns `true` if the thing occurs in a setting.
+    /// Returns `true` if the noun's object occurs in a setting.
     pub(crate) fn is_at(&self, place: &str) -> bool {
         self.places.iter().any(|other| *other == place || *other == "any")
     }
 }
 
-/// A kind of setting for games.
+/// A kind of game setting.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Place {
@@ -99,13 +99,14 @@ pub(crate) struct Place {
     pub(crate) floor_color: String,
     pub(crate) wall_color: String,
     pub(crate) heroes: Vec<String>,
-    /// The proper names of settings of this kind.
+    /// The proper names for settings of this kind.
     pub(crate) names: Vec<String>,
-    /// The sentences that explain why the hero is there, with the placeholders `<hero>` and `<name>`.
+    /// The sentences that explain why the hero is in the setting, with the placeholders `<hero>` and
+    /// `<name>`.
     pub(crate) reasons: Vec<String>,
 }
 
-/// The words around the nouns.
+/// The texts around the nouns.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Words {
     titles: Titles,
@@ -120,13 +121,13 @@ struct Titles {
 }
 
 impl Words {
-    /// Returns the words of the file.
+    /// Returns the texts in the file.
     pub(crate) fn get() -> &'static Words {
         static ALL: OnceLock<Words> = OnceLock::new();
         ALL.get_or_init(|| toml::from_str(PLACES).unwrap_or_else(|fault| panic!("places.toml: {fault}")))
     }
 
-    /// Returns the patterns of titles.
+    /// Returns the title patterns.
     pub(crate) fn titles(&self) -> &[String] {
         &self.titles.patterns
     }

@@ -1,8 +1,8 @@
-//! The properties that nouns have and that rules require of them.
+//! The properties of nouns that rules can require.
 
 use std::str::FromStr;
 
-/// The words for the nature or the action of a thing, apart from its use in a game.
+/// The words for an object's nature or action, apart from its use in a game.
 const WORDS: &[&str] = &[
     "hunts", "marches", "roams", "steals", "timid", "friend", "animal", "person", "eats", "sleeps",
     "tramples", "swims", "flies", "edible", "opens", "valuable", "cuts", "digs", "fuel", "lights",
@@ -22,12 +22,12 @@ impl Predicates {
         Predicates(self.0 | other.0)
     }
 
-    /// Returns `true` if this set contains all predicates of another set.
+    /// Returns `true` if this set contains all predicates of the other set.
     pub(crate) fn includes(self, other: Predicates) -> bool {
         self.0 & other.0 == other.0
     }
 
-    /// Returns the words, in the order of the list.
+    /// Returns the words, in list order.
     pub(crate) fn words(self) -> impl Iterator<Item = &'static str> {
         WORDS.iter().enumerate().filter(move |(at, _)| self.0 >> at & 1 == 1).map(|(_, word)| *word)
     }

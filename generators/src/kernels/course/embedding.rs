@@ -1,4 +1,4 @@
-//! The embedding of a graph of rooms in a coarse grid: linked rooms share a border.
+//! The embedding of a graph of rooms into a coarse grid, so that linked rooms share a border.
 
 use super::cell::Cell;
 use crate::kernels::file::map::Map;
@@ -6,13 +6,13 @@ use base::Sampler;
 
 /// The number of embeddings to draw. The most compact embedding is used.
 const DRAWS: usize = 48;
-/// The maximum number of rooms next to each other, and above each other.
+/// The maximum number of rooms side by side, and above each other.
 const LARGEST: (i32, i32) = (4, 3);
-/// The sizes of rooms in the coarse grid. The usual size occurs several times. A ring of three rooms needs a room of an
-/// unusual size.
+/// The room sizes in the coarse grid. The most common size is listed several times. A ring of three rooms needs a room
+/// with a different size.
 const SIZES: [(i32, i32); 6] = [(1, 1), (1, 1), (1, 1), (1, 1), (2, 1), (1, 2)];
 
-/// The rectangles of the rooms on the board.
+/// The rooms' rectangles on the board.
 #[derive(Clone, Debug)]
 pub(super) struct Embedding {
     pub(super) columns: usize,
@@ -63,7 +63,7 @@ impl Rectangle {
     }
 }
 
-/// A rectangle of the coarse grid, given by its left, top, width and height.
+/// A rectangle in the coarse grid, given by its left, top, width and height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Span {
     left: i32,
@@ -99,8 +99,8 @@ impl Span {
 }
 
 impl Embedding {
-    /// Draws an embedding in which every room has at least the width and height that it needs, on a board with about
-    /// `wanted` columns per row.
+    /// Draws an embedding that gives every room at least its required width and height, on a board with about `wanted`
+    /// columns per row.
     pub(super) fn draw(
         map: &Map,
         needs: &[(usize, usize)],
@@ -131,7 +131,7 @@ impl Embedding {
         best.map(|(_, embedding)| embedding)
     }
 
-    /// Turns spans of the coarse grid into rectangles of cells.
+    /// Converts spans of the coarse grid to rectangles of cells.
     fn of(spans: &[Span], needs: &[(usize, usize)]) -> Embedding {
         let across: Vec<(i32, i32, usize)> =
             spans.iter().zip(needs).map(|(span, need)| (span.left, span.width, need.0)).collect();
@@ -224,8 +224,7 @@ fn spans(map: &Map, sampler: &mut Sampler) -> Option<Vec<Span>> {
     spans.into_iter().collect()
 }
 
-/// Draws the size of a room in the coarse grid. Rooms with a drawn piece are often large, with several rooms along a
-/// side.
+/// Draws a room's size in the coarse grid. Rooms with a drawn piece are often large, with several rooms along one side.
 fn size(map: &Map, room: usize, sampler: &mut Sampler) -> (i32, i32) {
     match map.rooms[room].piece {
         Some(_) if sampler.ratio(1, 4) => (2, 2),

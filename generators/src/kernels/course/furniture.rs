@@ -1,4 +1,4 @@
-//! The placement of things in rooms.
+//! Placement of sprites in rooms.
 
 use super::cell::Cell;
 use super::embedding::{Embedding, Rectangle};
@@ -8,7 +8,7 @@ use crate::kernels::file::map::{Item, Map, Place};
 use base::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Places the things in all rooms; `None` if there is no space for something.
+/// Places the sprites in all rooms; `None` if there is not enough space.
 pub(super) fn furnish(
     map: &Map,
     traits: &Traits,
@@ -107,7 +107,7 @@ impl Furnisher<'_> {
         self.placed.push(cell);
     }
 
-    /// Draws a cell for a thing from the cells that best fit its preferred position.
+    /// Draws a cell for a sprite, from the cells that best match its preferred position.
     fn cell(&self, item: &Item, board: &Board, sampler: &mut Sampler) -> Option<Cell> {
         let from = self.entry.or(self.openings.first().copied());
         let steps = match from {
@@ -153,7 +153,7 @@ impl Furnisher<'_> {
         Some(*sampler.choose(&good))
     }
 
-    /// Returns `true` if the floor and the openings stay connected when a cell is blocked.
+    /// Returns `true` if the floor and the openings stay connected if a cell is blocked.
     fn stays_connected(&self, blocked: Cell, board: &Board) -> bool {
         let is_open = |cell: Cell| {
             cell != blocked
@@ -166,7 +166,7 @@ impl Furnisher<'_> {
         beside.iter().all(|cell| steps.contains_key(cell))
     }
 
-    /// Returns the length of the free line through a cell, in the direction in which a type moves.
+    /// Returns the length of the free line through a cell, along a type's direction of movement.
     fn lane(&self, (x, y): Cell, stype: &str, board: &Board) -> usize {
         let is_free = |cell: Cell| self.area.contains(cell) && board.is_floor(cell);
         let upright = || {

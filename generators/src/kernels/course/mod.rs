@@ -1,4 +1,4 @@
-//! Levels from maps: a graph of rooms is laid out on a board, built, and furnished.
+//! Levels from maps: lays out a graph of rooms on a board, builds the rooms, and furnishes them.
 
 mod cell;
 mod embedding;
@@ -13,14 +13,14 @@ use cell::Cell;
 use embedding::Embedding;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum number of columns and rows of a level.
+/// The maximum number of columns and rows in a level.
 const LARGEST: (usize, usize) = (24, 14);
-/// The number of layouts to draw for each map.
+/// The number of layouts to draw per map.
 const DRAWS: u64 = 24;
 
-/// The board sizes that a game's levels may be stretched to. Two thirds of the games have no fixed size.
+/// The board sizes to which a game's levels may be stretched. Two thirds of the games have no fixed size.
 const BOARDS: [Option<Cell>; 6] = [None, None, None, None, Some((18, 10)), Some((20, 11))];
-/// The fraction of boards to stretch, in games that have a board size.
+/// The fraction of boards to stretch, in games with a fixed board size.
 const STRETCHED: (usize, usize) = (3, 4);
 
 /// The facts about a game's types that level builders need.
@@ -28,22 +28,22 @@ const STRETCHED: (usize, usize) = (3, 4);
 pub(crate) struct Traits {
     /// The types that occur in the game.
     pub(crate) present: BTreeSet<String>,
-    /// The types that stop the hero or are pushed by it.
+    /// The types that stop the hero or are pushed by the hero.
     pub(crate) solid: BTreeSet<String>,
-    /// The types that kill the hero by touch.
+    /// The types that kill the hero on contact.
     pub(crate) deadly: BTreeSet<String>,
     /// The types that move back and forth, with `true` for vertical movement.
     pub(crate) lanes: BTreeMap<String, bool>,
 }
 
-/// The size and shape of the space that a game's levels take up.
+/// The size and shape of the space occupied by a game's levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Space {
-    /// The number of additional columns and rows of rooms, beyond those that they need.
+    /// The number of additional columns and rows in rooms, beyond the required ones.
     pub(crate) spare: usize,
     /// The number of columns per row, as far as rooms can be laid out to match this ratio.
     pub(crate) shape: f64,
-    /// The numbers of columns and rows to which boards are stretched, as far as possible.
+    /// The numbers of columns and rows to which boards are stretched where possible.
     pub(crate) board: Option<Cell>,
 }
 
@@ -122,7 +122,7 @@ impl Board {
         })
     }
 
-    /// Returns the number of steps from `start` to every cell that can be reached through cells that `open` accepts.
+    /// Returns the number of steps from `start` to every cell reachable through cells that `open` accepts.
     fn steps_from(&self, start: Cell, open: impl Fn(Cell) -> bool) -> BTreeMap<Cell, usize> {
         let mut steps = BTreeMap::from([(start, 0)]);
         let mut front = vec![start];

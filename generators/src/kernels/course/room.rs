@@ -1,4 +1,4 @@
-//! The construction of rooms: floors, interior walls, drawn pieces, borders and the openings in them.
+//! Construction of rooms: floors, interior walls, drawn pieces, borders and openings.
 
 use super::cell::Cell;
 use super::embedding::{Embedding, Rectangle};
@@ -7,10 +7,10 @@ use crate::kernels::file::kernel::Kernel;
 use crate::kernels::file::map::{Link, Map, Room, Size, Style};
 use base::Sampler;
 
-/// The openings of each room: cells in its border.
+/// The openings of each room: cells on its border.
 pub(super) type Openings = Vec<Vec<Cell>>;
 
-/// Draws the minimum width and height of a room, including spare columns and rows.
+/// Draws a room's minimum width and height, including spare columns and rows.
 pub(super) fn size(room: &Room, kernel: &Kernel, spare: usize, sampler: &mut Sampler) -> (usize, usize) {
     if let Some(rows) = room.piece.as_ref().and_then(|piece| kernel.pieces.get(&piece.name)) {
         return (rows[0].chars().count(), rows.len());
@@ -85,7 +85,7 @@ pub(super) fn build(
     Some(openings)
 }
 
-/// Fills the borders between rooms with the divider of the link, or else with the kernel's divider.
+/// Fills the borders between rooms with the link's divider, or otherwise with the kernel's divider.
 fn divide(map: &Map, kernel: &Kernel, traits: &Traits, embedding: &Embedding, board: &mut Board) {
     let is_there = |stype: &&String| traits.present.contains(*stype);
     for (number, one) in embedding.rooms.iter().enumerate() {
@@ -154,7 +154,7 @@ fn draw_piece(rows: &[Vec<char>], kernel: &Kernel, traits: &Traits, area: Rectan
     }
 }
 
-/// Fills the area with walls, except for corridors one cell wide between the openings and the middle.
+/// Fills the area with walls, leaving corridors one cell wide between the openings and the middle.
 fn carve_corridor(area: Rectangle, openings: &[Cell], board: &mut Board) {
     area.cells().for_each(|cell| board.put(cell, Some("wall")));
     let (x, y) = (area.left + area.width() / 2, area.top + area.height() / 2);
@@ -167,14 +167,13 @@ fn carve_corridor(area: Rectangle, openings: &[Cell], board: &mut Board) {
     }
 }
 
-/// Returns `true` if a room holds nothing.
+/// Returns `true` if a room is empty.
 fn is_bare(room: &Room, traits: &Traits) -> bool {
     let holds = |stype: &str| stype == "wall" || traits.present.contains(stype);
     !room.fill.as_deref().is_some_and(holds) && !room.items.iter().any(|item| holds(&item.stype))
 }
 
-/// Leaves a nook of three by two cells behind the opening of a dead end, so that the room is a cupboard rather than an
-/// empty hall.
+/// Leaves a 3×2 nook behind a dead end's opening, so that the room is a cupboard rather than an empty hall.
 fn leave_nook(area: Rectangle, (x, y): Cell, board: &mut Board) {
     let (across, deep) = (1, 2);
     let beside = x >= area.left && x <= area.right;
@@ -183,7 +182,7 @@ fn leave_nook(area: Rectangle, (x, y): Cell, board: &mut Board) {
     area.cells().filter(outside).for_each(|cell| board.put(cell, Some("wall")));
 }
 
-/// Adds the interior walls of a style.
+/// Adds a style's interior walls.
 fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler) {
     let (width, height) = (area.width(), area.height());
     let mut wall = |x: usize, y: usize| board.put((area.left + x, area.top + y), Some("wall"));
@@ -241,8 +240,8 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
     }
 }
 
-/// Returns `true` if all floor of an area is connected to all its openings. In a drawn piece, only the openings must be
-/// connected.
+/// Returns `true` if all floor in an area is connected to all of its openings. In a drawn piece, only the openings must
+/// be connected.
 fn is_connected(area: Rectangle, openings: &[Cell], drawn: bool, board: &Board) -> bool {
     let is_open = |cell: Cell| area.contains(cell) && !board.is_wall(cell);
     let inside = |opening: &Cell| board.beside(*opening).find(|&cell| is_open(cell));

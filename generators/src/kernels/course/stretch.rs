@@ -1,18 +1,18 @@
-//! The enlargement of boards. A column or row is doubled if that changes no path and separates no adjacent things.
+//! Enlarges boards. A column or row can be doubled if doubling does not change any path or separate adjacent sprites.
 
 use super::Board;
 use super::cell::Cell;
 use base::Sampler;
 
-/// The minimum number of cells at which a type counts as ground rather than as things. Ground is continued into doubled
-/// lines.
+/// The minimum number of cells at which a type counts as ground rather than as separate sprites. Ground is continued
+/// into doubled lines.
 const GROUND: usize = 6;
 
 /// Doubles columns and rows, chosen at random, until the board is large enough or no line can be doubled.
 ///
 /// A gap between two lines can be filled if each pair of cells facing across the gap is the same ground or includes
-/// floor or wall. A new cell is wall next to a wall, floor next to floor, or else the ground on both sides. No path
-/// opens or closes as a result.
+/// floor or wall. A new cell is wall next to a wall, floor next to floor, and otherwise the ground on both sides. As a
+/// result, paths neither open nor close.
 pub(super) fn stretch(board: Board, (columns, rows): Cell, sampler: &mut Sampler) -> Board {
     let wider = widened(board, columns, sampler);
     widened(wider.transposed(), rows, sampler).transposed()
@@ -32,7 +32,7 @@ fn widened(mut board: Board, columns: usize, sampler: &mut Sampler) -> Board {
     board
 }
 
-/// Returns the cells of a new column before column `x`; `None` if it would separate things.
+/// Returns the cells of a new column before column `x`; `None` if the column would separate adjacent sprites.
 fn between(board: &Board, x: usize) -> Option<Vec<Option<String>>> {
     let is_ground =
         |stype: &str| board.cells.iter().flatten().filter(|other| *other == stype).count() >= GROUND;
@@ -102,7 +102,7 @@ mod tests {
         counts
     }
 
-    /// Returns the things that the hero can reach.
+    /// Returns the sprites within the hero's reach.
     fn reached(board: &Board) -> Vec<String> {
         let cells = (0..board.rows).flat_map(|y| (0..board.columns).map(move |x| (x, y)));
         let start = cells.into_iter().find(|&cell| board.at(cell) == Some("a")).unwrap();

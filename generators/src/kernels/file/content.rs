@@ -2,12 +2,12 @@
 
 use include_dir::{Dir, include_dir};
 
-/// The files of kernels.
+/// The kernel files.
 pub(crate) static KERNELS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/kernels");
-/// The files of scenes.
+/// The scene files.
 pub(crate) static SCENES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenes");
 
-/// Returns the TOML files of a folder, sorted by name, with their names without the extension.
+/// Returns a folder's TOML files, sorted by name, with their names without the extension.
 pub(crate) fn files(folder: &'static Dir<'static>) -> impl Iterator<Item = (&'static str, &'static str)> {
     let file = |path: &'static std::path::Path| path.file_name()?.to_str()?.strip_suffix(".toml");
     let mut files: Vec<(&str, &str)> =

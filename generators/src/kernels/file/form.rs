@@ -10,23 +10,23 @@ use std::collections::BTreeMap;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Form {
     pub(crate) name: String,
-    /// The sentence that replaces the kernel's dilemma, for a form that lacks types in the kernel's dilemma.
+    /// The sentence that replaces the kernel's dilemma, for a form that lacks types mentioned in that dilemma.
     dilemma: Option<String>,
     goal: String,
-    /// The types that the form lacks. Sentences, levels, variants and rules that mention these types are left out.
+    /// The types missing from the form. Sentences, levels, variants and rules that mention these types are omitted.
     #[serde(default)]
     without: Vec<String>,
-    /// `true` if the form has only the levels that specify it.
+    /// `true` if the form has only the levels that name it.
     #[serde(default)]
     own_levels: bool,
-    /// `true` if the form has only the facts that it lists.
+    /// `true` if the form has only its own listed facts.
     #[serde(default)]
     own_facts: bool,
     #[serde(default)]
     facts: Vec<String>,
     #[serde(default)]
     titles: Vec<String>,
-    /// Lines of the SpriteSet. A line with the name of one of the kernel's types replaces that type.
+    /// Lines for the SpriteSet. A line with a kernel type's name replaces that type.
     #[serde(default)]
     sprites: String,
     /// Interactions that replace the kernel's interactions between the same types.
@@ -44,7 +44,7 @@ pub(crate) struct Form {
 }
 
 impl Form {
-    /// Returns the kernel's file with only this form applied.
+    /// Returns the kernel's file with only this form's changes applied.
     pub(crate) fn applied(&self, file: &File) -> File {
         let tells = |text: &str| self.without.iter().any(|stype| phrase::tells_of(text, stype));
         let said = |texts: &[String]| texts.iter().filter(|text| !tells(text)).cloned().collect::<Vec<_>>();
@@ -77,7 +77,8 @@ impl Form {
         }
     }
 
-    /// Returns the types that the form lacks, although its levels may name them. They are left out of the levels.
+    /// Returns the types missing from the form that its levels may still name. Such types are omitted from the
+    /// levels.
     pub(crate) fn absent(&self) -> &[String] {
         &self.without
     }
@@ -133,7 +134,7 @@ impl Form {
         text
     }
 
-    /// Returns a line of the InteractionSet without the types that the form lacks; `None` if nothing is left of the
+    /// Returns an InteractionSet line without the types missing from the form; `None` if nothing remains of the
     /// line, or if the form replaces it.
     fn interaction(&self, line: &str) -> Option<String> {
         let (sides, effect) = line.split_once('>')?;
@@ -154,7 +155,7 @@ impl Form {
     }
 }
 
-/// Returns the name at the start of a line of the SpriteSet.
+/// Returns the name at the start of a SpriteSet line.
 fn name(line: &str) -> &str {
     line.split_whitespace().next().unwrap_or_default()
 }

@@ -1,7 +1,7 @@
 //! A kernel: a small set of coupled rules around one dilemma, with the maps of its levels.
 //!
-//! A kernel is a file in `generators/kernels/`. It contains VGDL rules with names that do not depend on a scene, and
-//! the role of every type. For each of five slots, it also contains the maps that pose the dilemma.
+//! A kernel is a file in `generators/kernels/`. The file contains VGDL rules with scene-independent names, and the
+//! role of every type. For each of five slots, the file also contains the maps that pose the dilemma.
 //! `docs/reference/kernels.md` is the manual.
 
 use super::form::Form;
@@ -14,21 +14,21 @@ use std::collections::BTreeMap;
 use std::iter;
 use std::sync::OnceLock;
 
-/// A kernel, ready for drawing numbers and nouns.
+/// A kernel, ready for numbers and nouns to be drawn.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     pub(crate) name: String,
     /// The name of this form; `None` for the kernel itself.
     pub(crate) form: Option<String>,
     pub(crate) kind: Kind,
-    /// The name of a kernel so similar to this kernel that a small set has only one of the two.
+    /// The name of a similar kernel. A small set contains only one of the two.
     pub(crate) like: Option<String>,
     /// A sentence that describes the whole game, with nouns as `<type>`.
     pub(crate) dilemma: String,
     pub(crate) goal: String,
     pub(crate) facts: Vec<String>,
     pub(crate) titles: Vec<String>,
-    /// The type that divides rooms instead of walls.
+    /// The type that divides rooms in place of walls.
     pub(crate) divider: Option<String>,
     pub(crate) rules: Sections,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -37,13 +37,13 @@ pub(crate) struct Kernel {
     pub(crate) levels: Vec<LevelPlan>,
     pub(crate) variants: Vec<Variant>,
     pub(crate) numbers: Numbers,
-    /// The types that maps may name although this form lacks them.
+    /// The types that maps may name although they are missing from this form.
     absent: Vec<String>,
     /// The kernel's other forms, each as a separate kernel.
     forms: Vec<Kernel>,
 }
 
-/// The lines of a game's sections without the LevelMapping, indented as in the kernel's file.
+/// A game's sections without the LevelMapping, as lines indented as in the kernel's file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sections {
     pub(crate) sprites: Template,
@@ -55,11 +55,11 @@ pub(crate) struct Sections {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub(crate) enum Casting {
-    /// The scene's noun for a role.
+    /// The scene's noun for the given role.
     Role(String),
     /// A different state of another type.
     State {
-        /// The other type, or a role that no other type has.
+        /// The other type, or a role without a type of its own.
         of: String,
         /// The word to put before the noun of `of`.
         adjective: String,
@@ -76,22 +76,22 @@ impl Casting {
 }
 
 base::named_enum! {
-    /// The purpose of a level in a course of five levels, in the order of the course.
+    /// A level's purpose in a course of five levels, in course order.
     pub enum Slot {
         /// The level shows the trick in a small and safe form.
         Introduce = "introduce",
-        /// The level repeats the trick in a setting where a mistake has a cost.
+        /// The level repeats the trick in a setting with costly mistakes.
         Confirm = "confirm",
         /// The level combines the trick with a second mechanic.
         Combine = "combine",
         /// The level turns the familiar trick around.
         Twist = "twist",
-        /// The level demands everything, with little slack.
+        /// The level requires everything, with little slack.
         Exam = "exam",
     }
 }
 
-/// The map of a level, and its question to the player.
+/// A level's map, and its question to the player.
 #[derive(Debug)]
 pub(crate) struct LevelPlan {
     pub(crate) slot: Slot,
@@ -131,7 +131,7 @@ pub(crate) struct File {
     pub(crate) titles: Vec<String>,
     pub(crate) divider: Option<String>,
     pub(crate) rules: String,
-    /// The rules of the kernel itself, in the file of a form. Maps use the numbers that these rules introduce.
+    /// The rules of the kernel itself, in a form's file. Maps use the numbers introduced in these rules.
     #[serde(skip)]
     pub(crate) whole_rules: String,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -151,7 +151,7 @@ pub(crate) struct File {
 pub(crate) struct LevelFile {
     slot: Slot,
     pub(crate) asks: String,
-    /// The only form that has the level; `None` for all forms.
+    /// The only form with this level; `None` for all forms.
     pub(crate) form: Option<String>,
     map: String,
 }
@@ -174,14 +174,14 @@ pub(crate) struct VariantFile {
 }
 
 impl VariantFile {
-    /// Returns the texts of the variant's rules.
+    /// Returns the variant's rule texts.
     pub(crate) fn parts(&self) -> [&str; 4] {
         [&self.sprites, &self.first, &self.interactions, &self.terminations]
     }
 }
 
 impl Kernel {
-    /// Returns the crate's kernels, by name.
+    /// Returns the built-in kernels, sorted by name.
     pub(crate) fn all() -> &'static [Kernel] {
         static ALL: OnceLock<Vec<Kernel>> = OnceLock::new();
         ALL.get_or_init(|| {
@@ -224,7 +224,7 @@ impl Kernel {
         Ok(Kernel { forms, ..Kernel::of_file(name, own, None)? })
     }
 
-    /// Reads the texts of a file, or of one of the file's forms.
+    /// Reads the texts from a file, or for one of the file's forms.
     fn of_file(name: &str, file: File, form: Option<&Form>) -> Result<Kernel, KernelError> {
         let form_name = form.map(|form| form.name.clone());
         let shown = form_name.as_ref().map_or_else(|| name.to_owned(), |form| format!("{name}, form {form}"));
@@ -335,7 +335,7 @@ impl Kernel {
         iter::once(self).chain(&self.forms)
     }
 
-    /// Returns the rules with some of the variants as VGDL, under the kernel's names of types.
+    /// Returns the rules, with some of the variants, as VGDL with the kernel's type names.
     pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
         let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
         let mut text =
@@ -356,8 +356,8 @@ impl Kernel {
         text
     }
 
-    /// Returns `true` if the kernel or one of its variants has the type, or may name the type although this form lacks
-    /// it.
+    /// Returns `true` if the kernel or one of its variants declares the type, or may name it although it is missing
+    /// from this form.
     pub(crate) fn knows(&self, stype: &str) -> bool {
         stype == "wall"
             || self.absent.iter().any(|absent| absent == stype)
@@ -373,7 +373,7 @@ impl LevelPlan {
     }
 }
 
-/// Indents a section's lines below its name, regardless of their indentation in the file.
+/// Indents a section's lines below its name, regardless of the indentation in the file.
 fn indented(lines: &str) -> String {
     let depth = |line: &str| line.len() - line.trim_start().len();
     let least = lines.lines().filter(|line| !line.trim().is_empty()).map(depth).min().unwrap_or(0);

@@ -1,4 +1,4 @@
-//! The map of a level: a graph of rooms, in the language of kernel files.
+//! A level's map: a graph of rooms, in the kernel file language.
 //!
 //! ```text
 //! home: hero, exit@far
@@ -30,11 +30,11 @@ pub(crate) struct Room {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PieceUse {
     pub(crate) name: String,
-    /// `true` if the piece must not be rotated or mirrored.
+    /// `true` if rotating or mirroring the piece is not allowed.
     pub(crate) as_is: bool,
 }
 
-/// The size of a room.
+/// A room's size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Size {
     Small,
@@ -43,11 +43,11 @@ pub(crate) enum Size {
     Large,
     Wide,
     Tall,
-    /// Paths one cell wide between the openings.
+    /// Corridors one cell wide between the openings.
     Corridor,
 }
 
-/// The interior walls of a room.
+/// A room's interior walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Style {
     /// No interior walls, or only all corners cut.
@@ -60,24 +60,24 @@ pub(crate) enum Style {
     Ring,
 }
 
-/// Things to place in a room.
+/// Sprites to place in a room.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Item {
     pub(crate) stype: String,
-    /// The minimum and maximum number.
+    /// The minimum and maximum number of sprites.
     pub(crate) count: (u32, u32),
     pub(crate) place: Place,
 }
 
-/// The preferred position of things in a room.
+/// The preferred position of sprites in a room.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Place {
-    /// Positions away from other things and from openings.
+    /// Positions away from other sprites and from openings.
     #[default]
     Fair,
     /// Positions as far from the entry as possible.
     Far,
-    /// Positions next to the entry.
+    /// Positions near the entry.
     Near,
     Centre,
     Corner,
@@ -97,9 +97,9 @@ pub(crate) struct Link {
     pub(crate) stype: Option<String>,
     /// The number of openings.
     pub(crate) openings: u32,
-    /// The type of the border between the two rooms.
+    /// The type that forms the border between the two rooms.
     pub(crate) border: Option<String>,
-    /// `true` for an opening of three cells.
+    /// `true` for an opening three cells wide.
     pub(crate) is_wide: bool,
 }
 
@@ -112,11 +112,11 @@ pub(crate) struct MapError {
 }
 
 impl Map {
-    /// Reads the map of a level.
+    /// Reads a level's map.
     ///
     /// # Errors
-    /// Returns an error for the first line that cannot be parsed or that names an unknown room, or for a room that
-    /// cannot be reached.
+    /// Returns an error for the first line that cannot be parsed or that names an unknown room, or for an
+    /// unreachable room.
     pub(crate) fn read(text: &str) -> Result<Map, MapError> {
         let mut map = Map::default();
         let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -168,7 +168,7 @@ impl Map {
         Ok(Link { between, stype, openings: openings.1, border, is_wide: false })
     }
 
-    /// Returns a room that cannot be reached from the first room; `None` if there is no such room.
+    /// Returns a room that is unreachable from the first room; `None` if all rooms are reachable.
     fn unreachable(&self) -> Option<usize> {
         let mut reached = vec![false; self.rooms.len()];
         let mut open = vec![0];
@@ -180,8 +180,8 @@ impl Map {
         reached.iter().position(|reached| !reached)
     }
 
-    /// Returns the map without bare dead ends. A bare dead end is a room with one link in which neither the room nor
-    /// the opening holds a type of the game.
+    /// Returns the map without bare dead ends. A bare dead end is a room with a single link, where neither the room
+    /// nor the opening contains a type in the game.
     #[must_use]
     pub(crate) fn without_bare_ends(mut self, is_present: impl Fn(&str) -> bool) -> Map {
         let is_bare = |map: &Map, number: usize| {
@@ -206,7 +206,7 @@ impl Map {
         self
     }
 
-    /// Returns the types that the map places, in order and with repetitions.
+    /// Returns the types placed by the map, in order and with repetitions.
     pub(crate) fn types(&self) -> impl Iterator<Item = &str> {
         let rooms = self.rooms.iter();
         let placed = rooms.flat_map(|room| room.items.iter().map(|item| &item.stype).chain(&room.fill));

@@ -1,4 +1,4 @@
-//! The format and the parsing of kernel files.
+//! The format of kernel files, and its parser.
 
 pub(crate) mod content;
 pub(crate) mod form;

@@ -1,6 +1,7 @@
-//! Texts with numbers that are drawn when a game is generated: `{2..4}`, `{price:2..4}`, `{price}`, `{price+1}`.
+//! Texts containing numbers that are drawn when a game is generated: `{2..4}`, `{price:2..4}`, `{price}`,
+//! `{price+1}`.
 
-/// The numbers of a kernel, in the order in which its texts introduce them.
+/// A kernel's numbers, in the order in which its texts introduce them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Numbers(pub(crate) Vec<Number>);
 
@@ -27,7 +28,7 @@ impl Numbers {
 /// A number and its range.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Number {
-    /// The name by which other parts of the text refer to the number.
+    /// The name by which other parts of the text refer to this number.
     name: Option<String>,
     pub(crate) least: u32,
     pub(crate) most: u32,
@@ -40,7 +41,7 @@ pub(crate) struct Template(Vec<Part>);
 #[derive(Clone, Debug, PartialEq)]
 enum Part {
     Text(String),
-    /// The index of a number, and the amount to add to its value.
+    /// The number's index, and the amount to add to its value.
     Number(usize, i64),
 }
 
@@ -48,7 +49,7 @@ impl Template {
     /// Parses a text and adds the numbers that it introduces to `numbers`.
     ///
     /// # Errors
-    /// Returns an error if a brace has no partner, a range is invalid, or a name is unknown or introduced twice.
+    /// Returns an error if a brace is unmatched, a range is invalid, or a name is unknown or introduced twice.
     pub(crate) fn read(text: &str, numbers: &mut Numbers) -> Result<Template, String> {
         let mut parts = Vec::new();
         let mut rest = text;
@@ -72,7 +73,7 @@ impl Template {
     }
 }
 
-/// Returns a text with the values of numbers that other texts introduced. If the text contains any other number,
+/// Returns a text with the values of numbers introduced in other texts. If the text contains any other number,
 /// returns the text unchanged.
 pub(crate) fn filled(text: &str, numbers: &Numbers, values: &[u32]) -> String {
     Template::read(text, &mut numbers.clone()).map_or_else(|_| text.to_owned(), |text| text.fill(values))

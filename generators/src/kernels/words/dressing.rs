@@ -1,4 +1,4 @@
-//! Colours and images of types, by their nouns and roles.
+//! Colours and images for types, according to their nouns and roles.
 
 use super::hues;
 use super::phrase::Nouns;
@@ -8,14 +8,14 @@ use crate::kernels::file::kernel::Casting;
 use engine::syntax::{Param, SpriteLine};
 use std::collections::BTreeMap;
 
-/// The colours given to types so far.
+/// The colours assigned so far.
 pub(crate) struct Palette<'a> {
     /// The colours of floor and walls.
     ground: [&'a str; 2],
     nouns: &'a Nouns,
     hero: &'static str,
     taken: Vec<String>,
-    /// The colours by type. The colour of a state is stored under the role of its type.
+    /// The colours, by type. A state's colour is stored under the role of its type.
     given: BTreeMap<String, String>,
 }
 
@@ -26,7 +26,7 @@ impl<'a> Palette<'a> {
         Palette { ground, nouns, hero, taken, given: BTreeMap::new() }
     }
 
-    /// Gives every type a colour.
+    /// Assigns a colour to every type.
     pub(crate) fn color_all(&mut self, lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>) {
         // A state takes the colour of its thing, which may be on a later line.
         self.color(lines, roles, false);
@@ -54,8 +54,8 @@ impl<'a> Palette<'a> {
         }
     }
 
-    /// Draws a colour. The player gets the colour of the habits, a thing with a natural colour gets that colour,
-    /// and any other type gets a colour that suits its role.
+    /// Draws a colour. The player gets the colour from the habits, a noun with a natural colour gets that
+    /// colour, and any other type gets a colour suitable for its role.
     fn draw(&mut self, name: &str, role: &str) -> String {
         let mut natural = self.nouns.get(name).into_iter().flat_map(|noun| hues::natural(noun));
         let free = |color: &&str| !self.taken.iter().any(|taken| taken == color);
@@ -70,7 +70,8 @@ impl<'a> Palette<'a> {
     }
 }
 
-/// Sets an image for every type: `img=role/noun`, or `img=role/adjective/noun` for a thing in a different state.
+/// Sets an image for every type: `img=role/noun`, or `img=role/adjective/noun` for an object in a different
+/// state.
 pub(crate) fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nouns: &Nouns) {
     for line in lines {
         let name = line.name.text.as_str();

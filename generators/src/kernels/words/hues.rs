@@ -1,7 +1,7 @@
-//! The natural colours of things.
+//! The natural colours of objects.
 
-/// Colours with the nouns that have them. A noun is given by its last word, or in full if it differs from other
-/// nouns with the same last word.
+/// Colours and the nouns that naturally have each colour. A noun is listed by its last word, or in full if it
+/// differs from other nouns with the same last word.
 const NATURAL: &[(&str, &str)] = &[
     (
         "BROWN",
@@ -52,7 +52,7 @@ const NATURAL: &[(&str, &str)] = &[
     ("LIGHTBLUE", "crystal glass ice mirror pane window"),
 ];
 
-/// Colours with the similar colours that can replace them if they are taken.
+/// For each colour, similar colours that can replace it if it is taken.
 const NEAR: &[(&str, &[&str])] = &[
     ("BROWN", &["LIGHTORANGE", "ORANGE"]),
     ("DARKGRAY", &["BLACK", "GRAY"]),
@@ -65,7 +65,7 @@ const NEAR: &[(&str, &[&str])] = &[
     ("YELLOW", &["LIGHTYELLOW", "GOLD"]),
 ];
 
-/// Returns the natural colours of a thing, from best to worst; empty if its colour is unknown.
+/// Returns an object's natural colours, from most to least suitable; empty if the natural colour is unknown.
 pub(crate) fn natural(noun: &str) -> impl Iterator<Item = &'static str> {
     let best = best(noun);
     let near =

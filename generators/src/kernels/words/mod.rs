@@ -1,4 +1,4 @@
-//! The words of games: scenes' nouns, names, sentences and colours.
+//! The texts of games: scene nouns, names, sentences and colours.
 
 pub(crate) mod dressing;
 pub(crate) mod hues;

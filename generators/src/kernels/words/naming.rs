@@ -1,8 +1,7 @@
-//! VGDL type names like those that authors of small games write: one short word, or two in `camelCase`.
+//! VGDL type names as authors of small games write them: one short word, or two in `camelCase`.
 //!
-//! Titles and stories use the nouns of the scene, while rules use these names. A `curtainCord` is a `cord`, a
-//! `coalLump` is `coal`, an `oilCan` remains an `oilCan`, a lit `lamp` is a `litLamp`, and an open `boathouse` is an
-//! `exit`.
+//! Titles and stories use the scene's nouns, while rules use these names. A `curtainCord` is a `cord`, a `coalLump`
+//! is `coal`, an `oilCan` remains an `oilCan`, a lit `lamp` is a `litLamp`, and an open `boathouse` is an `exit`.
 
 use super::phrase::Nouns;
 use super::vocabulary;
@@ -23,7 +22,7 @@ const VAGUE: &[&str] = &[
 /// Last words that denote an amount of a material. Authors name the material instead.
 const AMOUNTS: &[&str] = &["bale", "bunch", "bundle", "heap", "lump", "pile", "puff", "sheaf"];
 
-/// The maximum length of a state's full name. For example, a chandelier that is lit is just called `lit`.
+/// The maximum length of a state's full name. For example, a lit chandelier is simply called `lit`.
 const LONGEST: usize = 12;
 
 /// Draws the names of a game's types, by their names in the kernel. `wall` and types without a noun keep their names.
@@ -64,7 +63,7 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// Gives a type without a name the first free candidate, or else the last candidate with a number.
+    /// Assigns to an unnamed type the first free candidate, or otherwise the last candidate with a number.
     fn give(&mut self, stype: &str, candidates: &[&str]) {
         if self.given.contains_key(stype) {
             return;
@@ -97,8 +96,8 @@ impl Names<'_> {
     }
 }
 
-/// Returns a noun's last word if that word is clear on its own. If the noun is an amount of a material, returns the
-/// material. Otherwise returns the whole noun.
+/// Returns a noun's last word if that word is clear on its own. If the noun denotes an amount of a material, returns
+/// the material. Otherwise returns the whole noun.
 fn short(noun: &str) -> String {
     let spaced = english::spaced(noun);
     match spaced.rsplit_once(' ') {

@@ -1,20 +1,20 @@
-//! Sentences with the nouns of a game: `<hero>`, `<a hero>`, `<heroes>`, `<Hero>`.
+//! Sentences with placeholders for a game's nouns: `<hero>`, `<a hero>`, `<heroes>`, `<Hero>`.
 
 use crate::games::english;
 use std::collections::BTreeMap;
 
-/// The nouns for a game's types, in the form of VGDL names.
+/// The nouns for a game's types, written as VGDL names.
 pub(crate) type Nouns = BTreeMap<String, String>;
 
-/// Fills nouns into a sentence. The noun for `<Hero>` begins with a capital letter.
+/// Inserts nouns into a sentence. The noun for `<Hero>` is capitalised.
 ///
 /// # Errors
-/// Returns an error if a name is not a type, or if a bracket has no partner.
+/// Returns an error if a name is not a type, or if a bracket is unmatched.
 pub(crate) fn fill(text: &str, nouns: &Nouns) -> Result<String, String> {
     filled(text, nouns, english::capital)
 }
 
-/// Fills nouns into a title. Every word of the noun for `<Hero>` begins with a capital letter.
+/// Inserts nouns into a title. Every word in the noun for `<Hero>` is capitalised.
 pub(crate) fn title(text: &str, nouns: &Nouns) -> Result<String, String> {
     filled(text, nouns, english::headline)
 }

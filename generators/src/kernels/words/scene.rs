@@ -18,24 +18,24 @@ pub(crate) struct Scene {
     /// The colours of floor and walls.
     pub(crate) floor_color: String,
     pub(crate) wall_color: String,
-    /// Titles of games in this scene.
+    /// Title patterns for games in this scene.
     #[serde(default)]
     pub(crate) titles: Vec<String>,
     /// The nouns for the roles. Alternatives for different games are separated by commas.
     pub(crate) cast: BTreeMap<String, String>,
-    /// The words around the nouns for a game with any rules; `None` unless the scene has a noun for every role that
-    /// types can play in such a game.
+    /// The texts around the nouns, for games with arbitrary rules; `None` unless the scene has a noun for every role
+    /// that types can play in such games.
     retelling: Option<Retelling>,
-    /// The kernels that this scene fits, each with the nouns that differ for that kernel.
+    /// The kernels suited to this scene, each with the nouns that differ for that kernel.
     #[serde(default)]
     pub(crate) kernels: BTreeMap<String, BTreeMap<String, String>>,
 }
 
-/// The setting and the title words for a game that was written with different words.
+/// The setting and the title words for a game written with different nouns.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Retelling {
-    /// The setting of the game, with its preposition.
+    /// The game's setting, with a preposition.
     pub(crate) place: String,
     /// Adjectives for titles, separated by commas.
     adjectives: String,
@@ -44,7 +44,7 @@ pub(crate) struct Retelling {
 }
 
 impl Retelling {
-    /// Draws a title about the setting, the task in the setting, or the hero.
+    /// Draws a title about the setting, the task or the hero.
     pub(crate) fn title(&self, hero: &str, title_word: &str, sampler: &mut Sampler) -> String {
         let adjectives: Vec<&str> = separated(&self.adjectives).collect();
         let nouns: Vec<&str> = separated(&self.nouns).collect();
@@ -57,7 +57,7 @@ impl Retelling {
     }
 }
 
-/// The scenes with a [`Retelling`], in a fixed order that draws depend on.
+/// The scenes with a [`Retelling`], in a fixed order. Random draws depend on this order.
 const OF_ANY_GAME: [&str; 12] = [
     "tidepool",
     "library",
@@ -74,7 +74,7 @@ const OF_ANY_GAME: [&str; 12] = [
 ];
 
 impl Scene {
-    /// Returns the crate's scenes, by name.
+    /// Returns the built-in scenes, sorted by name.
     pub(crate) fn all() -> &'static [Scene] {
         static ALL: OnceLock<Vec<Scene>> = OnceLock::new();
         ALL.get_or_init(|| {
@@ -133,14 +133,14 @@ impl Scene {
         self.kernels.contains_key(&kernel.name) && roles.into_iter().all(has_noun)
     }
 
-    /// Returns the nouns for a role in games of a kernel.
+    /// Returns the nouns for a role in a kernel's games.
     pub(crate) fn nouns(&self, role: &str, kernel: &str) -> Option<Vec<&str>> {
         let own = self.kernels.get(kernel).and_then(|own| own.get(role));
         let nouns = own.or_else(|| self.cast.get(role))?;
         Some(separated(nouns).collect())
     }
 
-    /// Returns the scenes that fit any game, with the words needed for a retelling.
+    /// Returns the scenes that fit any game, with the texts needed for a retelling.
     pub(crate) fn of_any_game() -> impl Iterator<Item = (&'static Scene, &'static Retelling)> {
         let scene = |name: &str| Scene::all().iter().find(|scene| scene.name == name);
         OF_ANY_GAME
@@ -179,8 +179,8 @@ mod tests {
         assert_eq!(named.len(), OF_ANY_GAME.len());
     }
 
-    /// Types from any rules may meet in one game. Each role therefore has its own nouns, all of which are valid as
-    /// sprite types in VGDL.
+    /// Types from any rules may occur in the same game. Each role therefore has its own nouns, all of which are
+    /// valid as sprite types in VGDL.
     #[test]
     fn no_noun_of_any_game_serves_two_roles() {
         let reserved = ["wall", "avatar", "eos", "time", "up", "down", "left", "right", "none", "nil"];
@@ -200,7 +200,7 @@ mod tests {
     }
 
     /// Sentences put an article before a noun or make it plural ("bear traps lie in wait"), so plural nouns would be
-    /// ungrammatical in them. Only the nouns for floor, walls and rubble are used unchanged.
+    /// ungrammatical. Only the nouns for floor, walls and rubble are used unchanged.
     #[test]
     fn nouns_of_any_game_are_singular() {
         let singular = |noun: &str| {

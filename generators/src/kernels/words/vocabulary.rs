@@ -2,7 +2,7 @@
 
 use crate::games::palette::COLORS;
 
-/// The colours that suit each role.
+/// The colours suitable for each role.
 const SUITING: &[(&[&str], &[&str])] = &[
     (&["hero"], &["GREEN", "LIGHTGREEN"]),
     (&["exit", "haven", "outlet", "portal", "sky"], &["LIGHTBLUE", "BLUE"]),
@@ -33,7 +33,8 @@ pub(crate) fn is_role(word: &str) -> bool {
     SUITING.iter().any(|(roles, _)| roles.contains(&word))
 }
 
-/// Returns a colour that suits the role and that no other type has, as long as there are enough colours.
+/// Returns a colour that is suitable for the role and not used by any other type, as long as there are
+/// enough colours.
 pub(crate) fn color(role: &str, taken: &[String]) -> &'static str {
     let suiting =
         SUITING.iter().find(|(roles, _)| roles.contains(&role)).map_or(&[][..], |(_, colors)| colors);

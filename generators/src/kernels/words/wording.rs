@@ -1,7 +1,8 @@
-//! The goals and summaries that generators can write about given rules. The texts of a card are checked against them.
+//! The goals and summaries that generators can write about given rules. A card's texts are checked against these goals
+//! and summaries.
 //!
-//! The texts of a kernel are sentences with placeholders for nouns and numbers. The nouns of a game are in its images
-//! (`img=role/noun`), so every sentence about the game is known except for its numbers. Texts of retold games follow
+//! A kernel's texts are sentences with placeholders for nouns and numbers. A game's nouns are recorded in its images
+//! (`img=role/noun`), so every sentence about the game is known except for its numbers. Texts about retold games follow
 //! from the rules alone.
 
 use super::phrase::{self, Nouns};
@@ -12,17 +13,17 @@ use engine::syntax::SpriteLine;
 use engine::{Analysis, Game};
 use std::collections::BTreeMap;
 
-/// The texts that can be written about a game whose generator used some patterns.
+/// The texts that can be written about a game, given the patterns used by its generator.
 pub struct Wording {
     analysis: Analysis,
     kernel: Option<OfKernel>,
-    /// `true` for inventions, and for kernels with grafts, which older versions made. The texts of such games are not
-    /// checked.
+    /// `true` for inventions, and for games with grafts (types taken from a second kernel) from older versions. Texts
+    /// about such games are not checked.
     is_unchecked: bool,
 }
 
 impl Wording {
-    /// Reads the words of a game from its rules and from the patterns of its card. Cost: about that of analysing the game.
+    /// Reads a game's texts from its rules and from the patterns on its card. Costs about one analysis of the game.
     pub fn of(game: &Game, patterns: &[String]) -> Wording {
         let is_unchecked =
             |pattern: &String| pattern.starts_with("mechanic/") || pattern.starts_with("graft/");
@@ -54,7 +55,7 @@ impl Wording {
 /// The nouns that each type of a kernel can have in a game.
 type Choices = BTreeMap<String, Vec<String>>;
 
-/// The kernel of a game, its sentences and its nouns.
+/// A game's kernel, sentences and nouns.
 struct OfKernel {
     kernel: &'static Kernel,
     variants: Vec<usize>,
@@ -63,8 +64,8 @@ struct OfKernel {
 }
 
 impl OfKernel {
-    /// Finds the kernel, form, scene and variants in the patterns; `None` if the patterns contain no known kernel or
-    /// scene.
+    /// Finds the kernel, form, scene and variants in the patterns; `None` if the patterns do not contain a known kernel
+    /// and scene.
     fn read(game: &Game, patterns: &[String]) -> Option<OfKernel> {
         let named = |kind: &'static str| patterns.iter().filter_map(move |name| name.strip_prefix(kind));
         let (name, form) = (named("kernel/").next()?, named("form/").next());
@@ -82,7 +83,7 @@ impl OfKernel {
         Some(OfKernel { kernel, variants, scene, nouns })
     }
 
-    /// Returns the sentences of the summary, in order.
+    /// Returns the summary's sentences, in order.
     fn sentences(&self) -> Vec<(&str, &Choices)> {
         let variants = self.variants.iter().map(|&at| &self.kernel.variants[at].fact);
         let own =
@@ -90,7 +91,7 @@ impl OfKernel {
         own.map(|sentence| (sentence.as_str(), &self.nouns)).collect()
     }
 
-    /// Returns `true` if a text consists of these sentences, separated by spaces, about the nouns of the game.
+    /// Returns `true` if a text consists of the given sentences, separated by spaces and filled with the game's nouns.
     fn says(&self, sentences: &[(&str, &Choices)], text: &str) -> bool {
         let mut rests = vec![text];
         for (at, (sentence, nouns)) in sentences.iter().enumerate() {
@@ -119,7 +120,7 @@ fn pictures(game: &Game) -> Vec<Vec<String>> {
     found
 }
 
-/// Returns the nouns that each type can have according to the images.
+/// Returns the nouns possible for each type, according to the images.
 fn choices<'a>(
     pictures: &[Vec<String>],
     castings: impl Iterator<Item = (&'a String, &'a Casting)>,
@@ -145,7 +146,7 @@ fn choices<'a>(
     ["floor", "wall"].map(|role| (role.to_owned(), of_role(role))).into_iter().chain(own).collect()
 }
 
-/// Returns the possible rests of a text after a sentence about some of the nouns, with any numbers.
+/// Returns the possible remainders of a text after a sentence filled with any of the nouns and any numbers.
 fn after<'t>(sentence: &str, nouns: &Choices, text: &'t str, is_start: bool) -> Vec<&'t str> {
     let Some(at) = sentence.find(['<', '{']) else {
         return text.strip_prefix(sentence).into_iter().collect();
@@ -167,7 +168,7 @@ fn after<'t>(sentence: &str, nouns: &Choices, text: &'t str, is_start: bool) -> 
     found.into_iter().flat_map(|text| after(rest, nouns, text, false)).collect()
 }
 
-/// Returns the phrases that can replace a placeholder for a noun.
+/// Returns the phrases that can replace a noun placeholder.
 fn phrases(inside: &str, nouns: &Choices) -> impl Iterator<Item = String> {
     let filled = |(stype, nouns): (&String, &Vec<String>)| {
         let fill = |noun: &String| {

@@ -9,9 +9,9 @@ use engine::{Analysis, SpriteType};
 #[derive(Clone, Debug)]
 pub(crate) struct Board {
     pub(crate) grid: Grid,
-    /// For each cell, `true` if it is a wall of the structure.
+    /// For each cell, `true` if it contains a structural wall.
     pub(crate) wall: Vec<bool>,
-    /// The character placed in each cell; `None` if the cell has none.
+    /// The character placed in each cell; `None` for empty cells.
     pub(crate) placed: Vec<Option<u8>>,
     /// For each cell, `true` if it must be kept free.
     pub(crate) kept: Vec<bool>,
@@ -19,7 +19,7 @@ pub(crate) struct Board {
     pub(crate) zone: Vec<u8>,
     /// The cell where the avatar starts.
     pub(crate) start: usize,
-    /// `true` if pushed things do not count as obstacles.
+    /// `true` if pushable objects do not count as obstacles.
     pub(crate) pushing: bool,
 }
 
@@ -50,7 +50,7 @@ impl Board {
     }
 
     /// Returns `true` if the avatar can walk into the cell at the start of the level, including through breakable
-    /// things.
+    /// obstacles.
     pub(crate) fn is_walkable(&self, palette: &Palette, cell: usize) -> bool {
         let open = |symbol: u8| match palette.walk(symbol) {
             Walk::Open | Walk::Breakable => true,
@@ -73,7 +73,7 @@ impl Board {
         self.grid.is_cut(cell, open)
     }
 
-    /// Returns the number of walls or cells off the board among the eight surrounding cells.
+    /// Returns the number of walls and off-board cells among the eight surrounding cells.
     pub(crate) fn walls_around(&self, cell: usize) -> usize {
         self.grid.around(cell).iter().filter(|next| next.is_none_or(|next| self.wall[next])).count()
     }
@@ -84,7 +84,7 @@ impl Board {
         placed.flat_map(|&symbol| analysis.game().places(symbol)).filter(|&&placed| placed == stype).count()
     }
 
-    /// Returns the text of the level.
+    /// Returns the level's text.
     pub(crate) fn text(&self, palette: &Palette) -> String {
         let wall = palette.wall.unwrap_or(palette.base);
         let mut text = String::with_capacity(self.grid.len() + self.grid.rows);
@@ -98,8 +98,8 @@ impl Board {
         text
     }
 
-    /// Returns the cells that the avatar can reach when it takes every reachable key and opens the keys' locks. Used-up
-    /// keys are counted. Cost: O(locks × cells).
+    /// Returns the cells that the avatar can reach by taking every reachable key and opening the keys' locks. Keys are
+    /// used up and counted. Cost: O(locks × cells).
     pub(crate) fn reach(&self, analysis: &Analysis, palette: &Palette) -> Vec<bool> {
         let mut opened = vec![false; self.grid.len()];
         let mut spent: Vec<i64> = vec![0; analysis.locks().len()];

@@ -1,4 +1,4 @@
-//! The tools for furnishing a board: they place sprites in sensible positions.
+//! The tools for furnishing a board: placing sprites at sensible positions.
 
 use super::board::Board;
 use super::plan::{self, Wish};
@@ -11,12 +11,13 @@ use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, SpriteType};
 
-/// The weight factor of a cell next to a companion that the examples almost always show next to such a sprite.
+/// The weight factor for a cell next to a companion: a sprite that in the examples almost always stands next to such a
+/// sprite.
 const COMPANION_WEIGHT: u32 = 1000;
-/// The weight factor of a cell in line with other sprites of the type, for types that the examples show in lines.
+/// The weight factor for a cell in line with other sprites of the type, for types that stand in lines in the examples.
 const LINE_WEIGHT: u32 = 40;
 
-/// A level under construction, with everything that decisions about it need.
+/// A level under construction, with all data needed for decisions about it.
 pub(crate) struct Builder<'a> {
     pub(crate) analysis: &'a Analysis,
     pub(crate) palette: &'a Palette,
@@ -30,7 +31,7 @@ pub(crate) struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Puts a sprite of the type on a cell. Any further cells that the sprite covers are kept free.
+    /// Places a sprite of the type in a cell. Any additional cells covered by the sprite are kept free.
     pub(crate) fn put(&mut self, cell: usize, stype: SpriteType) {
         self.board.placed[cell] = self.palette.symbol(stype);
         self.log.push((cell, stype));
@@ -39,8 +40,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places one of the avatars that levels can start with on the cell. If the avatar is larger than a cell, places it
-    /// as near to the cell as possible. A wall around the board stays closed.
+    /// Places one of the possible initial avatars in the cell, or as near as possible if the avatar is larger than a
+    /// cell. A wall around the board stays closed.
     pub(crate) fn put_avatar(&mut self, cell: usize) {
         let (stype, symbol) = *self.sampler.choose(&self.palette.avatars);
         let grid = self.board.grid;
@@ -58,12 +59,12 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the cells that a sprite of the type covers, starting with its own cell.
+    /// Returns the cells covered by a sprite of the type, starting with the sprite's own cell.
     fn covered_by(&self, cell: usize, stype: SpriteType) -> impl Iterator<Item = usize> + use<> {
         self.board.grid.block(cell, self.analysis.facts(stype).span)
     }
 
-    /// Returns `true` if all cells that a sprite of the type would cover are on the board and free.
+    /// Returns `true` if all cells covered by a sprite of the type would be on the board and free.
     pub(crate) fn fits(&self, cell: usize, stype: SpriteType) -> bool {
         let (columns, rows) = self.analysis.facts(stype).span;
         if (columns, rows) == (1, 1) {
@@ -73,7 +74,7 @@ impl Builder<'_> {
         covered.all(|cell| self.board.is_free(cell)) && self.covered_by(cell, stype).count() == columns * rows
     }
 
-    /// Draws a free cell by weight and puts a sprite there. Returns the cell.
+    /// Draws a free cell by weight, places a sprite in it, and returns the cell.
     pub(crate) fn put_where(
         &mut self,
         stype: SpriteType,
@@ -102,7 +103,7 @@ impl Builder<'_> {
         Some(cell)
     }
 
-    /// Puts a sprite into the wall around the board, at a cell with an open neighbour. Returns the cell.
+    /// Places a sprite into the wall around the board, at a cell with an open neighbour. Returns the cell.
     fn put_in_border(&mut self, stype: SpriteType) -> Option<usize> {
         let grid = self.board.grid;
         let open = |cell: usize| !self.board.wall[cell] && !grid.on_border(cell);
@@ -120,7 +121,7 @@ impl Builder<'_> {
         Some(cell)
     }
 
-    /// Puts a sprite into a niche far from the start and away from other sprites. If there is no niche, hollows one out
+    /// Places a sprite in a niche far from the start and away from other sprites. If there is no niche, carves one out
     /// of a wall. Returns the cell.
     fn put_in_niche(&mut self, stype: SpriteType) -> Option<usize> {
         self.palette.wall?;
@@ -152,7 +153,7 @@ impl Builder<'_> {
         self.config.like.as_deref()
     }
 
-    /// Returns the weight of a cell according to the positions of such sprites in the examples.
+    /// Returns a cell's weight according to the example positions of sprites of the type.
     pub(crate) fn example_weight(&self, cell: usize, stype: SpriteType) -> u32 {
         let (Some(examples), Some(target)) = (self.examples(), &self.target) else { return 1 };
         let grid = self.board.grid;
@@ -182,7 +183,7 @@ impl Builder<'_> {
         weight
     }
 
-    /// Returns the types that the level should contain if there are examples.
+    /// Returns the types expected in the level if there are examples.
     pub(crate) fn expected(&self) -> Vec<SpriteType> {
         let Some(target) = &self.target else { return Vec::new() };
         self.analysis.game().sprite_types().filter(|stype| target.counts[stype.index()].0 > 0).collect()
@@ -196,7 +197,8 @@ impl Builder<'_> {
         (!first).then(|| self.sampler.unit() < 0.8 * share)
     }
 
-    /// Returns the cell mirrored from left to right, if the examples have such sprites in pairs and the cell is free.
+    /// Returns the cell mirrored from left to right, if sprites of the type occur in pairs in the examples and the cell
+    /// is free.
     pub(crate) fn twin(&self, cell: usize, stype: SpriteType) -> Option<usize> {
         self.examples().filter(|examples| examples.placement(stype).is_mirrored())?;
         let grid = self.board.grid;
@@ -225,12 +227,12 @@ impl Builder<'_> {
         wishes
     }
 
-    /// Returns `true` if the avatar falls, so that most things should stand on the ground.
+    /// Returns `true` if the avatar falls, so that most sprites should stand on the ground.
     pub(crate) fn avatar_falls(&self) -> bool {
         self.analysis.start_avatar().is_some_and(|avatar| avatar.steering == Steering::Jumping)
     }
 
-    /// Returns `true` if there is something to stand on right below the cell.
+    /// Returns `true` if there is support directly below the cell.
     pub(crate) fn has_footing(&self, cell: usize) -> bool {
         self.board.grid.shift(cell, (0, 1)).is_none_or(|below| self.board.wall[below])
     }
@@ -248,7 +250,7 @@ impl Builder<'_> {
         self.board.steps(self.palette)
     }
 
-    /// Returns the distance in cells, ignoring obstacles, to the nearest sprite that `like` accepts; large if there is
+    /// Returns the distance in cells, ignoring obstacles, to the nearest sprite accepted by `like`; large if there is
     /// no such sprite.
     pub(crate) fn apart(&self, cell: usize, like: impl Fn(SpriteType) -> bool) -> usize {
         let distances = self.log.iter().filter(|(_, stype)| like(*stype));
@@ -261,7 +263,7 @@ impl Builder<'_> {
         self.apart(cell, |stype| self.analysis.role(stype) == role)
     }
 
-    /// Returns `true` if a sprite of the type in this cell would be an obstacle that cuts off other cells.
+    /// Returns `true` if a sprite of the type in the given cell would be an obstacle that cuts off other cells.
     pub(crate) fn cuts(&self, cell: usize, stype: SpriteType) -> bool {
         let in_the_way = self
             .palette
@@ -270,7 +272,7 @@ impl Builder<'_> {
         in_the_way && self.board.would_cut(self.palette, cell)
     }
 
-    /// Returns the number of cells ahead of `cell` in a direction, up to the next wall or obstacle.
+    /// Returns the number of cells ahead of `cell` in a direction before the next wall or obstacle.
     pub(crate) fn run(&self, cell: usize, way: (i32, i32)) -> usize {
         let mut length = 0;
         let mut at = cell;
@@ -288,14 +290,14 @@ impl Builder<'_> {
         length
     }
 
-    /// Returns `true` if the avatar's start is ahead of `cell` in a direction, with nothing in between.
+    /// Returns `true` if the avatar's start is ahead of `cell` in a direction, with no obstacle in between.
     pub(crate) fn aims_at_start(&self, cell: usize, way: (i32, i32)) -> bool {
         let (dx, dy) = self.board.grid.offset(cell, self.board.start);
         let ahead = if way.0 != 0 { dy == 0 && dx * way.0 > 0 } else { dx == 0 && dy * way.1 > 0 };
         ahead && self.run(cell, way) >= (dx.abs() + dy.abs()) as usize
     }
 
-    /// Returns the direction in which a type moves straight ahead, or shoots, by itself.
+    /// Returns the direction in which a type, by itself, moves straight ahead or shoots.
     pub(crate) fn heading(&self, stype: SpriteType) -> Option<(i32, i32)> {
         if let Motion::Straight(direction) = self.analysis.facts(stype).motion {
             return way(direction);
@@ -318,13 +320,13 @@ impl Builder<'_> {
         near.min(room) as usize
     }
 
-    /// Returns the largest distance among the reached cells.
+    /// Returns the largest distance among the reachable cells.
     pub(crate) fn radius(&self, steps: &[u32]) -> u32 {
         steps.iter().copied().filter(|&steps| steps != FAR).max().unwrap_or(0).max(1)
     }
 }
 
-/// Converts a direction along an axis into a step.
+/// Converts an axis direction to a step.
 pub(crate) fn way(direction: Direction) -> Option<(i32, i32)> {
     WAYS.into_iter().find(|&(x, y)| direction == Direction { x: f64::from(x), y: f64::from(y) })
 }

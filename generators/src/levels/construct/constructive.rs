@@ -1,5 +1,4 @@
-//! The constructive level generator, which builds the walls, furnishes the board by role, and then inspects the
-//! result.
+//! The constructive level generator. Builds the walls, furnishes the board by role, and then inspects the result.
 
 use super::board::Board;
 use super::builder::Builder;
@@ -18,11 +17,12 @@ use engine::{Action, Analysis, Game, Level, SpriteType};
 
 /// The number of boards to try for one seed.
 const ATTEMPTS: u64 = 40;
-/// The number of further boards to try for optional wishes: cover, companions as in the examples, and some difficulty.
+/// The number of additional boards to try for optional wishes: cover, companions as in the examples, and some
+/// difficulty.
 const COVERS: u64 = 6;
-/// The maximum total number of cells of all these boards, because large boards take longer.
+/// The maximum total number of cells on all tried boards. Large boards take longer.
 const PATIENCE: u64 = 2600;
-/// The number of boards to try for a puzzle, after which the puzzle is furnished like any other level.
+/// The number of boards to try for a puzzle. If all fail, the level is furnished like any other.
 const PUZZLES: u64 = 30;
 
 /// The rank of a board that meets all wishes.
@@ -32,14 +32,14 @@ const LAYOUTS: usize = 2;
 /// The maximum fraction of inner walls at which a board counts as intentionally bare.
 const BARE: f64 = 0.02;
 
-/// Generates levels for any game. The roles of the game's sprite types are derived from the rules.
+/// Generates levels for any game, with the roles of its sprite types derived from the rules.
 ///
-/// Levels fit the game's LevelMapping and contain one avatar. No termination holds at the start. Everything that
-/// counts for a win can be reached on foot, by shooting, or through locks whose keys can be reached first. A player
-/// who does nothing survives the first ticks if the game allows that at all. Puzzles of pushed things come with a
-/// solution that has been played through.
+/// Levels fit the game's LevelMapping and contain one avatar. No termination holds at the start. Everything needed for
+/// a win can be reached on foot, by shooting, or through locks whose keys can be reached first. An idle player
+/// survives the first ticks if the game allows it at all. Pushing puzzles come with a solution that has been played
+/// through.
 ///
-/// Cost: about a millisecond for a level of usual size. The cost grows with the square of the number of cells.
+/// Cost: about a millisecond for a typical level. The cost grows with the square of the number of cells.
 pub struct ConstructiveLevels<'a> {
     pub(crate) game: &'a Game,
     pub(crate) analysis: Analysis,
@@ -47,23 +47,23 @@ pub struct ConstructiveLevels<'a> {
     pub(crate) config: LevelConfig,
 }
 
-/// A level with the actions that win it, if the generator knows such actions.
+/// A level with a winning sequence of actions, if the generator knows one.
 #[derive(Clone, Debug)]
 pub struct Solved {
     /// The generated level.
     pub level: Level,
-    /// The actions that win the level; `None` except for puzzles of pushed things in deterministic games.
+    /// The actions that win the level; `None` except for pushing puzzles in deterministic games.
     pub solution: Option<Vec<Action>>,
 }
 
 /// A furnished board, and its solution.
 pub(crate) struct Made {
     pub(crate) board: Board,
-    /// The actions that win the level; `None` if they are not known.
+    /// The actions that win the level; `None` if the generator does not know any.
     solution: Option<Vec<Action>>,
     /// `true` if the board's puzzle has been played through.
     pub(crate) played: bool,
-    /// The types that the level should contain if there are examples.
+    /// The types expected in the level if there are examples.
     pub(crate) expected: Vec<SpriteType>,
 }
 
@@ -81,7 +81,7 @@ impl<'a> ConstructiveLevels<'a> {
     /// Returns [`GenerateError::Unsuitable`] in each of these cases:
     ///
     /// - The configuration is invalid.
-    /// - No level can be won by play, or every level is won by waiting.
+    /// - No level can be won by playing, or every level is won by waiting.
     /// - No character places exactly one avatar.
     /// - A termination holds in every level that the LevelMapping can express.
     pub fn new(game: &'a Game, config: LevelConfig) -> Result<Self, GenerateError> {
@@ -176,7 +176,7 @@ impl<'a> ConstructiveLevels<'a> {
         second_best.map(|(_, solved)| solved).ok_or(GenerateError::Unlucky(fault))
     }
 
-    /// Makes one furnished board.
+    /// Builds one furnished board.
     fn attempt(&self, seed: Seed, attempt: u64) -> Option<Made> {
         let mut layout = seed.child("layout", 0).sampler();
         let examples = self.config.like.as_deref();
@@ -278,8 +278,8 @@ impl<'a> ConstructiveLevels<'a> {
         }
     }
 
-    /// Draws walls like those in the examples. They are assembled from windows of the examples, or come from a layout
-    /// family that suits the game, with a similar number of walls.
+    /// Draws walls like those in the examples. The walls are assembled from windows in the examples, or come from a
+    /// layout family that suits the game, with a similar number of walls.
     fn walls_like(&self, target: &Target, ring: bool, loops: f64, layout: &mut Sampler) -> Vec<bool> {
         let grid = target.grid;
         let patterns = self.config.like.as_deref().map(|examples| &examples.patterns);
@@ -315,7 +315,7 @@ impl<'a> ConstructiveLevels<'a> {
         wall
     }
 
-    /// Draws the walls for a puzzle of pushed things.
+    /// Draws the walls for a pushing puzzle.
     fn puzzle_walls(
         &self,
         plan: &Jobs,
@@ -346,7 +346,7 @@ impl<'a> ConstructiveLevels<'a> {
         Board::new(grid, layout::walls(family, grid, ring, loops, layout))
     }
 
-    /// Makes a puzzle of pushed things and plays it through. Returns `None` if the board does not work.
+    /// Creates a pushing puzzle and plays it through. Returns `None` if the board does not work.
     fn puzzle(&self, plan: &Jobs, mut builder: Builder<'_>, seed: Seed) -> Option<Made> {
         let ways = builder.warehouse(plan)?;
         let bare = self.play(&builder.board, &ways, plan.is_all, seed)?;
@@ -379,7 +379,7 @@ impl<'a> ConstructiveLevels<'a> {
     }
 }
 
-/// Describes an exact number that no level can contain; `None` if the configuration has no such number.
+/// Describes a requested exact number that no level can satisfy; `None` if all requested numbers are satisfiable.
 fn unmet_count(analysis: &Analysis, palette: &Palette, config: &LevelConfig) -> Option<String> {
     let room = config.columns.1 * config.rows.1;
     let sum: usize = config.counts.iter().fold(0, |sum, (_, count)| sum.saturating_add(*count));

@@ -1,4 +1,4 @@
-//! The choice of a layout family for a game.
+//! The choice of layout family for a game.
 
 use super::constructive::ConstructiveLevels;
 use super::layout::Family;
@@ -7,7 +7,7 @@ use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 
 impl ConstructiveLevels<'_> {
-    /// Draws a layout family that suits the game.
+    /// Draws a layout family suitable for the game.
     pub(crate) fn family(&self, sampler: &mut Sampler) -> Family {
         let has = |role: Role| !furnishable(&self.analysis, &self.palette, role).is_empty();
         let mover = |role: Role| {

@@ -1,4 +1,4 @@
-//! The final inspection of a board, and playing puzzles through.
+//! The final inspection of a board, including playing puzzles through.
 
 use super::board::Board;
 use super::constructive::{ConstructiveLevels, Made};
@@ -8,17 +8,17 @@ use engine::{Action, Level, Outcome, SpriteType, State};
 
 /// The number of ticks that a player who does nothing should survive.
 const GRACE_TICKS: usize = 12;
-/// The number of futures in which an idle player must survive.
+/// The number of random futures in which an idle player must survive.
 const FUTURES: u64 = 4;
-/// The number of ticks in which a game should not be won by doing nothing.
+/// The number of ticks within which an idle player should not win.
 const MAX_IDLE_TICKS: usize = 300;
-/// The maximum number of ticks for an idle player if survival wins. It is also the number of random steps in
-/// deterministic games.
+/// The maximum number of ticks for an idle player if survival wins. In deterministic games, also the number of random
+/// steps.
 const MAX_TICKS: usize = 1000;
 
 impl ConstructiveLevels<'_> {
-    /// Converts a board to a level, or returns the board's fault. The `bool` is `true` if an idle player survives the
-    /// first ticks.
+    /// Converts a board to a level, or returns the board's problem. The `bool` is `true` if an idle player survives
+    /// the first ticks.
     pub(crate) fn inspect(&self, made: &Made, seed: Seed) -> Result<(Level, bool), String> {
         let board = &made.board;
         let text = board.text(&self.palette);
@@ -91,8 +91,8 @@ impl ConstructiveLevels<'_> {
             })
     }
 
-    /// Returns `true` if the types that the board holds, or should hold, have the companions that they almost always
-    /// have in the examples.
+    /// Returns `true` if the types that are or should be on the board stand next to their companions, as they almost
+    /// always do in the examples.
     pub(crate) fn has_companions(&self, made: &Made) -> bool {
         let Some(examples) = self.config.like.as_deref() else { return true };
         let board = &made.board;
@@ -116,8 +116,8 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Returns `true` if all harmless spawned chasers of something other than the avatar can reach their targets by
-    /// steps that each bring them nearer. Chasers make no other steps.
+    /// Returns `true` if all harmless spawned chasers with a target other than the avatar can reach it by steps that
+    /// each bring them nearer. Chasers never take other steps.
     pub(crate) fn chasers_reach_targets(&self, board: &Board) -> bool {
         let grid = board.grid;
         let types = |cell: usize| {
@@ -158,7 +158,7 @@ impl ConstructiveLevels<'_> {
         reached.contains(&aim)
     }
 
-    /// Returns `true` if a character places something that the avatar must touch for a win.
+    /// Returns `true` if a character places a sprite that the avatar must touch to win.
     fn is_goal(&self, symbol: u8) -> bool {
         let horizontal = self
             .analysis
@@ -172,7 +172,7 @@ impl ConstructiveLevels<'_> {
             })
     }
 
-    /// Returns `true` if an idle player does not lose within the grace period in any of a few futures.
+    /// Returns `true` if an idle player survives the grace period in all of a few random futures.
     fn is_survivable(&self, state: &State, seed: Seed) -> bool {
         (0..FUTURES).all(|future| {
             let mut state = state.fork(seed.child("future", future));
@@ -182,8 +182,8 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Plays the avatar's steps on a board. Returns the actions if they win. If `wins` is `false`, returns the
-    /// actions if all of them can be played. An avatar that turns before it moves gets an extra tick for each turn.
+    /// Plays the avatar's steps on a board. Returns the actions if they win or, if `wins` is `false`, if all of them
+    /// can be played. An avatar that turns before moving gets an extra tick for each turn.
     pub(crate) fn play(
         &self,
         board: &Board,

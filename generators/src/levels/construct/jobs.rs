@@ -1,5 +1,4 @@
-//! The tasks with pushed things in a game: the pushes, the path that the pushes open, and the things to visit
-//! afterwards.
+//! The pushing tasks in a game: the pushes, the path that the pushes open, and the sprites to visit afterwards.
 
 use super::plan::{furnishable, round};
 use crate::levels::palette::{Palette, Walk};
@@ -8,12 +7,12 @@ use engine::analysis::{Fate, Key, Lock, Pushable, Role, Sink, Steering};
 use engine::{Analysis, SpriteType};
 use itertools::Itertools;
 
-/// A task to push a sprite onto a partner.
+/// A task: push a sprite onto a partner.
 #[derive(Clone, Debug)]
 pub(crate) struct Job {
     pub(crate) pushed: SpriteType,
     pub(crate) partner: SpriteType,
-    /// `true` if the partner can also be pushed, and both are removed.
+    /// `true` if the partner can also be pushed, and both sprites are removed.
     pub(crate) merges: bool,
     /// `true` if the pushed sprite, or the sprite that it turns into, remains in the cell.
     pub(crate) stays: bool,
@@ -23,30 +22,30 @@ pub(crate) struct Job {
     pub(crate) walkable: bool,
 }
 
-/// The plan of a level with pushed things.
+/// The plan for a level with pushable objects.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Jobs {
     /// The pushes, in order.
     pub(crate) jobs: Vec<Job>,
-    /// `true` if the last job bridges the gap before the things to visit.
+    /// `true` if the last job bridges the gap in front of the sprites to visit.
     pub(crate) bridge: bool,
-    /// The door that the last job opens; `None` if it opens no door.
+    /// The door opened by the last job; `None` if that job does not open a door.
     pub(crate) door: Option<SpriteType>,
-    /// The gate in front of the things to visit; `None` if there is a bridge, a door or no gate.
+    /// The gate in front of the sprites to visit; `None` if there is a bridge, a door or no gate.
     pub(crate) gate: Option<SpriteType>,
     /// The number of visits to the gate's keys. These visits come first.
     pub(crate) keys: usize,
-    /// The types of pushable things that are merely obstacles.
+    /// The types of pushable objects that are merely obstacles.
     pub(crate) loose: Vec<SpriteType>,
-    /// The things that the avatar must touch at the end, in order: keys, then exits and goods.
+    /// The sprites that the avatar must touch at the end, in order: keys, then exits and goods.
     pub(crate) visits: Vec<SpriteType>,
-    /// `true` if a win needs nothing else.
+    /// `true` if the plan is sufficient for a win.
     pub(crate) is_all: bool,
 }
 
 impl Jobs {
-    /// Draws a plan; `None` if the game has nothing to push onto something. `asked` holds the requested exact numbers
-    /// of some sprites.
+    /// Draws a plan; `None` if no sprite in the game can be pushed onto another. `asked` contains the requested exact
+    /// numbers of some sprites.
     pub(crate) fn draw(
         analysis: &Analysis,
         palette: &Palette,
@@ -125,7 +124,7 @@ impl Jobs {
         sampler.shuffle(&mut self.jobs);
     }
 
-    /// Blocks the path with a door that pushing opens, or with a ditch that a pushed thing fills.
+    /// Blocks the path with a door that is opened by pushing, or with a ditch that a pushed object fills.
     fn bar(
         &mut self,
         analysis: &Analysis,
@@ -163,12 +162,12 @@ impl Jobs {
 }
 
 impl Jobs {
-    /// Returns `true` if something blocks the path to the things to visit.
+    /// Returns `true` if the path to the sprites to visit is blocked.
     pub(crate) fn is_barred(&self) -> bool {
         self.bridge || self.door.is_some() || self.gate.is_some()
     }
 
-    /// Blocks the path with a gate, if there is a suitable gate and nothing else blocks the path.
+    /// Blocks the path with a gate, if a suitable gate exists and the path is not blocked yet.
     fn guard(&mut self, analysis: &Analysis, palette: &Palette, sampler: &mut Sampler) {
         if self.is_barred() || self.visits.is_empty() {
             return;
@@ -199,12 +198,12 @@ impl Jobs {
     }
 }
 
-/// Returns `true` if a lock opens when one thing is pushed onto another.
+/// Returns `true` if a lock opens when one object is pushed onto another.
 fn is_pushed_open(lock: &Lock) -> bool {
     matches!(lock.key, Key::Switch(_, Some(_)))
 }
 
-/// Returns `true` if the partner can be placed, and pushing onto it does no damage.
+/// Returns `true` if the partner can be placed, and pushing an object onto it does no damage.
 fn is_fair(analysis: &Analysis, palette: &Palette, sink: &Sink) -> bool {
     let aims = analysis.aims();
     let spoils =
@@ -232,7 +231,7 @@ fn bridges(job: &Job) -> bool {
     job.fills && !job.stays && !job.merges && !job.walkable
 }
 
-/// Returns the things to visit. These are the keys of locked exits, then the exits. In a game without exits, they are
+/// Returns the sprites to visit: the keys of locked exits, followed by the exits. In a game without exits, returns
 /// the goods that count for a win.
 fn visits(analysis: &Analysis, palette: &Palette) -> Vec<SpriteType> {
     let exits = furnishable(analysis, palette, Role::Exit);

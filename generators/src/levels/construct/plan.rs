@@ -1,4 +1,4 @@
-//! The planned number of sprites of each type in a level.
+//! The planned number of sprites per type in a level.
 
 use crate::levels::examples::Target;
 use crate::levels::palette::Palette;
@@ -6,7 +6,7 @@ use base::Sampler;
 use engine::analysis::{Motion, Reason, Role};
 use engine::{Analysis, SpriteType};
 
-/// A desired number of sprites of a type.
+/// The desired number of sprites of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Wish {
     pub(crate) stype: SpriteType,
@@ -14,8 +14,8 @@ pub(crate) struct Wish {
     pub(crate) count: usize,
 }
 
-/// Returns the types to furnish a level with, and the number of each, for a board with `area` open cells. Gates, keys,
-/// walls and soil are placed separately.
+/// Returns the types with which to furnish a level, and their numbers, for a board with `area` open cells. Gates,
+/// keys, walls and soil are placed separately.
 pub(crate) fn wishes(
     analysis: &Analysis,
     palette: &Palette,
@@ -39,7 +39,7 @@ pub(crate) fn wishes(
     wishes
 }
 
-/// Returns the types to furnish a level with, and the number of each, following the examples.
+/// Returns the types with which to furnish a level, and their numbers, following the examples.
 pub(crate) fn wishes_like(
     analysis: &Analysis,
     palette: &Palette,
@@ -92,7 +92,7 @@ pub(crate) fn wishes_like(
     wishes
 }
 
-/// Limits the counts to the possible numbers.
+/// Limits the counts to feasible numbers.
 fn make_feasible(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     for wish in wishes.iter_mut().filter(|wish| analysis.facts(wish.stype).singleton) {
         wish.count = wish.count.min(1);
@@ -100,7 +100,7 @@ fn make_feasible(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
     require(analysis, area, wishes);
 }
 
-/// The roles in placement order. Sprites that others must not obstruct come first.
+/// The roles in placement order. Sprites that must not be obstructed come first.
 const ROLES: [Role; 16] = [
     Role::Exit,
     Role::Portal,
@@ -120,7 +120,7 @@ const ROLES: [Role; 16] = [
     Role::Collectable,
 ];
 
-/// Returns the types of a role that are worth placing. Such types have a character, last, and are not mere
+/// Returns the types with a role that are worth placing. Such types have a character, persist, and are not mere
 /// projectiles.
 pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) -> Vec<SpriteType> {
     let types = analysis.game().sprite_types().filter(|&stype| {
@@ -141,7 +141,7 @@ pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) ->
     types.filter(|stype| !flies(stype)).collect()
 }
 
-/// Returns `true` if a type is floor that does not lie everywhere and takes part in some interaction.
+/// Returns `true` if a type is floor that does not occur everywhere and takes part in an interaction.
 fn is_special_floor(analysis: &Analysis, palette: &Palette, stype: SpriteType) -> bool {
     let takes_part = || {
         analysis.encounters().iter().any(|encounter| {
@@ -152,7 +152,8 @@ fn is_special_floor(analysis: &Analysis, palette: &Palette, stype: SpriteType) -
     analysis.role(stype) == Role::Floor && !palette.ground.contains(&stype) && takes_part()
 }
 
-/// Returns the total number of sprites of all types with a role. `wanted` is `true` if they must be removed for a win.
+/// Returns the total number of sprites of all types with a role. `wanted` is `true` if these sprites must be removed
+/// for a win.
 fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) -> f64 {
     match role {
         Role::Exit | Role::Portal | Role::PortalExit | Role::Neutral => 1.0,
@@ -173,8 +174,8 @@ fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) ->
     }
 }
 
-/// Returns the minimum number of sprites for a role. If each type has its own meaning, the minimum is one of each,
-/// unless there are too many types.
+/// Returns the minimum number of sprites for a role. If each type has its own meaning, the minimum is one sprite per
+/// type, unless there are too many types.
 fn least(role: Role, types: usize) -> usize {
     match role {
         Role::Exit | Role::Portal | Role::PortalExit | Role::Neutral => types,
@@ -183,13 +184,12 @@ fn least(role: Role, types: usize) -> usize {
     }
 }
 
-/// Rounds up or down at random, so that the mean is the value.
+/// Rounds up or down at random, such that the expected result equals the value.
 pub(crate) fn round(value: f64, sampler: &mut Sampler) -> usize {
     (value + sampler.unit()) as usize
 }
 
-/// Distributes a total over the types. Each type gets one sprite as far as possible, and the rest is distributed at
-/// random.
+/// Distributes a total over the types. Each type gets one sprite if possible, and the rest is distributed at random.
 fn share(mut types: Vec<SpriteType>, role: Role, total: usize, sampler: &mut Sampler) -> Vec<Wish> {
     sampler.shuffle(&mut types);
     let mut wishes: Vec<Wish> = types.iter().map(|&stype| Wish { stype, role, count: 0 }).collect();

@@ -1,6 +1,6 @@
 //! The row above a level with a fuse, along which a spark burns to a keg.
 
-/// The characters in the row of a fuse.
+/// The characters in a fuse's row.
 pub(crate) struct FuseSymbols {
     pub(crate) spark: char,
     pub(crate) fuse: char,
@@ -8,7 +8,7 @@ pub(crate) struct FuseSymbols {
     pub(crate) wall: char,
 }
 
-/// Returns the row for a fuse of `cells` cells. The last cell is the keg.
+/// Returns the row with a fuse of `cells` cells. The last cell contains the keg.
 pub(crate) fn row(columns: usize, cells: usize, symbols: &FuseSymbols) -> String {
     let symbol = |column: usize| match column {
         0 => symbols.spark,

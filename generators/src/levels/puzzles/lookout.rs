@@ -1,51 +1,52 @@
-//! A careful player among strays, which wander at random. Its win rate shows how often frequent looks win a level.
+//! A careful player among strays (sprites that wander at random). The player's win rate shows how often a level is won
+//! by looking frequently.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::{Sampler, Seed};
 use engine::{Action, Game, Level, Outcome, SpriteType};
 use std::ops::RangeInclusive;
 
-/// The minimum number of ticks that a plan looks ahead.
+/// The minimum number of ticks covered by a plan.
 const AHEAD: usize = 12;
-/// The number of spare ticks at which a state is worth half as much as with unlimited time.
+/// The number of spare ticks at which a state is worth half of its value with unlimited time.
 const HALF: f64 = 3.0;
-/// The number of ticks after the next look in which a collision counts in full. Later collisions can mostly be dodged,
-/// so the probability of avoiding them counts as its fourth root.
+/// The number of ticks, after the player next looks, in which a collision counts in full. Later collisions can usually
+/// be dodged, so the fourth root of their avoidance probability is used.
 const BLIND: usize = 2;
 /// The approximate probability of surviving a tick beyond the plan.
 const SURVIVAL: f64 = 0.95;
-/// The survival probabilities for further episodes of a game, with more and with less patience.
+/// The survival probabilities for further episodes of a game, with a more and a less patient player.
 const OTHERS: [f64; 2] = [0.98, 0.9];
-/// The value for states without a possible win.
+/// The value for states from which a win is impossible.
 const NEVER: u16 = u16::MAX;
 
 /// The actions for the steps in [`WAYS`].
 pub(crate) const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
 
-/// The moves of an avatar among strays, as states with steps between them.
+/// An avatar's moves among strays, as states with steps between them.
 pub(crate) trait Moves {
     /// Returns the number of states.
     fn states(&self) -> usize;
-    /// Returns the state at the start.
+    /// Returns the initial state.
     fn start(&self) -> usize;
     /// Returns the avatar's cell in a state.
     fn cell(&self, state: usize) -> usize;
-    /// Returns `true` if a state wins.
+    /// Returns `true` if a state is won.
     fn is_won(&self, state: usize) -> bool;
-    /// Returns `true` if something other than a stray kills the avatar in a cell after a tick.
+    /// Returns `true` if the avatar would be killed in a cell after a tick by something other than a stray.
     fn is_busy(&self, tick: usize, cell: usize) -> bool;
     /// Returns the possible steps in a state, each with the state after the step. A step is an index into [`WAYS`], or
     /// `None` for a rest.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)>;
 }
 
-/// The strays of a level at its start, and the floor on which they wander. Only walls stop them.
+/// The strays at the start of a level, and the floor on which they wander. Strays are stopped only by walls.
 #[derive(Clone, Debug)]
 pub(crate) struct Strays {
     pub(crate) grid: Grid,
     pub(crate) is_floor: Vec<bool>,
     pub(crate) cells: Vec<usize>,
-    /// The number of ticks in which a stray moves one cell.
+    /// The number of ticks that a stray takes to move one cell.
     pub(crate) cooldown: usize,
 }
 
@@ -56,18 +57,17 @@ impl Strays {
     }
 }
 
-/// A player that knows everything except the future random moves of the strays. It knows their current positions and
-/// their rules. It plans the path with the greatest probability of meeting no stray, as if collisions in different
-/// ticks were independent, and takes the remaining time into account. Its win rate is a lower bound on what looking can
-/// achieve, not the optimum.
+/// A player that knows everything except the strays' future random moves. The player plans the path with the greatest
+/// probability of avoiding all strays, treating collisions in different ticks as independent and allowing for the
+/// remaining time. The resulting win rate is a lower bound on what looking can achieve, not the optimum.
 pub(crate) struct Lookout<M> {
     strays: Strays,
     moves: M,
     /// For each state, the states after each step, with their cells.
     steps: Vec<Vec<(usize, usize)>>,
-    /// The number of ticks until time is up.
+    /// The number of ticks until the time runs out.
     ticks: usize,
-    /// For each tick and the state before it, the earliest tick of a win without strays, or [`NEVER`].
+    /// For each tick and the state before that tick, the earliest tick of a win without strays, or [`NEVER`].
     finish: Vec<u16>,
     /// The probability of surviving each number of ticks.
     survival: Vec<f64>,
@@ -97,14 +97,14 @@ impl<M: Moves> Lookout<M> {
         Lookout { strays, moves, steps, ticks, finish, survival: survival(SURVIVAL, ticks) }
     }
 
-    /// Returns the avatar's cell at the start.
+    /// Returns the avatar's initial cell.
     pub(crate) fn start(&self) -> usize {
         self.moves.cell(self.moves.start())
     }
 
-    /// Places strays at the first of the `cells`. Their number is the largest in the range for which at least a
-    /// fraction `share` of `plays` episodes is won with a look before every tick. The same must hold for all smaller
-    /// numbers in the range. Returns the number, or `None` if even the smallest number is too large.
+    /// Places strays in the first of the `cells`. Uses the largest number in the range for which, as for all smaller
+    /// numbers in the range, at least a fraction `share` of `plays` episodes is won when the player looks before every
+    /// tick. Returns the number, or `None` if even the smallest number is too large.
     pub(crate) fn most_fair(
         &mut self,
         cells: &[usize],
@@ -123,14 +123,14 @@ impl<M: Moves> Lookout<M> {
         Some(number)
     }
 
-    /// Returns the fraction of `plays` episodes that are won with a look at the strays before every `commit` ticks.
+    /// Returns the fraction of `plays` episodes won by looking at the strays every `commit` ticks.
     pub(crate) fn rate(&self, commit: usize, plays: usize, sampler: &mut Sampler) -> f64 {
         let won = (0..plays).filter(|_| self.play(commit, sampler)).count();
         won as f64 / plays.max(1) as f64
     }
 
-    /// Returns `true` if at least a fraction `share` of `plays` episodes is won with a look before every tick. The
-    /// function stops as soon as the result is certain.
+    /// Returns `true` if at least a fraction `share` of `plays` episodes is won by looking before every tick. Stops as
+    /// soon as the result is certain.
     fn wins(&self, share: f64, plays: usize, sampler: &mut Sampler) -> bool {
         let needed = ((share * plays as f64).ceil() as usize).min(plays);
         let (mut won, mut lost) = (0, 0);
@@ -165,8 +165,8 @@ impl<M: Moves> Lookout<M> {
         false
     }
 
-    /// Plays the game with a look before every tick. The strays have the type `stray`. If the first episode is lost,
-    /// plays again with more and with less patience. Returns actions that win, or `None`.
+    /// Plays the game, looking before every tick. Strays have the type `stray`. If the first episode is lost, retries
+    /// with a more and a less patient player. Returns a winning sequence of actions, or `None`.
     pub(crate) fn win_game(
         &mut self,
         game: &Game,
@@ -214,7 +214,7 @@ impl<M: Moves> Lookout<M> {
         None
     }
 
-    /// Returns the states of the best plan for the next `commit` ticks, or until the plan wins; `None` if no path wins
+    /// Returns the states in the best plan for the next `commit` ticks, or until the plan wins; `None` if no path wins
     /// in time.
     fn plan(&self, tick: usize, state: usize, strays: &[usize], commit: usize) -> Option<Vec<usize>> {
         let last = (tick + commit.max(AHEAD)).min(self.ticks);
@@ -283,7 +283,8 @@ impl<M: Moves> Lookout<M> {
         (!plan.is_empty()).then_some(plan)
     }
 
-    /// Returns, for each tick after `tick` up to `last` and for each cell, the probability that no stray is there.
+    /// Returns, for each tick after `tick` up to `last` and for each cell, the probability that the cell contains no
+    /// stray.
     fn clear(&self, tick: usize, last: usize, strays: &[usize]) -> Vec<Vec<f64>> {
         let cells = self.strays.grid.len();
         let one = |&stray: &usize| {

@@ -1,4 +1,4 @@
-//! A level under edit: its characters, their uses, and the faults that an edit may have caused.
+//! A level being edited: its characters, their uses, and the problems that an edit may have caused.
 
 use crate::Generator;
 use crate::levels::config::LevelConfig;
@@ -11,44 +11,44 @@ use engine::analysis::{Harm, Reason, Role, Steering};
 use engine::{Level, SpriteType};
 use std::collections::VecDeque;
 
-/// The number of sample levels from which the usual counts are derived.
+/// The number of sample levels from which the normal counts are derived.
 const SAMPLES: u64 = 16;
-/// The minimum distance in cells between harmful things and the avatar's start.
+/// The minimum distance in cells between harmful sprites and the avatar's start.
 const MIN_DISTANCE: usize = 3;
-/// The number of cells below which an unreachable region of empty cells becomes wall.
+/// The size, in cells, below which an unreachable empty region becomes wall.
 const POCKET: usize = 4;
 
-/// The use of a level character.
+/// A level character's use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SymbolUse {
-    /// Ground that can lie anywhere, such as the empty cell, floor or soil.
+    /// Ground that can occur anywhere, such as the empty cell, floor or soil.
     Ground,
     /// An obstacle that always blocks the avatar.
     Wall,
     /// A character that places the avatar.
     Avatar,
-    /// Anything else, with its first role.
+    /// Any other sprite, with its first role.
     Thing(Role),
 }
 
-/// The uses of a game's characters, and the number of each in levels.
+/// The uses of a game's characters, and their numbers in levels.
 #[derive(Clone, Debug)]
 pub(crate) struct Vocabulary {
-    /// The use of each character.
+    /// Each character's use.
     kinds: Vec<SymbolUse>,
-    /// For each character, `true` if it is harmful or makes harmful things.
+    /// For each character, `true` if it is harmful or creates harmful sprites.
     harmful: Vec<bool>,
-    /// The minimum and maximum number of each character. They are equal if all sample levels agree.
+    /// The minimum and maximum number of each character. The two are equal if all sample levels agree.
     bounds: Vec<(usize, usize)>,
-    /// For each character, the range of its positions across the avatar's line of movement, in thousandths. The list is
-    /// empty if the avatar is not bound to a line.
+    /// For each character, the range of its positions across the avatar's line of movement, in thousandths. Empty if
+    /// the avatar is not bound to a line.
     bands: Vec<(usize, usize)>,
-    /// The requested minimum and maximum fraction of cells that hold more than floor.
+    /// The requested minimum and maximum fraction of cells that contain more than floor.
     cover: Option<(f64, f64)>,
 }
 
 impl Vocabulary {
-    /// Derives the vocabulary from sample levels. Cost: that of generating 16 levels.
+    /// Derives the vocabulary from sample levels. Costs as much as generating 16 levels.
     pub(crate) fn of(levels: &ConstructiveLevels<'_>, config: &LevelConfig) -> Vocabulary {
         let (game, analysis, palette) = (levels.game, &levels.analysis, &levels.palette);
         let kind = |symbol: u8| {
@@ -121,29 +121,29 @@ impl Vocabulary {
         self.bounds[usize::from(symbol)]
     }
 
-    /// Returns the characters of things.
+    /// Returns the characters of all other sprites ([`SymbolUse::Thing`]).
     pub(crate) fn things(&self) -> impl Iterator<Item = u8> + '_ {
         (b' '..=b'~').filter(|&symbol| matches!(self.kind(symbol), SymbolUse::Thing(_)))
     }
 }
 
-/// The faults of a level as numbers. A value of 0 is best for each.
+/// A level's problems, as numbers. For each problem, 0 is the best value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Faults {
-    /// The number of sprites by which the level misses the game's requirements or the usual numbers.
+    /// The number of sprites by which the level misses the game's requirements or the normal numbers.
     pub(crate) count_deviation: usize,
     /// The number of open cells that cannot be reached through open cells.
     pub(crate) stranded: usize,
-    /// The total amount by which harmful things are too close to the avatar.
+    /// The total amount by which harmful sprites are too close to the avatar.
     pub(crate) crowded: usize,
-    /// The number of isolated wall blocks, gates in the open, and things in unusual positions.
+    /// The number of isolated wall blocks, gates in the open, and sprites in unusual positions.
     pub(crate) misplaced: usize,
-    /// The number of missing or excess cells that hold more than floor.
+    /// The number of missing or excess cells that contain more than floor.
     pub(crate) cover_deviation: usize,
 }
 
 impl Faults {
-    /// Returns `true` if no fault is worse than in `other`.
+    /// Returns `true` if no problem is worse than in `other`.
     pub(crate) fn no_worse_than(&self, other: &Faults) -> bool {
         self.count_deviation <= other.count_deviation
             && self.stranded <= other.stranded
@@ -152,7 +152,7 @@ impl Faults {
             && self.cover_deviation <= other.cover_deviation
     }
 
-    /// Returns the worse of the two values for each fault.
+    /// Returns the worse of the two values for each problem.
     pub(crate) fn or(&self, other: &Faults) -> Faults {
         Faults {
             count_deviation: self.count_deviation.max(other.count_deviation),
@@ -164,7 +164,7 @@ impl Faults {
     }
 }
 
-/// A level under edit.
+/// A level being edited.
 #[derive(Clone)]
 pub(crate) struct Draft<'v> {
     pub(crate) levels: &'v ConstructiveLevels<'v>,
@@ -172,7 +172,7 @@ pub(crate) struct Draft<'v> {
     pub(crate) grid: Grid,
     /// The characters in row-major order.
     pub(crate) cells: Vec<u8>,
-    /// `true` if the whole border consists of walls, and must stay that way.
+    /// `true` if the whole border consists of walls, and must remain so.
     closed: bool,
 }
 
@@ -201,12 +201,12 @@ impl<'v> Draft<'v> {
         self.kind(cell) == SymbolUse::Ground
     }
 
-    /// Returns `true` if edits may change the cell, which is every cell except those of a closed border.
+    /// Returns `true` if edits may change the cell. All cells except those of a closed border may be changed.
     pub(crate) fn is_editable(&self, cell: usize) -> bool {
         !(self.closed && self.grid.on_border(cell))
     }
 
-    /// Returns the cells that edits may change and that `wanted` accepts.
+    /// Returns the editable cells accepted by `wanted`.
     pub(crate) fn cells_where(&self, wanted: impl Fn(&Self, usize) -> bool) -> Vec<usize> {
         (0..self.grid.len()).filter(|&cell| self.is_editable(cell) && wanted(self, cell)).collect()
     }
@@ -219,7 +219,7 @@ impl<'v> Draft<'v> {
         (0..self.grid.len()).find(|&cell| self.kind(cell) == SymbolUse::Avatar)
     }
 
-    /// Returns the number of cells that hold a character.
+    /// Returns the number of cells with a character.
     pub(crate) fn count(&self, symbol: u8) -> usize {
         self.cells.iter().filter(|&&other| other == symbol).count()
     }
@@ -230,7 +230,7 @@ impl<'v> Draft<'v> {
         places.filter(|&&placed| placed == stype).count()
     }
 
-    /// Returns the character of the ground next to a cell, for clearing the cell.
+    /// Returns the ground character next to a cell, for clearing the cell.
     pub(crate) fn ground_at(&self, cell: usize) -> u8 {
         let mut beside = self.grid.beside(cell).filter(|&next| self.is_ground(next));
         beside.next().map_or(self.levels.palette.base, |next| self.cells[next])
@@ -281,7 +281,7 @@ impl<'v> Draft<'v> {
         count_deviation + self.vocabulary.things().map(unusual).sum::<usize>()
     }
 
-    /// Returns the number of pushed things that must be removed and have no target.
+    /// Returns the number of pushable objects that must be removed and have no target.
     fn pushables_without_target(&self) -> usize {
         let analysis = &self.levels.analysis;
         let wanted = |stype: &SpriteType| analysis.aims().remove.contains(stype);
@@ -298,7 +298,7 @@ impl<'v> Draft<'v> {
         lacking.sum()
     }
 
-    /// Returns the open cells that the avatar cannot reach through open cells.
+    /// Returns the open cells unreachable for the avatar.
     fn stranded(&self) -> Vec<usize> {
         let Some(avatar) = self.avatar() else { return Vec::new() };
         let steps = self.grid.flood(&[avatar], |cell| !self.is_wall(cell));
@@ -333,8 +333,8 @@ impl<'v> Draft<'v> {
         over.ceil() as usize
     }
 
-    /// Returns, for each side of a cell, `true` if there is a wall, in the order of [`WAYS`]. Cells off the board count
-    /// as walls.
+    /// Returns, for each side of a cell in [`WAYS`] order, `true` if there is a wall. Cells off the board count as
+    /// walls.
     pub(crate) fn walls_beside(&self, cell: usize) -> [bool; 4] {
         WAYS.map(|way| self.grid.shift(cell, way).is_none_or(|next| self.is_wall(next)))
     }
@@ -345,7 +345,7 @@ impl<'v> Draft<'v> {
     }
 
     /// Returns `true` if a character belongs in a cell. Gates need walls on both sides. If the avatar moves along a
-    /// line, everything keeps its usual distance from that line.
+    /// line, every sprite keeps its normal distance from that line.
     pub(crate) fn is_in_place(&self, symbol: u8, cell: usize) -> bool {
         let gate = self.vocabulary.kind(symbol) == SymbolUse::Thing(Role::Gate);
         let place = || across(self.levels, self.grid, cell);
@@ -359,7 +359,7 @@ impl<'v> Draft<'v> {
         self.is_ground(cell) && self.is_in_place(symbol, cell)
     }
 
-    /// Opens as few walls as possible to connect unreachable regions, and fills small empty regions.
+    /// Connects unreachable regions by opening as few walls as possible, and fills small empty regions.
     pub(crate) fn open_ways(&mut self) {
         let Some(wall) = self.levels.palette.wall else { return };
         for _ in 0..self.grid.len() {
@@ -376,7 +376,7 @@ impl<'v> Draft<'v> {
         }
     }
 
-    /// Opens as few walls as possible between the avatar and a cell.
+    /// Connects the avatar and a cell by opening as few walls as possible.
     fn open_way(&mut self, to: usize) -> Option<()> {
         let avatar = self.avatar()?;
         let mut opened = vec![FAR; self.grid.len()];
@@ -403,7 +403,7 @@ impl<'v> Draft<'v> {
         (opened[to] != FAR).then_some(())
     }
 
-    /// Adds and removes things until their numbers are usual, as far as there is room.
+    /// Adds and removes sprites until their numbers are normal, as far as there is room.
     pub(crate) fn recount(&mut self, sampler: &mut Sampler) {
         for symbol in self.vocabulary.things() {
             let (low, high) = self.vocabulary.bounds(symbol);

@@ -1,4 +1,4 @@
-//! Small, meaningful changes to a level, like the next changes of a designer.
+//! Small, meaningful changes to a level, similar to a designer's next changes.
 
 use super::draft::{Draft, SymbolUse};
 use crate::levels::construct::layout;
@@ -11,27 +11,27 @@ use engine::analysis::{Motion, Role, Steering};
 const NEAR: usize = 2;
 /// The maximum number of wall cells that move together.
 const SEGMENT: usize = 6;
-/// The minimum side length of a part that is regrown.
+/// The minimum side length of a part to redraw.
 const PART: usize = 4;
 
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edit {
-    /// Moves a thing to a nearby cell. A straight mover stays in its row or column.
+    /// Moves a sprite to a nearby cell. A straight mover stays in its row or column.
     Nudge,
-    /// Moves a thing anywhere.
+    /// Moves a sprite anywhere.
     Carry,
-    /// Adds a thing. If the thing is pushed, also adds a target for it.
+    /// Adds a sprite. If the sprite is pushable, also adds a target.
     Add,
-    /// Removes a thing. If the thing is a target, also removes one of the pushed things.
+    /// Removes a sprite. If the sprite is a target, also removes one pushable object.
     Remove,
-    /// Swaps two things of different kinds.
+    /// Swaps two sprites of different kinds.
     Swap,
     /// Moves the avatar's start.
     Restart,
-    /// Extends a line of wall at its end.
+    /// Extends a line of walls at its end.
     Extend,
-    /// Shortens a line of wall at its end.
+    /// Shortens a line of walls at its end.
     Shorten,
     /// Opens a gap in a wall between two open cells.
     Open,
@@ -39,9 +39,9 @@ pub(crate) enum Edit {
     Close,
     /// Moves a line of walls sideways.
     Shift,
-    /// Copies the walls of one half to the other half.
+    /// Copies one half's walls to the other half.
     Mirror,
-    /// Redraws the walls of a part of the level. The things in the part stay.
+    /// Redraws the walls in a part of the level, leaving the part's sprites in place.
     Regrow,
 }
 
@@ -93,8 +93,8 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Makes a change of the given kind. Returns `None` if there is nothing to change, or if the drawn change does not
-    /// work. The draft must then be discarded.
+    /// Applies a change of the given kind. Returns `None` if there is nothing to change, or if the drawn change does
+    /// not work. The draft must then be discarded.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::Nudge => self.nudge(sampler),
@@ -131,7 +131,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Returns the direction of a thing that moves straight ahead, and therefore the line that the thing belongs to.
+    /// Returns the direction of a sprite that moves straight ahead, and therefore the sprite's line.
     fn line_of_motion(&self, cell: usize) -> Option<(i32, i32)> {
         let analysis = &self.levels.analysis;
         self.levels.game.places(self.cells[cell]).iter().find_map(|&stype| {
@@ -151,8 +151,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Returns the cells of other things with the same character, if the character gives shelter or is breakable,
-    /// because such things lie together.
+    /// Returns the cells of other sprites with the same character, if the character provides shelter or is breakable.
+    /// Such sprites lie together.
     fn cluster(&self, thing: usize) -> Vec<usize> {
         let symbol = self.cells[thing];
         let lies = matches!(
@@ -182,7 +182,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Puts one more thing with a character on the ground, either near things with the same character or anywhere.
+    /// Places one more sprite with a character on the ground, near sprites with the same character or anywhere.
     fn put(&mut self, symbol: u8, sampler: &mut Sampler) -> Option<()> {
         let like: Vec<usize> = self.cells_where(|draft, cell| draft.cells[cell] == symbol);
         let near = sampler.ratio(1, 2) && !like.is_empty();
@@ -215,7 +215,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Returns the characters of the targets that fill up when a thing with the character is pushed onto them.
+    /// Returns the characters of targets that fill up when a sprite with the given character is pushed onto them.
     fn partners(&self, symbol: u8) -> Vec<u8> {
         let (levels, mut partners) = (self.levels, Vec::new());
         for pushable in levels.analysis.pushables() {
@@ -260,7 +260,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Turns a cell that `wanted` accepts from wall into ground, or vice versa. If the walls are symmetric, also turns
+    /// Turns a cell accepted by `wanted` from wall into ground, or vice versa. If the walls are symmetric, also turns
     /// the cell's mirror image.
     fn toggle(&mut self, sampler: &mut Sampler, wanted: impl Fn(&Self, usize) -> bool) -> Option<()> {
         let wall = self.levels.palette.wall?;
@@ -287,7 +287,7 @@ impl Draft<'_> {
         cells
     }
 
-    /// Returns the symmetry of the walls; `None` if there are too few walls to determine it.
+    /// Returns the walls' symmetry; `None` if there are too few walls to determine it.
     fn symmetry(&self) -> Option<Symmetry> {
         let inner = self.cells_where(Draft::is_wall).len();
         let holds = |symmetry: &Symmetry| {
@@ -297,12 +297,12 @@ impl Draft<'_> {
         Symmetry::ALL.into_iter().find(holds).filter(|_| inner >= 4)
     }
 
-    /// Returns `true` if a cell is ground ahead of the end of a line, with nothing to its sides.
+    /// Returns `true` if a cell is ground ahead of a line's end, with free cells at its sides.
     fn extends(&self, cell: usize) -> bool {
         self.is_ground(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() == 1
     }
 
-    /// Returns `true` if a cell is the end of a line or an isolated block.
+    /// Returns `true` if a cell is a line's end or an isolated block.
     fn is_end(&self, cell: usize) -> bool {
         self.is_wall(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() <= 1
     }

@@ -8,12 +8,12 @@ use crate::{GenerateError, Variation};
 use base::{Sampler, Seed};
 use engine::{Game, Level};
 
-/// The variation of levels that suits a game.
+/// The level variation suitable for a game.
 pub enum LevelSearch<'a> {
-    /// The variation for games that are won by pushing alone. It varies floor plans, and searches each plan backwards
-    /// for its farthest position.
+    /// The variation for games won by pushing alone. Varies floor plans, and searches each plan backwards for its
+    /// farthest position.
     Puzzles(PuzzleVariation<'a>),
-    /// The variation for any other game, which edits levels.
+    /// The variation for all other games. Edits levels.
     Edits(LevelVariation<'a>),
 }
 

@@ -10,26 +10,26 @@ use engine::{Game, Level};
 
 /// The number of attempts at an edit before a different kind is tried.
 const REDRAWS: usize = 24;
-/// The number of mutations or crossovers to try before a candidate is returned unchanged.
+/// The number of mutations or crossovers to try before returning a candidate unchanged.
 const ATTEMPTS: usize = 12;
 
-/// Levels of any game as candidates of a search. [`ConstructiveLevels`] makes the levels, and edits that are meaningful
-/// in the game change them. Things move, or are added or removed by role. Lines of wall grow, shrink, open and shift.
+/// Levels for any game, as search candidates. [`ConstructiveLevels`] generates the levels, which are then changed by
+/// edits that are meaningful in the game. Sprites move, or are added or removed by role. Lines of walls grow, shrink,
+/// open and shift.
 ///
-/// All results are levels with one avatar, with the size and the closed border of the parent, and without a termination
-/// that holds at the start. No fault is worse than in the parents: required things are present, and numbers and cover
-/// are as requested and usual. No cell is cut off, nothing harmful stands next to the avatar, no gate is in the open,
-/// and no wall block is isolated. Symmetric walls mostly stay symmetric. This type evaluates nothing. Other code judges
-/// whether a level can be won.
+/// All results are levels with one avatar, with the parent's size and closed border, and without a termination that
+/// holds at the start. No problem is worse than in the parents: required sprites are present, and numbers and cover are
+/// as requested and normal. No cell is cut off, no harmful sprite is next to the avatar, no gate is in the open, and no
+/// wall block is isolated. Symmetric walls mostly stay symmetric. This type does not judge whether a level can be won.
 ///
-/// Cost: some tens of microseconds per mutation of a level of usual size.
+/// Cost: tens of microseconds per mutation of a typical level.
 pub struct LevelVariation<'a> {
     levels: ConstructiveLevels<'a>,
     vocabulary: Vocabulary,
 }
 
 impl<'a> LevelVariation<'a> {
-    /// Creates a variation for a game. Cost: that of generating 16 constructive levels.
+    /// Creates a variation for a game. Costs as much as generating 16 constructive levels.
     ///
     /// # Errors
     /// Returns the errors of [`ConstructiveLevels::new`].
@@ -38,7 +38,7 @@ impl<'a> LevelVariation<'a> {
         Ok(LevelVariation { vocabulary: Vocabulary::of(&levels, &config), levels })
     }
 
-    /// Returns the constructive generator of the initial levels of a search.
+    /// Returns the constructive generator for a search's initial levels.
     pub fn constructive(&self) -> &ConstructiveLevels<'a> {
         &self.levels
     }
@@ -47,8 +47,7 @@ impl<'a> LevelVariation<'a> {
         Draft::of(&self.levels, &self.vocabulary, level)
     }
 
-    /// Returns a draft with one more edit; `None` if several draws of an edit of one kind all cause faults or change
-    /// nothing.
+    /// Returns a draft with one more edit; `None` if several edits of one kind all cause problems or change nothing.
     fn edited<'v>(&self, draft: &Draft<'v>, allowed: &Faults, sampler: &mut Sampler) -> Option<Draft<'v>> {
         let edit = Edit::draw(sampler);
         (0..REDRAWS).find_map(|_| {
@@ -58,7 +57,7 @@ impl<'a> LevelVariation<'a> {
         })
     }
 
-    /// Makes one to three edits.
+    /// Applies one to three edits.
     fn mutated(&self, parent: &Draft<'_>, allowed: &Faults, sampler: &mut Sampler) -> Option<Level> {
         let edits = 1 + sampler.weighted(&[5, 3, 2]).unwrap_or(0);
         let mut draft = parent.clone();
@@ -69,7 +68,7 @@ impl<'a> LevelVariation<'a> {
         if draft.cells == parent.cells { None } else { draft.level() }
     }
 
-    /// Puts a part of the second level into the first, and repairs the result.
+    /// Places a part of the second level into the first, and repairs the result.
     fn crossed(&self, one: &Draft<'_>, two: &Draft<'_>, sampler: &mut Sampler) -> Option<Level> {
         let mut child = one.clone();
         let columns = one.grid.columns.min(two.grid.columns);
@@ -115,7 +114,7 @@ impl Variation for LevelVariation<'_> {
         self.levels.generate(seed).ok()
     }
 
-    /// Makes one to three edits. Returns the parent itself if many attempts yield no level.
+    /// Applies one to three edits. Returns the parent itself if many attempts fail to yield a level.
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
         let draft = self.draft(parent);
         let allowed = draft.faults();
@@ -123,8 +122,8 @@ impl Variation for LevelVariation<'_> {
         mutated.unwrap_or_else(|| parent.clone())
     }
 
-    /// Puts a half or a rectangle of the second level into the first, as far as they overlap. Mutates the first level
-    /// if several attempts yield no level.
+    /// Copies a half or a rectangle from the second level into the first, as far as they overlap. Mutates the first
+    /// level if several attempts fail to yield a level.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.draft(one), self.draft(two));
         let crossed = (0..ATTEMPTS).find_map(|_| self.crossed(&first, &second, sampler));
@@ -158,7 +157,7 @@ mod tests {
         Seed::from_text("variation").child(name, 0)
     }
 
-    /// Returns the border cells; `None` unless all of them are walls.
+    /// Returns the border cells; `None` unless all border cells are walls.
     fn border(variation: &LevelVariation<'_>, level: &Level) -> Option<Vec<u8>> {
         let draft = variation.draft(level);
         let border: Vec<usize> = (0..draft.grid.len()).filter(|&cell| draft.grid.on_border(cell)).collect();

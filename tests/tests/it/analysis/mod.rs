@@ -1,4 +1,4 @@
-//! Tests of the analysis during play: its proofs hold on the corpus, and on the reference's games if they are available.
+//! Tests the analysis during play: its proofs hold on the corpus, and on the reference's games if available.
 
 use base::{Sampler, Seed};
 use engine::analysis::{Attainable, Reach};
@@ -15,17 +15,17 @@ use tests::{generated, sweep, workspace_root};
 const GAMES: usize = 4000;
 /// The number of ticks to play each generated game in a sweep.
 const TICKS: usize = 40;
-/// The number of generated games to play, most of which compile.
+/// The number of generated games to play. Most of them compile.
 const INVENTED: u64 = 400;
 
-/// A game with its levels.
+/// A game and its levels.
 struct Case {
     name: String,
     game: Game,
     levels: Vec<Level>,
 }
 
-/// Returns the games in the subfolders of a folder that load. If the folder is missing, prints a message and returns no
+/// Returns the loadable games in a folder's subfolders. If the folder is missing, prints a message and returns no
 /// games.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn games(folder: &Path) -> Vec<Case> {
@@ -54,7 +54,7 @@ fn all_games() -> Vec<Case> {
     cases
 }
 
-/// Returns a game for every form of every kernel, with one level per slot.
+/// Returns a game for each form of each kernel, with one level per slot.
 fn kernels() -> impl Iterator<Item = Case> {
     let genomes = KernelGenome::kernels().flat_map(KernelGenome::all_of);
     let mut seen = BTreeSet::new();
@@ -71,7 +71,7 @@ fn kernels() -> impl Iterator<Item = Case> {
     })
 }
 
-/// Plays some levels of every game at random. `visit` sees every state, including the start.
+/// Plays some levels of every game at random. Calls `visit` with every state, including the initial one.
 fn wander(
     levels: usize,
     ticks: usize,
@@ -124,7 +124,7 @@ fn deterministic_states_have_one_future() {
     assert!(certain > 100 && turned > 0, "{certain} states, {turned} of them in stochastic games");
 }
 
-/// In generated games too, different seeds with the same actions give the same sprites once randomness no longer
+/// In generated games, too, different seeds with the same actions give the same sprites once randomness no longer
 /// matters.
 #[test]
 fn deterministic_generated_games_have_one_future() {
@@ -165,8 +165,7 @@ fn deterministic_generated_games_have_one_future() {
     assert!(certain > 100 && drawn > 20, "{certain} states, {drawn} of them with draws");
 }
 
-/// Goals that can hold only from the start are not reached later, and goals that cannot hold at the start do not hold
-/// at the start.
+/// Goals that can hold only from the start are not reached later, and goals that cannot hold at the start do not.
 #[test]
 fn goals_are_attained_as_proved() {
     let mut holds: Vec<bool> = Vec::new();
@@ -196,8 +195,8 @@ fn goals_are_attained_as_proved() {
     });
 }
 
-/// Generated games are neither won nor lost after their first tick if that is proved impossible, and their sprites stay
-/// within their reach.
+/// Generated games are not won or lost after their first tick if such an outcome is proved impossible, and their
+/// sprites stay within their reach.
 #[test]
 fn any_game_ends_as_proved() {
     let mut sampler = sweep::seed("ends").sampler();
@@ -236,7 +235,7 @@ fn any_game_ends_as_proved() {
     assert!(proofs > games / 4 && ends > games / 80, "{proofs} proofs, {ends} ends of {games}");
 }
 
-/// In hand-written games, every sprite is where its type can be, whatever actions are played.
+/// In hand-written games, every sprite stays where its type can be, regardless of the actions.
 #[test]
 fn sprites_are_where_they_can_be() {
     let mut reach = None;
@@ -250,7 +249,7 @@ fn sprites_are_where_they_can_be() {
     assert!(looked > 100_000, "{looked} cells");
 }
 
-/// The levels of the corpus can be won, and no proof denies this.
+/// The corpus levels can be won, and no proof denies it.
 #[test]
 fn the_goals_of_the_corpus_are_in_reach() {
     for Case { name, game, levels } in games(&workspace_root().join("corpora")) {
@@ -262,7 +261,7 @@ fn the_goals_of_the_corpus_are_in_reach() {
     }
 }
 
-/// In generated games too, every sprite is where its type can be.
+/// In generated games, too, every sprite stays where its type can be.
 #[test]
 fn sprites_of_generated_games_are_where_they_can_be() {
     let (mut played, mut narrow) = (0, 0);
@@ -293,8 +292,8 @@ fn sprites_of_generated_games_are_where_they_can_be() {
     );
 }
 
-/// Checks that all sprites of a state are where their types can be, and that the game ends only as it can end. Returns
-/// the number of cells that the sprites cover.
+/// Checks that all sprites in a state are where their types can be, and that the game ends only as it can end. Returns
+/// the number of cells covered by the sprites.
 fn look(Case { name, game, .. }: &Case, reach: &Reach, level: &Level, state: &State) -> u64 {
     let lost = state.outcome() == Outcome::Lost && state.tick() < engine::MAX_TICKS;
     assert!(reach.can_win() || state.outcome() != Outcome::Won, "{name} is won\n{level}");

@@ -1,4 +1,4 @@
-//! Citations in comments and pages: sections of `docs/reference/spec`, files in the repository, and decisions by number.
+//! Citations in comments and pages: sections in `docs/reference/spec`, files in the repository, and numbered decisions.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -7,10 +7,10 @@ use tests::{read, workspace_files};
 
 use super::report;
 
-/// The folder of the specification's pages, `01-….md` and so on.
+/// The folder with the specification's pages, `01-….md` and so on.
 const PAGES: &str = "docs/reference/spec";
 
-/// Notes from before the repository, which a comment must not cite. The name is split so that this file does not match.
+/// Notes from before the repository, which comments must not cite. The name is split so that this file does not match.
 const NOTES: &str = concat!("design", ".md");
 
 #[test]
@@ -115,9 +115,9 @@ fn paths_that_lead_nowhere_are_found() {
     assert!(found[0].0 == 2 && found[0].1.contains("`engine/src/leap.rs`"), "{found:?}");
 }
 
-/// The targets of citations.
+/// The possible targets of citations.
 struct Tree {
-    /// The pages of the specification, by their two digits.
+    /// The specification's pages, by their two digits.
     pages: BTreeMap<String, Page>,
     /// All files and folders in the repository.
     paths: BTreeSet<String>,
@@ -143,32 +143,32 @@ impl Tree {
         tree
     }
 
-    /// Returns the two digits in the name of a page of the specification; `None` for any other file.
+    /// Returns the two digits in the name of a specification page; `None` for any other file.
     fn spec_page<'a>(&self, file: &'a str) -> Option<&'a str> {
         let name = file.strip_prefix(PAGES)?.strip_prefix('/')?;
         let digits = name.get(..2)?;
         self.pages.contains_key(digits).then_some(digits)
     }
 
-    /// Returns `true` if the repository contains a file or folder with this path.
+    /// Returns `true` if the repository contains a file or folder with the given path.
     fn has(&self, path: &str) -> bool {
         self.paths.contains(path.trim_end_matches('/'))
     }
 
-    /// Returns `true` if a path leads to a file or folder from the root, from the file that cites it, or from any crate.
+    /// Returns `true` if a path leads to a file or folder from the root, from the citing file, or from any crate.
     fn finds(&self, path: &str, cited_in: &Path) -> bool {
         let from = |folder: &str| self.has(&format!("{folder}/{path}"));
         let own = cited_in.parent().map(|folder| folder.to_string_lossy().into_owned());
         self.has(path) || own.is_some_and(|folder| from(&folder)) || self.crates().any(from)
     }
 
-    /// Returns the folders of crates.
+    /// Returns the crate folders.
     fn crates(&self) -> impl Iterator<Item = &str> {
         self.paths.iter().filter_map(|path| path.strip_suffix("/Cargo.toml"))
     }
 }
 
-/// The sections of a page by number, each with its text up to the next heading of the same or a higher level.
+/// A page's sections by number, each with its text up to the next heading at the same or a higher level.
 struct Page {
     sections: BTreeMap<String, String>,
 }
@@ -196,7 +196,7 @@ impl Page {
         Page { sections }
     }
 
-    /// Returns `true` if a section contains the row, the vector or the numbered step.
+    /// Returns `true` if a section contains the given row, vector or numbered step.
     fn has(&self, section: &str, mark: &str) -> bool {
         let Some(text) = self.sections.get(section) else { return false };
         match mark.strip_prefix("step ") {
@@ -206,7 +206,7 @@ impl Page {
     }
 }
 
-/// The kind of comments in a file.
+/// The kind of comments used in a file.
 #[derive(Clone, Copy, PartialEq)]
 enum CitationKind {
     /// Comments that start with `//`.
@@ -218,7 +218,7 @@ enum CitationKind {
 }
 
 impl CitationKind {
-    /// Returns the kind of a hand-written file, by its name. Scripts have no extension.
+    /// Returns a hand-written file's kind of comments, by file name. Scripts have no extension.
     fn of(file: &Path) -> Option<CitationKind> {
         let Some(extension) = file.extension() else {
             let script = file.starts_with("tools/scripts") || file.starts_with(".ci");
@@ -232,7 +232,7 @@ impl CitationKind {
         }
     }
 
-    /// Returns the comment in a line; `None` if the line has no comment.
+    /// Returns a line's comment; `None` if the line has no comment.
     fn comment(self, line: &str) -> Option<&str> {
         let mark = match self {
             CitationKind::Slashes => "//",
@@ -250,7 +250,7 @@ impl CitationKind {
 /// Consecutive comment lines, as one text.
 struct Block {
     text: String,
-    /// The offset of each line in the text, and its number in the file.
+    /// Each line's offset in the text, and its line number in the file.
     lines: Vec<(usize, usize)>,
 }
 
@@ -274,12 +274,12 @@ fn blocks(source: &str, kind: CitationKind) -> Vec<Block> {
 }
 
 impl Block {
-    /// Returns the line number in the file of a position in the text.
+    /// Returns the file's line number for a position in the text.
     fn line(&self, at: usize) -> usize {
         self.lines.iter().rev().find(|(start, _)| *start <= at).map_or(1, |(_, line)| *line)
     }
 
-    /// Returns the problems with the citations, each with its line. `own` is the page of the specification that contains the
+    /// Returns the problems with the citations, each with its line. `own` is the specification page that contains the
     /// block.
     fn problems(&self, tree: &Tree, own: Option<&str>) -> Vec<(usize, String)> {
         let mut problems = Vec::new();
@@ -324,7 +324,7 @@ impl Block {
         problems
     }
 
-    /// Returns the paths in backticks that begin with a top-level folder and do not exist, each with its line.
+    /// Returns the nonexistent paths in backticks that begin with a top-level folder, each with its line.
     fn missing_files(&self, tree: &Tree, cited_in: &Path) -> Vec<(usize, String)> {
         let mut problems = Vec::new();
         let mut at = 0;
@@ -340,7 +340,7 @@ impl Block {
         problems
     }
 
-    /// Checks a list of sections and marks after the name of a page, such as "§1, §10 K-1 and §1.3–§1.9".
+    /// Checks a list of sections and marks after a page name, such as "§1, §10 K-1 and §1.3–§1.9".
     fn sections(&self, tree: &Tree, page: &str, at: usize, problems: &mut Vec<(usize, String)>) {
         let Some(sections) = tree.pages.get(page) else {
             let problem = format!("there is no page `spec/{page}`; cite one of {PAGES}");
@@ -385,7 +385,7 @@ impl Block {
         }
     }
 
-    /// Checks the references in a page of the specification to its own sections, such as `§4.1`, and to sections of other pages,
+    /// Checks a specification page's references to its own sections, such as `§4.1`, and to sections in other pages,
     /// such as `02 §15`.
     fn own_sections(&self, tree: &Tree, own: &str, problems: &mut Vec<(usize, String)>) {
         for (at, sign) in self.text.match_indices('§') {

@@ -1,10 +1,10 @@
-//! The readers of clocks, which are a few files. None of them makes a game, a level, a verdict or a move.
+//! The few files that read a clock. None of these files produces a game, a level, a verdict or a move.
 
 use tests::rust_files;
 
 use super::report;
 
-/// The files that read a clock, each with the purpose of the time.
+/// The files that read a clock, each with the purpose for which the time is used.
 const READERS: &[(&str, &str)] = &[
     ("crates/agents/benches/batch.rs", "a benchmark"),
     ("crates/cli/src/console.rs", "seconds in remarks"),
@@ -19,7 +19,7 @@ const READERS: &[(&str, &str)] = &[
     ("tools/xtask/src/sweep.rs", "fresh seeds of tests"),
 ];
 
-/// The calls that read a clock. They are split so that this file does not match.
+/// The calls that read a clock. The names are split so that this file does not match.
 const READS: [&str; 4] = [
     concat!("Instant", "::now"),
     concat!("SystemTime", "::now"),

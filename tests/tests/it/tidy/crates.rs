@@ -1,10 +1,10 @@
-//! The dependencies between our crates, and the use of external crates in them.
+//! The dependencies between our crates, and their use of external crates.
 
 use super::{manifests, name_of, report};
 use std::collections::{BTreeMap, BTreeSet};
 use tests::{read, rust_files};
 
-/// Our crates, each with its allowed dependencies. Imports go in one direction only.
+/// Our crates, each with its allowed dependencies. Imports may go in one direction only.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("base", &[]),
     ("disk", &[]),
@@ -112,7 +112,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// The crate that may depend on all others, because no crate depends on it.
+/// The crate that may depend on all others, because none depends on it.
 pub(super) const ABOVE_ALL: &str = "tests";
 
 /// External crates (with their families, such as `pest_derive`) that only a few of our crates may use.
@@ -236,8 +236,8 @@ fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> b
     false
 }
 
-/// A crate without doctests states this in its manifest, which saves a compilation. A crate that states this must
-/// have no doctests.
+/// A crate without doctests declares this in its manifest, which saves a compilation. A crate with this
+/// declaration must not contain doctests.
 #[test]
 fn doctests_are_looked_for_where_there_are_some() {
     let mut fenced: BTreeMap<String, String> = BTreeMap::new();

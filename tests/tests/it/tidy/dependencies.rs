@@ -1,4 +1,4 @@
-//! The table of dependencies in `docs/lab/decisions/0002-dependencies.md`, compared with the manifests.
+//! The dependency table in `docs/lab/decisions/0002-dependencies.md`, compared with the manifests.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::{get, manifest, manifests, name_of, report};
 
 const TABLE: &str = "docs/lab/decisions/0002-dependencies.md";
 
-/// The folder that has its own workspace.
+/// The folder with its own workspace.
 const APART: &str = "tools/fuzz";
 
 #[test]
@@ -58,7 +58,7 @@ fn missing_and_superfluous_rows_are_found() {
     );
 }
 
-/// Returns the crates in backticks in the second column of the page's tables, each with its line.
+/// Returns the crates in backticks in the second column of a page's tables, each with its line.
 fn named(page: &str) -> Vec<(String, usize)> {
     let mut named = Vec::new();
     for (line, number) in page.lines().zip(1..) {
@@ -68,7 +68,7 @@ fn named(page: &str) -> Vec<(String, usize)> {
     named
 }
 
-/// Returns the external crates that any manifest declares, each with one manifest that declares it.
+/// Returns the external crates declared in any manifest, each with one manifest that declares it.
 fn declared() -> BTreeMap<String, String> {
     let source = read("Cargo.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("Cargo.toml: {error}"));
@@ -95,7 +95,7 @@ fn declared() -> BTreeMap<String, String> {
     declared
 }
 
-/// Returns problems for missing rows, and then problems for rows without a dependency.
+/// Returns the problems: first missing rows, and then rows without a dependency.
 fn differences(named: &[(String, usize)], declared: &BTreeMap<String, String>) -> Vec<String> {
     let rows: BTreeSet<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
     let missing = declared.iter().filter(|(name, _)| !rows.contains(name.as_str()));

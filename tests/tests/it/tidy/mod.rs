@@ -1,7 +1,7 @@
 //! House rules that can be checked automatically, such as the imports between crates, the length of files and the
 //! targets of links.
 //!
-//! Every message has the form `file:line: the problem; the fix`, and a test reports all problems at once.
+//! Every message has the form `file:line: the problem; the fix`, and a test reports all problems together.
 
 mod citations;
 mod clocks;
@@ -22,7 +22,7 @@ use toml::de::{DeTable, DeValue};
 /// The maximum length of a Rust file, in lines.
 const RUST_LINES: usize = 1000;
 
-/// The pages at the root. Their links are checked like the links in `docs/`.
+/// The pages in the root folder. Their links are checked in the same way as links in `docs/`.
 const PAGES: [&str; 4] = ["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "README.md"];
 
 #[test]
@@ -40,7 +40,7 @@ fn rust_files_are_short() {
     report(problems);
 }
 
-/// This test relies on the formatting, which puts only the first line of every item at the left margin.
+/// This test relies on the formatting, which places only the first line of each item at the left margin.
 #[test]
 fn lib_files_hold_docs_and_declarations_only() {
     let mut problems = Vec::new();
@@ -249,7 +249,7 @@ fn absolute_paths_are_found() {
     }
 }
 
-/// The dependencies in a member's `Cargo.toml`, of all kinds and for all targets.
+/// All dependencies in a member's `Cargo.toml`, of every kind and for every target.
 struct Manifest {
     /// The folder and library name, such as `engine`.
     folder: String,
@@ -263,7 +263,7 @@ impl Manifest {
         format!("{}/Cargo.toml", self.folder)
     }
 
-    /// Returns the last component of the folder, which is the name of the crate.
+    /// Returns the last component of the folder: the crate's name.
     fn name(&self) -> &str {
         self.folder.rsplit('/').next().expect("a folder has a name")
     }
@@ -273,14 +273,14 @@ impl Manifest {
 struct Dependency {
     /// The real package name, even if the dependency is renamed.
     package: String,
-    /// `true` if only tests, examples and benches have the dependency.
+    /// `true` if the dependency is used only by tests, examples and benches.
     development: bool,
     /// `true` if the version comes from `[workspace.dependencies]`.
     inherited: bool,
     line: usize,
 }
 
-/// Returns the manifests of all members, in the order of the workspace.
+/// Returns all members' manifests, in workspace order.
 fn manifests() -> Vec<Manifest> {
     let source = read("Cargo.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("Cargo.toml: {error}"));
@@ -292,7 +292,7 @@ fn manifests() -> Vec<Manifest> {
     folders.map(|folder| manifest(folder, shared)).collect()
 }
 
-/// Reads the manifest of one member. `shared` is `[workspace.dependencies]`.
+/// Reads one member's manifest. `shared` is `[workspace.dependencies]`.
 fn manifest(folder: &str, shared: Option<&DeTable<'_>>) -> Manifest {
     let source = read(Path::new(folder).join("Cargo.toml"));
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("{folder}/Cargo.toml: {error}"));
@@ -323,7 +323,7 @@ fn manifest(folder: &str, shared: Option<&DeTable<'_>>) -> Manifest {
     Manifest { folder: folder.to_owned(), package: package.to_owned(), dependencies }
 }
 
-/// Returns the `package = "..."` of a dependency; `None` if the dependency is not renamed.
+/// Returns a dependency's `package = "..."`; `None` if the dependency is not renamed.
 fn renamed<'a>(dependency: &'a DeValue<'_>) -> Option<&'a str> {
     dependency.as_table().and_then(|table| get(table, "package")).and_then(DeValue::as_str)
 }
@@ -338,12 +338,12 @@ fn get<'a, 'i>(table: &'a DeTable<'i>, key: &str) -> Option<&'a DeValue<'i>> {
     table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value.get_ref())
 }
 
-/// Returns the name of the member whose package is named `package`, or `None` for external crates.
+/// Returns the name of the member with the package name `package`, or `None` for external crates.
 fn name_of<'a>(manifests: &'a [Manifest], package: &str) -> Option<&'a str> {
     manifests.iter().find(|manifest| manifest.package == package).map(Manifest::name)
 }
 
-/// Returns `true` if a line of a formatted `lib.rs` belongs to docs, an attribute or an allowed declaration.
+/// Returns `true` if a line in a formatted `lib.rs` belongs to docs, an attribute or an allowed declaration.
 fn is_declaration(line: &str) -> bool {
     let continued = line.is_empty() || line.starts_with([' ', '}', ')', ']']);
     let item = line.strip_prefix("pub(crate) ").or_else(|| line.strip_prefix("pub ")).unwrap_or(line);
@@ -353,7 +353,7 @@ fn is_declaration(line: &str) -> bool {
     continued || module || constant || starts.iter().any(|start| item.starts_with(start))
 }
 
-/// Returns `true` if a line contains an absolute path below the given top-level folder of the file system.
+/// Returns `true` if a line contains an absolute path below the given top-level folder in the file system.
 fn names_absolute(line: &str, folder: &str) -> bool {
     let prefix = format!("/{folder}/");
     line.match_indices(&prefix).any(|(start, _)| {
@@ -362,8 +362,8 @@ fn names_absolute(line: &str, folder: &str) -> bool {
     })
 }
 
-/// Returns the links of a Markdown page that are neither URLs nor anchors in the same page, without their fragments and with
-/// their line numbers. Code is skipped.
+/// Returns a Markdown page's links, except URLs and anchors in the same page, without fragments and with line numbers.
+/// Skips code.
 fn relative_links(page: &str) -> Vec<(usize, String)> {
     let mut links = Vec::new();
     let mut fenced = false;
@@ -393,7 +393,7 @@ fn relative_links(page: &str) -> Vec<(usize, String)> {
     links
 }
 
-/// Fails with one line per problem if there are any problems.
+/// Fails if there are any problems, with one line per problem.
 #[track_caller]
 fn report(problems: Vec<String>) {
     assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));

@@ -3,7 +3,8 @@
 use super::report;
 use tests::rust_files;
 
-/// The calls that write a path unescaped. They are split in two halves, so that this file does not match.
+/// The calls that write a path unescaped. Each name is split in two halves, so that this file does not
+/// match.
 const RAW: [&str; 2] = [concat!(".display", "()"), concat!("Path::", "display")];
 
 /// The files that write a path unescaped, each with the reason.

@@ -1,5 +1,5 @@
-//! One row for each keyword of VGDL. Few files mention an effect, and no match over effects, sprite classes or
-//! conditions has a catch-all arm.
+//! One row for each VGDL keyword. Few files mention an effect, and matches over effects, sprite classes or conditions
+//! have no catch-all arm.
 
 use std::collections::BTreeMap;
 
@@ -10,14 +10,15 @@ use super::report;
 /// The file that declares the effects.
 const EFFECTS: &str = "engine/src/rules/effects/mod.rs";
 
-/// The maximum number of files that may mention an effect. These files execute, build, summarise and describe it.
+/// The maximum number of files that may mention an effect. These files execute, build, summarise and describe the
+/// effect.
 const FILES: usize = 4;
 
-/// The enums over which a match lists every variant, with their short names.
+/// The enums for which matches list every variant, with their short names.
 const EXHAUSTIVE: [&str; 6] =
     ["Effect::", "EffectSummary::", "SpriteClass::", "C::", "Condition::", "Written::"];
 
-/// Returns the numbered lines of a file, without items that exist only in tests.
+/// Returns a file's numbered lines, without test-only items.
 fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut in_test = false;
     (1..).zip(text.lines()).filter(move |(_, line)| {
@@ -29,7 +30,7 @@ fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// Returns the variants of the enum of effects.
+/// Returns the variants of the effect enum.
 fn effects() -> Vec<String> {
     let text = read(EFFECTS);
     let body = text.lines().skip_while(|line| *line != "pub(crate) enum Effect {").skip(1);
@@ -73,8 +74,8 @@ fn few_files_name_an_effect() {
     );
 }
 
-/// Returns the lines with a catch-all arm in a match over one of these enums. The code is formatted, so the arms are indented one
-/// step deeper than the match.
+/// Returns the lines with a catch-all arm in a match over one of the exhaustive enums. The code is formatted, so the
+/// arms are indented one step deeper than the match.
 fn fall_throughs(text: &str) -> Vec<usize> {
     let lines: Vec<(usize, &str)> = code(text).collect();
     let indent = |line: &str| line.len() - line.trim_start().len();

@@ -1,5 +1,5 @@
-//! The origin of everything that is built. External crates come from one registry, each with its checksum and under the
-//! licences that `deny.toml` allows, and our crates have no unsafe code. `cargo deny check`, if installed, checks more.
+//! The origin of everything that is built. External crates come from one registry, each with a checksum and with
+//! licences allowed in `deny.toml`. Our crates contain no unsafe code. `cargo deny check`, if installed, checks more.
 
 use super::{get, manifests, report};
 use std::collections::BTreeSet;
@@ -32,7 +32,7 @@ fn crates_of_others_come_from_one_registry() {
     report(problems);
 }
 
-/// Checks the crates of this platform, with the features that tests are built with.
+/// Checks the crates for this platform, with the features used by tests.
 #[test]
 fn licences_are_allowed() {
     let allowed = allowed();
@@ -63,7 +63,7 @@ fn licences_are_allowed() {
     report(problems);
 }
 
-/// Returns the licences that the policy allows.
+/// Returns the licences allowed by the policy.
 fn allowed() -> BTreeSet<String> {
     let source = read("deny.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("deny.toml: {error}"));
@@ -72,7 +72,7 @@ fn allowed() -> BTreeSet<String> {
     names.iter().filter_map(|name| name.get_ref().as_str()).map(str::to_owned).collect()
 }
 
-/// Returns the host platform of the compiler.
+/// Returns the compiler's host platform.
 fn host() -> String {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let output = Command::new(rustc).arg("-vV").current_dir(workspace_root()).output().expect("rustc runs");
@@ -80,8 +80,8 @@ fn host() -> String {
     text.lines().find_map(|line| line.strip_prefix("host: ")).expect("a host").to_owned()
 }
 
-/// Returns `true` if allowed licences can satisfy a licence expression. The expression is in SPDX, or has `/` for `OR`
-/// as in older manifests.
+/// Returns `true` if allowed licences can satisfy a licence expression. The expression uses SPDX syntax, or `/` for
+/// `OR` as in older manifests.
 fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
     let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let tokens: Vec<&str> = spaced.split_whitespace().collect();

@@ -6,12 +6,12 @@ use base::Seed;
 use engine::{Analysis, Episode, Game, Level, Outcome};
 
 base::named_enum! {
-    /// The length of the longest plan, in actions played without another look, with which a planner wins a level. A
-    /// shorter length is more demanding.
+    /// The length of the longest plan, in actions played without observing the game again, with which a planner wins a
+    /// level. A shorter length is more demanding.
     pub enum Commitment {
-        /// No planner wins, even with a look before every action.
+        /// No planner wins, even when observing the game before every action.
         None = "none",
-        /// A commitment of 1 action, which means a look before every action.
+        /// A commitment of 1 action: the player observes the game before every action.
         One = "1",
         /// A commitment of 2 actions.
         Two = "2",
@@ -28,7 +28,7 @@ base::named_enum! {
     }
 }
 
-/// The planners of the portfolio that play. Each plays in open loop.
+/// The planners of the portfolio that play. Each plays in open loop, that is, without observing the game during a plan.
 const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
 /// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(200);
@@ -36,9 +36,9 @@ const DECISION: Budget = Budget(200);
 const CALLS: u64 = 100_000;
 
 impl Commitment {
-    /// Plays every planner once for each commitment, from shortest to longest, until no planner wins. On a
-    /// deterministic level, a plan does not differ from the actions chosen with further looks, so one round of episodes
-    /// is enough. Cost: at most 2.1 million forward-model calls.
+    /// Runs every planner once for each commitment, from shortest to longest, until no planner wins. On a deterministic
+    /// level, observing again does not change a plan, so one round of episodes is enough. Cost: at most 2.1 million
+    /// forward-model calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Commitment {
         let game = analysis.game();
         let is_certain = analysis.is_deterministic_from(&game.start(level, seed));
@@ -62,7 +62,7 @@ impl Commitment {
         longest
     }
 
-    /// Returns the number of actions of a plan; `None` for [`Commitment::None`].
+    /// Returns a plan's number of actions; `None` for [`Commitment::None`].
     pub fn actions(self) -> Option<u64> {
         Some(match self {
             Commitment::None => return None,

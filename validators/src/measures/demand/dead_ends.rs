@@ -1,4 +1,4 @@
-//! The fraction of dead ends beside a win.
+//! The fraction of dead ends near a win.
 
 use crate::measures::actions;
 use agents::search::{Answer, Pushes, SearchLimits, best_first};
@@ -7,26 +7,27 @@ use engine::{Analysis, Episode, Level, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// States one or two actions off a win, with the results of a bounded search from each.
+/// States one or two actions off a win, with the results of a bounded search from each state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeadEnds {
     /// The number of distinct states.
     pub states: usize,
-    /// The number of states from which it is proved that no win exists, including lost states.
+    /// The number of states from which winning is proved impossible, including lost states.
     pub dead: usize,
     /// The number of states from which a win was found. All other states are undecided.
     pub won: usize,
 }
 
-/// The number of ticks at which the win is left, evenly spread.
+/// The number of evenly spaced ticks at which the search departs from the win.
 const TICKS: usize = 40;
-/// The number of forward-model calls of the search from each state.
+/// The number of forward-model calls per search from a state.
 const CALLS: u64 = 3000;
 
 impl DeadEnds {
-    /// Leaves the win at up to [`TICKS`] of its ticks, by every other action and then by a random action. States of the
-    /// win itself do not count. Returns `None` if the level is stochastic. Cost: up to 320 searches of [`CALLS`] calls.
+    /// Departs from the win at up to [`TICKS`] of its ticks, by every other action followed by a random action. States
+    /// in the win itself do not count. Returns `None` if the level is stochastic. Cost: up to 320 searches of [`CALLS`]
+    /// calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Option<DeadEnds> {
         let game = analysis.game();
         let start = game.start(level, win.seed);
@@ -83,7 +84,7 @@ impl DeadEnds {
         self.dead += usize::from(is_won == Some(false));
     }
 
-    /// Returns the fraction of states that are proved dead.
+    /// Returns the fraction of states proved dead.
     pub fn share(&self) -> f64 {
         self.dead as f64 / self.states.max(1) as f64
     }

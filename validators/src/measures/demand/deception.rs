@@ -1,4 +1,4 @@
-//! Players that go for nearby goals, and the distance from the win to which these goals lead them.
+//! Players that go for nearby goals, and how far these goals lead them away from the win.
 
 use super::patience;
 use super::route::{Route, avatar_cell};
@@ -11,15 +11,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Deception {
-    /// The number of episodes of both players.
+    /// The number of episodes by both players.
     pub plays: u64,
-    /// The number of episodes that were not won in twice the ticks of the win plus twenty.
+    /// The number of episodes not won within twice the win's ticks plus twenty.
     pub lost: u64,
-    /// The maximum distance of the avatar from the route of the win, in cells, averaged over the episodes.
+    /// The avatar's maximum distance from the win's route, in cells, averaged over the episodes.
     pub astray: f64,
 }
 
-/// The number of episodes of each player, each with its own random seed.
+/// The number of episodes per player, each with its own random seed.
 const PLAYS: u64 = 4;
 
 impl Deception {
@@ -57,7 +57,7 @@ impl Deception {
         found
     }
 
-    /// Returns the fraction of episodes that were not won.
+    /// Returns the fraction of episodes not won.
     pub fn share(&self) -> f64 {
         self.lost as f64 / self.plays.max(1) as f64
     }

@@ -19,34 +19,33 @@ use engine::{Action, Analysis, Episode, Level, Outcome};
 use route::Route;
 use serde::{Deserialize, Serialize};
 
-/// The demands of a level on its player, measured on a known win. The same arguments give the same numbers on every
-/// machine and any number of threads. All counts are exact for that win, and all other values are seeded samples.
+/// A level's demands on its player, measured on a known win. The same arguments give the same numbers on every machine
+/// and any number of threads. All counts are exact for that win, and all other values are seeded samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Demand {
-    /// The number of ticks of the win.
+    /// The number of ticks in the win.
     pub ticks: usize,
-    /// The number of ticks of the win in which a key is pressed, which are its actions other than nil.
+    /// The number of ticks in the win with a key press, that is, with an action other than nil.
     pub decisions: usize,
-    /// The number of times that the win pushes and moves a sprite, or removes a sprite by a push.
+    /// The number of pushes in the win that move or remove a sprite.
     pub pushes: usize,
-    /// `true` if it is proved that no win takes fewer ticks.
+    /// `true` if the win is proved to be the shortest.
     pub shortest: bool,
     /// The longest commitment with which a planner still wins.
     pub commitment: Commitment,
-    /// The states beside the win from which no win exists; `None` if the level is stochastic, because no search can
-    /// then find them.
+    /// The dead ends near the win; `None` for a stochastic level, because no search can then prove dead ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_ends: Option<DeadEnds>,
-    /// The number of sprites that move by themselves and come into or next to a cell of the win's route.
+    /// The number of self-moving sprites that enter or come next to a cell on the win's route.
     pub movers: usize,
     /// The results of players that go for nearby goals.
     pub deception: Deception,
 }
 
 impl Demand {
-    /// Measures a level with a win. Returns `None` if the episode does not win. `shortest` means that it is proved that
-    /// no win takes fewer ticks.
+    /// Measures a level with a win. Returns `None` if the episode does not win. `shortest` means that the win is proved
+    /// to be the shortest.
     ///
     /// Cost: at most 2.2 million forward-model calls for commitments, 1 million for dead ends, and the ticks of a few
     /// episodes. The typical cost is a tenth of the maximum.
@@ -73,14 +72,13 @@ impl Demand {
         })
     }
 
-    /// Returns the tier of the level.
+    /// Returns the level's tier.
     pub fn tier(&self) -> Tier {
         Tier::of(self)
     }
 }
 
-/// Returns the maximum number of ticks of an episode on a level with a known win, which is twice the win's ticks plus
-/// twenty.
+/// Returns the maximum number of ticks of an episode on a level with a known win, twice the win's ticks plus twenty.
 fn patience(win: &Episode) -> usize {
     2 * win.actions.len() + 20
 }

@@ -1,19 +1,19 @@
-//! The route of a win, and the sprites that come next to it.
+//! A win's route, and the sprites that come next to it.
 
 use engine::analysis::{Motion, Role};
 use engine::{Analysis, Episode, Level, SpriteType, State};
 use std::collections::BTreeSet;
 
-/// The cells that the avatar enters in a win.
+/// The cells that the avatar enters during a win.
 pub(super) struct Route {
     pub(super) cells: BTreeSet<(i32, i32)>,
-    /// The number of sprites that move by themselves, not counting the player's shots, and that come into or next to
-    /// one of the cells.
+    /// The number of self-moving sprites, not counting the player's shots, that enter or come next to one of the
+    /// cells.
     pub(super) movers: usize,
 }
 
 impl Route {
-    /// Computes the route. Cost: two replays of the win, with an inspection of all sprites in each tick.
+    /// Computes the route. Costs two replays of the win, with an inspection of all sprites in each tick.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode) -> Route {
         let game = analysis.game();
         let moves = |stype: SpriteType| {
@@ -41,7 +41,7 @@ impl Route {
         Route { cells, movers: near.len() }
     }
 
-    /// Returns the distance in steps between a cell and the nearest cell of the route.
+    /// Returns the number of steps from a cell to the nearest cell on the route.
     pub(super) fn distance(&self, (x, y): (i32, i32)) -> i32 {
         self.cells.iter().map(|&(column, row)| (column - x).abs() + (row - y).abs()).min().unwrap_or(0)
     }

@@ -1,4 +1,4 @@
-//! Shorter wins of stochastic games.
+//! Shorter wins in stochastic games.
 
 use agents::{Budget, Limits, PlannerSpec, play};
 use base::SeedPath;
@@ -10,12 +10,12 @@ const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
 const PLAYS: u64 = 6;
 /// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(2000);
-/// The minimum number of ticks of a win for which a shorter win may change the tier of its level.
+/// The minimum length of a known win, in ticks, at which a shorter win might put its level in a different tier.
 const LEAST: usize = 20;
 
-/// Looks for a win with fewer ticks than a known win in a stochastic game. In such a game, no search can prove which
-/// win is the shortest, and the first win found may be much longer. Returns `None` if no shorter win is found, if the
-/// game is deterministic, and for wins of fewer than 20 ticks.
+/// Searches for a win with fewer ticks than a known win in a stochastic game. In such a game, no search can prove
+/// which win is the shortest, and the first win found may be much longer. Returns `None` if no shorter win is found,
+/// if the game is deterministic, or if the known win has fewer than 20 ticks.
 ///
 /// Cost: at most 12,000 forward-model calls per tick of the known win.
 pub fn shorter_win(
@@ -50,7 +50,7 @@ mod tests {
     use base::Seed;
     use engine::{Action, Game};
 
-    /// Looks for a shorter win on a path of three steps. If there is a wasp, it turns at random.
+    /// Searches for a shorter win on a path of three steps. Wasps, if any, turn at random.
     fn shorter(level: &str) -> Option<Episode> {
         let game = Game::from_source(
             "BasicGame
@@ -95,7 +95,7 @@ mod tests {
         assert_eq!((episode.outcome, episode.actions.len()), (Outcome::Won, 3));
     }
 
-    /// A systematic search does better on deterministic levels.
+    /// On deterministic levels, a systematic search performs better.
     #[test]
     fn without_chance_nothing_is_played() {
         assert!(shorter("wwwwww\nwA..ow\nwwwwww\n").is_none());

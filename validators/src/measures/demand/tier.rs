@@ -1,14 +1,14 @@
-//! Four tiers of levels, by their demands.
+//! Four tiers of levels, according to their demands.
 
 use super::{Commitment, Demand};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The tier of a level, which is a documented function of its [`Demand`] ([`TIERS`]).
+/// A level's tier: a documented function of its [`Demand`] ([`TIERS`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "u8", into = "u8")]
 pub enum Tier {
-    /// A few decisions, or nothing that punishes mistakes.
+    /// Few decisions, or no trap that punishes mistakes.
     One = 1,
     /// Some decisions, and one trap that punishes hasty decisions.
     Two = 2,
@@ -18,12 +18,12 @@ pub enum Tier {
     Four = 4,
 }
 
-/// The minimum demands of a level in a tier.
+/// The minimum demands for a level in a tier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TierBounds {
     /// The tier with these bounds.
     pub tier: Tier,
-    /// The minimum number of decisions of the win.
+    /// The minimum number of decisions in the win.
     pub decisions: usize,
     /// The minimum number of [traps](Demand::traps).
     pub traps: usize,
@@ -37,20 +37,20 @@ pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::Four, decisions: 120, traps: 3 },
 ];
 
-/// The maximum plan length with which a planner may win if foresight is to count as a trap.
+/// The maximum plan length with which a planner may win for foresight to count as a trap.
 const FORESIGHT: Commitment = Commitment::Five;
-/// The minimum fraction of dead ends among the states beside the win at which dead ends count as a trap.
+/// The minimum fraction of dead ends among the states near the win for dead ends to count as a trap.
 const DEAD_ENDS: f64 = 0.03;
-/// The minimum number of sprites that move by themselves and come next to the route at which movers count as a trap.
+/// The minimum number of self-moving sprites next to the route for movers to count as a trap.
 const MOVERS: usize = 3;
-/// The minimum fraction of episodes lost by greedy players at which greed counts as a trap.
+/// The minimum fraction of episodes lost by greedy players for greed to count as a trap.
 const LOSSES: f64 = 0.75;
 
 impl Demand {
-    /// Returns which of the four traps the level has, in this order:
+    /// Returns which of the four traps the level contains, in this order:
     ///
     /// 1. Planners with a small budget win only with short plans, if at all.
-    /// 2. At least 3% of the states beside the win are dead ends.
+    /// 2. At least 3% of the states near the win are dead ends.
     /// 3. At least three movers come next to the route.
     /// 4. Greedy players lose at least three of four episodes.
     pub fn traps(&self) -> [bool; 4] {
@@ -67,14 +67,14 @@ impl Tier {
     /// All tiers, from lowest to highest.
     pub const ALL: [Tier; 4] = [Tier::One, Tier::Two, Tier::Three, Tier::Four];
 
-    /// Returns the highest tier whose demands are met.
+    /// Returns the highest tier with all demands met.
     pub(super) fn of(demand: &Demand) -> Tier {
         let traps = demand.traps().into_iter().filter(|&there| there).count();
         let met = |bounds: &&TierBounds| demand.decisions >= bounds.decisions && traps >= bounds.traps;
         TIERS.iter().rev().find(met).map_or(Tier::One, |bounds| bounds.tier)
     }
 
-    /// Returns the minimum demands of the tier.
+    /// Returns the tier's minimum demands.
     pub fn bounds(self) -> TierBounds {
         TIERS[usize::from(u8::from(self)) - 1]
     }

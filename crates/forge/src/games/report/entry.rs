@@ -1,4 +1,4 @@
-//! One game as a row of the report.
+//! One game as a report row.
 
 use crate::survey::{Edge, GameRow, SurveyedGame};
 use base::{Digest, Seed};
@@ -36,23 +36,23 @@ impl<'a> Measured<'a> {
 /// One game in the report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GameEntry {
-    /// The title in the game's own theme.
+    /// The title in the game's theme.
     pub title: String,
-    /// The way to win, for players.
+    /// The way to win, as explained to players.
     pub goal: String,
     /// The digest of the game's rules.
     pub rules: Digest,
     /// `true` if the game and all of its levels meet every criterion.
     pub passes: bool,
-    /// The first criterion that is not met.
+    /// The first unmet criterion.
     pub obstacle: Option<Criterion>,
     /// The kind of game.
     pub kind: GameKind,
-    /// The findings about playing the game, as in the comparison with other games.
+    /// The findings from playing the game, as used for comparisons with other games.
     pub found: GameRow,
-    /// The edge of the strongest held-out player over the players that do not look ahead.
+    /// The advantage in win rate of the strongest held-out player over the players that do not look ahead.
     pub held_out: Option<Edge>,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<LevelEntry>,
     /// The nearest game in the set.
     pub nearest: Option<Nearest>,
@@ -67,7 +67,7 @@ pub struct LevelEntry {
     pub columns: u64,
     /// The number of rows of the board.
     pub rows: u64,
-    /// The number of ticks of the shortest win that was found.
+    /// The number of ticks of the shortest win found.
     pub ticks: Option<u64>,
     /// The ease measured by the ladder, from 0 to 1.
     pub ease: Option<f64>,
@@ -75,10 +75,10 @@ pub struct LevelEntry {
     pub label: Option<Difficulty>,
 }
 
-/// A neighbour of a game.
+/// A game's nearest neighbour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nearest {
-    /// The name of the game.
+    /// The game's name.
     pub name: String,
     /// The distance to the game, from 0 (the same) to 1.
     pub distance: f64,
@@ -109,7 +109,7 @@ impl GameEntry {
         }
     }
 
-    /// Describes the game in one line: its kind, its number of rules, and the criterion that it fails, if any.
+    /// Describes the game in one line: its kind, its number of rules, and the criterion it fails, if any.
     pub fn remark(&self) -> String {
         let rules =
             if self.found.rules == 1 { "1 rule".to_owned() } else { format!("{} rules", self.found.rules) };

@@ -1,4 +1,4 @@
-//! The distances between games by their rules, within the set and to the corpus.
+//! The rule distances between games, within the set and to the corpus.
 
 use super::entry::{Measured, Nearest};
 use base::Digest;

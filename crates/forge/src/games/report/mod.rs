@@ -1,7 +1,7 @@
-//! The report on games, which is the same for every generator: the games of a set, individually and together.
+//! The report on a set of games, individually and as a whole. The report has the same form for every generator.
 //!
-//! The report is a pure function of the games and their verdicts, so the same input gives the same bytes. It contains
-//! no times and no paths. The meaning of each figure is in `docs/reference/game-report.md`.
+//! The report is a pure function of the games and their verdicts, so the same input produces the same bytes. The
+//! report contains no times or paths. For the meaning of each figure, see `docs/reference/game-report.md`.
 
 mod entry;
 mod likeness;
@@ -26,16 +26,15 @@ pub const GAME_REPORT_FORMAT: u32 = 1;
 /// The input for a report.
 #[derive(Clone, Copy)]
 pub struct GamesSample<'a> {
-    /// The method that made the games (`constructive`, `search`, `evolutionary`), or their origin.
+    /// The method that generated the games (`constructive`, `search`, `evolutionary`), or the games' origin.
     pub method: &'a str,
-    /// The games, in the order in which they were made.
+    /// The games, in the order of generation.
     pub games: &'a [SurveyedGame],
-    /// The named games that the set should differ from; may be empty.
+    /// The named games from which the set should differ; may be empty.
     pub corpus: &'a [(String, Game)],
     /// The criteria that the panel applied.
     pub criteria: &'a Criteria,
-    /// The cost of making the games, without judging them for the report; `None` if the games were not made by a
-    /// generator.
+    /// The cost of generating the games, excluding the judging for the report; `None` if no generator made the games.
     pub cost: Option<&'a Tally>,
     /// The seed for the measures.
     pub seed: Seed,
@@ -45,14 +44,14 @@ pub struct GamesSample<'a> {
 /// games for means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameSetReport {
-    /// The figures about the set.
+    /// The figures for the whole set.
     pub set: SetReport,
     /// One row per game.
     pub games: Vec<GameEntry>,
 }
 
 impl GameSetReport {
-    /// Creates the report on a set. Cost: that of a survey row per game and a comparison per pair of games, on all
+    /// Creates the report on a set. Costs one survey row per game and one comparison per pair of games, on all
     /// threads.
     pub fn of(sample: &GamesSample<'_>) -> GameSetReport {
         let GamesSample { method, games, corpus, criteria, cost, seed } = *sample;

@@ -23,7 +23,7 @@ pub(super) fn validity(games: &[SurveyedGame]) -> Section {
 /// The difference between win rates that counts as significant.
 const SURE: f64 = 0.25;
 
-/// Describes the skill that the games demand; `None` if no ladder played.
+/// Describes the skill required by the games; `None` if no ladder played.
 pub(super) fn skill(measured: &[Measured<'_>]) -> Option<Section> {
     let edges: Vec<&Edge> = measured.iter().filter_map(|game| game.row.edge.as_ref()).collect();
     let held_out = measured.iter().filter_map(|game| game.held_out.as_ref()).map(|edge| edge.points);

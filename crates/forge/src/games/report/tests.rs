@@ -6,8 +6,8 @@ use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use validators::{Criterion, CriterionSet, Difficulty, Effort, Judging, Panel};
 
-/// Returns a game in which the player fetches all things of one kind. Games with different words for the same rules
-/// are the same game.
+/// Returns a game in which the player collects all objects of one kind. Games with different names for the same
+/// rules count as the same game.
 fn source(thing: &str, danger: &str) -> String {
     format!(
         "BasicGame\n  SpriteSet\n    {thing} > Immovable\n    {danger} > RandomNPC cooldown=2\n    avatar > MovingAvatar\n  LevelMapping\n    g > {thing}\n    r > {danger}\n  InteractionSet\n    avatar wall > stepBack\n    {danger} wall > stepBack\n    avatar {danger} > killSprite\n    {thing} avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype={thing} win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=50 win=False\n"
@@ -62,7 +62,7 @@ fn example() -> Vec<SurveyedGame> {
     ]
 }
 
-/// Parses the report like a program that reads it.
+/// Parses the report as an external program would.
 fn read(report: &GameSetReport) -> Json {
     serde_json::from_str(&report.set.to_json().unwrap()).unwrap()
 }

@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::measures::{AvatarKind, GoalKind};
 
-/// The games of a kind: the avatar's abilities, and the goal of the win.
+/// The games of one kind, given by the avatar's abilities and the winning goal.
 #[derive(Serialize)]
 struct Pair {
     avatar: AvatarKind,
@@ -16,7 +16,7 @@ struct Pair {
     games: u64,
 }
 
-/// The number of games that have a property.
+/// The number of games with a property.
 #[derive(Serialize)]
 struct Having {
     name: String,
@@ -66,7 +66,7 @@ pub(super) fn variety(measured: &[Measured<'_>]) -> Section {
     section
 }
 
-/// Returns the table of the avatar kinds by the goal kinds.
+/// Returns a table of avatar kinds by goal kinds.
 pub(super) fn kinds(measured: &[Measured<'_>]) -> Table {
     let pairs = pairs(measured);
     let avatars: BTreeSet<AvatarKind> = pairs.keys().map(|(avatar, _)| *avatar).collect();

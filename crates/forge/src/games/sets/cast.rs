@@ -1,12 +1,12 @@
-//! The casts of games: the names of their types.
+//! The casts of games. A game's cast is the names of its types.
 
 use engine::Game;
 use std::collections::BTreeSet;
 
-/// The maximum fraction of names that a game may share with a different game.
+/// The maximum fraction of names that two games may share.
 const SHARED: f64 = 0.5;
 
-/// The names that are ignored because many games have them.
+/// The names to ignore because many games use them.
 const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
 
 /// The names of a game's types, except common names.
@@ -14,13 +14,13 @@ const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
 pub struct Cast(BTreeSet<String>);
 
 impl Cast {
-    /// Returns the cast of a game.
+    /// Returns a game's cast.
     pub fn of(game: &Game) -> Cast {
         let names = game.sprite_types().map(|stype| game.name(stype).to_owned());
         Cast(names.filter(|name| !COMMON.contains(&name.as_str())).collect())
     }
 
-    /// Returns `true` if most names of the smaller cast also occur in the other cast.
+    /// Returns `true` if most names of the smaller cast occur in the other cast too.
     pub fn is_shared(&self, other: &Cast) -> bool {
         let shared = self.0.intersection(&other.0).count() as f64;
         shared > SHARED * self.0.len().min(other.0.len()) as f64

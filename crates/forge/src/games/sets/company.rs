@@ -1,5 +1,5 @@
-//! The games of a set so far, which limit later games. Later games must differ from them, and each kernel and kind has
-//! a maximum number of games.
+//! The games of a set so far, which limit later games. Later games must differ from earlier games, and the number of
+//! games per kernel and kind is limited.
 
 use super::cast::Cast;
 use crate::games::candidate::{Candidate, MadeGame};
@@ -10,8 +10,8 @@ use generators::kernels::KernelGenome;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
 
-/// The games of a set so far. No two games are near each other or share a title or a cast, no kernel and no kind is
-/// crowded, and games of the same kernel have different maps.
+/// The games of a set so far. No two games are near each other or share a title or a cast, no kernel or kind is
+/// overrepresented, and games of the same kernel have different maps.
 #[derive(Default)]
 pub(crate) struct Company {
     forms: Vec<GameForm>,
@@ -21,28 +21,28 @@ pub(crate) struct Company {
     patterns: Vec<Vec<String>>,
     /// The scenes of the games.
     pub(crate) scenes: BTreeSet<String>,
-    /// The number of games of each family of kernels.
+    /// The number of games in each kernel family.
     pub(crate) families: Families,
 }
 
-/// The remaining room in a set for games of kernels and kinds.
+/// The remaining room in a set for games, by kernel and kind.
 #[derive(Clone, Default)]
 pub(crate) struct Families(BTreeMap<String, usize>);
 
 impl Families {
-    /// Returns the number of games of a kernel and of kernels that hardly differ from it.
+    /// Returns the number of games from a kernel and from kernels that hardly differ from it.
     pub(crate) fn games_of(&self, kernel: &str) -> usize {
         self.0.get(KernelGenome::family(kernel)).copied().unwrap_or(0)
     }
 
-    /// Counts a game of this kernel.
+    /// Counts a game from this kernel.
     pub(crate) fn count(&mut self, kernel: &str) {
         *self.0.entry(KernelGenome::family(kernel).to_owned()).or_default() += 1;
     }
 }
 
 impl Company {
-    /// Returns the reason why a game cannot be admitted, whatever its levels are.
+    /// Returns the reason why a game cannot be admitted, regardless of its levels.
     pub(crate) fn objection(&self, candidate: &Candidate) -> Option<&'static str> {
         self.objection_to(&candidate.game, &candidate.title)
     }

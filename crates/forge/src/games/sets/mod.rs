@@ -1,4 +1,4 @@
-//! Sets of games that differ from each other.
+//! Sets of diverse games.
 
 pub(crate) mod cast;
 pub(crate) mod company;

@@ -1,5 +1,5 @@
-//! Sets of rules that are assigned in advance to games made independently of each other. No two sets are near each
-//! other, and each set has its own names.
+//! Sets of rules, assigned in advance to independently generated games. No two sets are similar, and each set has its
+//! own names.
 
 use super::cast::Cast;
 use base::Seed;
@@ -10,58 +10,58 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 use validators::novelty::GameForm;
 
-/// The number of draws of numbers for each form of a kernel, with and without its variants.
+/// The number of parameter draws for each form of a kernel, with and without its variants.
 const DRAWS: u64 = 10;
 
-/// The number of draws of different numbers for a game of a set.
+/// The number of draws of different parameters for a game from a set.
 const REDRAWS: u64 = 4;
 
-/// The number of positions that have spare sets. Small releases have up to this many games.
+/// The number of positions that have spare sets. Small releases contain at most this number of games.
 const SMALL: usize = 16;
 
 /// The number of spare sets of each of the first [`SMALL`] positions. Spare sets are taken from the end of the list,
 /// which few other positions reach.
 const SPARE: usize = 3;
 
-/// The number of draws of nouns for a set in each scene.
+/// The number of noun draws for a set in each scene.
 const NAMINGS: u64 = 6;
 
-/// A set of rules: a kernel in one of its forms, with variants and numbers, under the nouns of a scene. The levels are
-/// open. The numbers are open too, as long as a game does not come near another set.
+/// A set of rules: a kernel in one of its forms, with variants and parameters, named with a scene's nouns. Levels are
+/// not fixed. Parameters may still change, as long as the game does not come near another set.
 #[derive(Clone, Debug)]
 pub(crate) struct RuleSet {
     genome: KernelGenome,
     form: GameForm,
 }
 
-/// Sets of rules in the order of their turns. Each kernel has one set before any kernel has a second.
+/// Sets of rules, in turn order. Each kernel has one set before any kernel has a second.
 ///
 /// A position always has the same set, regardless of the number of positions. Only the first set of each kernel is
-/// drawn at once. The others are drawn when they are needed, because most releases are small.
+/// drawn immediately. Further sets are drawn on demand, because most releases are small.
 #[derive(Clone, Debug)]
 pub struct RuleSets {
     draws: Draws,
-    /// The kernels in the order of their turns. All sets of a kernel are still unnamed.
+    /// The kernels in turn order. The sets are still unnamed.
     kernels: Vec<(&'static str, OnceLock<Vec<RuleSet>>)>,
     /// The first set of each kernel.
     opening: Vec<RuleSet>,
     all: OnceLock<Vec<RuleSet>>,
 }
 
-/// The inputs for drawing the sets of a kernel.
+/// The inputs for drawing a kernel's sets.
 #[derive(Clone, Debug)]
 struct Draws {
     seed: Seed,
     known: Vec<GameForm>,
 }
 
-/// Returns the rules of a game and its title; `None` if the rules do not compile.
+/// Returns a game's rules and title; `None` if the rules do not compile.
 fn built(genome: &KernelGenome) -> Option<(Game, String)> {
     let GeneratedGame { rules, title, .. } = genome.build().ok()?.game;
     Some((rules, title))
 }
 
-/// Returns the form of a game's rules; `None` if they do not compile.
+/// Returns the form of a game's rules; `None` if the rules do not compile.
 fn form_of(genome: &KernelGenome) -> Option<GameForm> {
     Some(GameForm::of(&built(genome)?.0))
 }
@@ -84,7 +84,7 @@ impl OfKernel<'_> {
 }
 
 impl Draws {
-    /// Returns the seed of a kernel, and a game of each of its forms in the order in which they become sets.
+    /// Returns a kernel's seed, and one game for each of its forms in the order in which they become sets.
     fn of_kernel(&self, kernel: &str) -> (Seed, Vec<KernelGenome>) {
         let seed = self.seed.child("kernel", 0).child(kernel, 0);
         let mut all = KernelGenome::all_of(kernel);
@@ -97,7 +97,7 @@ impl Draws {
         (0..DRAWS).for_each(|draw| self.draw(sets, of_kernel, draw, most));
     }
 
-    /// Adds the sets of one draw of numbers until there are `most` sets.
+    /// Adds the sets from one parameter draw until there are `most` sets.
     fn draw(&self, sets: &mut OfKernel<'_>, (seed, all): &(Seed, Vec<KernelGenome>), draw: u64, most: usize) {
         let seed = seed.child("numbers", draw);
         for genome in all {
@@ -108,14 +108,14 @@ impl Draws {
         }
     }
 
-    /// Returns the first set of a kernel; `None` if all of its sets are near known games.
+    /// Returns a kernel's first set; `None` if all of the kernel's sets are near known games.
     fn first(&self, kernel: &str) -> Option<RuleSet> {
         let mut first = OfKernel { known: &self.known, sets: Vec::new() };
         self.fill(&mut first, &self.of_kernel(kernel), 1);
         first.sets.pop()
     }
 
-    /// Returns all sets of a kernel.
+    /// Returns all of a kernel's sets.
     fn all(&self, kernel: &str) -> Vec<RuleSet> {
         let mut sets = OfKernel { known: &self.known, sets: Vec::new() };
         self.fill(&mut sets, &self.of_kernel(kernel), usize::MAX);
@@ -123,7 +123,7 @@ impl Draws {
     }
 
     /// Returns the sets under their own names. No two sets share a title or most of a cast, and scenes take turns. Sets
-    /// without any names left are dropped.
+    /// for which no names are left are dropped.
     fn named(&self, sets: Vec<RuleSet>) -> Vec<RuleSet> {
         let seed = self.seed.child("names", 0).child("sets", 0);
         let mut given = Given::default();
@@ -133,9 +133,9 @@ impl Draws {
 }
 
 impl RuleSets {
-    /// Draws the sets of these kinds that are not near a `known` game. Cost: about a millisecond per considered set and
-    /// per tried naming. There are some 100 of these for the first sets of all kernels, and some 900 for the other
-    /// sets, which are drawn on demand.
+    /// Draws the sets of the given kinds, except those near a `known` game. Costs about a millisecond per set
+    /// considered and per naming tried. There are about 100 such steps for the first sets of all kernels, and about 900
+    /// for the other sets, which are drawn on demand.
     pub fn draw(kinds: &[Kind], known: &[GameForm], seed: Seed) -> RuleSets {
         let draws = Draws { seed, known: known.to_vec() };
         let turns = Turns::draw(kinds, seed);
@@ -145,9 +145,9 @@ impl RuleSets {
         RuleSets { draws, kernels, opening, all: OnceLock::new() }
     }
 
-    /// Returns the number of sets of these kinds that a mint can rely on with any seed. These are the sets from one
-    /// draw of numbers that are near neither a `known` game nor a game of an `earlier` release. Cost: about a
-    /// millisecond per form of a kernel.
+    /// Returns the number of sets of the given kinds that a mint can rely on with any seed. Counts the sets from one
+    /// parameter draw that are not near a `known` game or a game from an `earlier` release. Costs about a millisecond
+    /// per kernel form.
     pub fn supply(kinds: &[Kind], known: &[GameForm], earlier: &[GameForm]) -> usize {
         let draws = Draws { seed: Seed::from_text("supply"), known: known.to_vec() };
         let of_kernel = |(kernel, _)| {
@@ -160,7 +160,7 @@ impl RuleSets {
         all.filter(|set| !earlier.iter().any(|game| set.form.is_near(game))).count()
     }
 
-    /// Returns all sets, which begin with the opening.
+    /// Returns all sets, starting with the opening.
     fn all(&self) -> &[RuleSet] {
         self.all.get_or_init(|| {
             let of_kernels = self.kernels.iter().map(|of_kernel| self.of_kernel(of_kernel).to_vec());
@@ -168,7 +168,7 @@ impl RuleSets {
         })
     }
 
-    /// Returns all sets of one kernel.
+    /// Returns all of one kernel's sets.
     fn of_kernel<'a>(&self, (kernel, sets): &'a (&'static str, OnceLock<Vec<RuleSet>>)) -> &'a [RuleSet] {
         sets.get_or_init(|| self.draws.all(kernel))
     }
@@ -188,13 +188,13 @@ impl RuleSets {
         sets.get(at)
     }
 
-    /// Draws a game of a set, with different numbers unless these bring the game near another set.
+    /// Draws a game from a set, with different parameters unless they bring the game near another set.
     pub(crate) fn draw_of(&self, set: &RuleSet, seed: Seed) -> KernelGenome {
         let mut drawn = (0..REDRAWS).map(|draw| set.genome.redrawn(seed.child("numbers", draw)));
         drawn.find(|genome| self.is_of(genome, set)).unwrap_or_else(|| set.genome.clone())
     }
 
-    /// Returns `true` if a game has the kernel of a set and is not near any other set of that kernel.
+    /// Returns `true` if a game has a set's kernel and is not near any other set of that kernel.
     fn is_of(&self, genome: &KernelGenome, own: &RuleSet) -> bool {
         let kernel = self.kernels.iter().find(|(kernel, _)| *kernel == genome.kernel());
         let sets = kernel.into_iter().flat_map(|of_kernel| self.of_kernel(of_kernel));
@@ -204,18 +204,18 @@ impl RuleSets {
     }
 }
 
-/// The names that have been given to sets.
+/// The names already assigned to sets.
 #[derive(Default)]
 struct Given {
     titles: BTreeSet<String>,
     casts: Vec<Cast>,
     scenes: BTreeMap<&'static str, usize>,
-    /// The pairs of kernels and scenes that have been used.
+    /// The used pairs of kernel and scene.
     of_kernels: BTreeSet<(String, &'static str)>,
 }
 
 impl Given {
-    /// Gives a set its own names. Returns `None` if there are no names left.
+    /// Assigns unique names to a set. Returns `None` if there are no names left.
     fn named(&mut self, set: RuleSet, seed: Seed) -> Option<RuleSet> {
         let mut scenes = set.genome.scenes();
         seed.child("scenes", 0).sampler().shuffle(&mut scenes);
@@ -244,7 +244,7 @@ impl Given {
     }
 }
 
-/// Orders the sets of kernels in rounds. Each kernel has one set per round, as long as it has sets left.
+/// Orders the kernels' sets in rounds. Each kernel contributes one set per round, as long as it has sets left.
 fn in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
     let mut left: Vec<_> = of_kernels.into_iter().map(Vec::into_iter).collect();
     let mut all = Vec::new();
@@ -321,7 +321,7 @@ mod tests {
         assert!(none.of_place(0, 0).is_none() && none.of_place(0, 1).is_none());
     }
 
-    /// A commitment cannot be changed, so no seed may yield fewer sets than a recipe can count on.
+    /// A commitment cannot be changed, so no seed may yield fewer sets than recipes can rely on.
     #[test]
     fn every_seed_has_the_sets_that_a_recipe_counts_on() {
         let kinds = [Kind::Lure, Kind::Demolition];

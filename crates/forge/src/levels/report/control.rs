@@ -6,27 +6,27 @@ use report::{Section, Share, Table, TableCell, Value};
 use serde::Serialize;
 use validators::Difficulty;
 
-/// The minimum fraction of an unconstrained pool with a label at which the game counts as able to express the label.
+/// The minimum fraction of a label in an unconstrained pool at which the game counts as able to express the label.
 const EXPRESSIBLE: f64 = 0.05;
 
 /// The index of the requested label and the index of the measured label.
 type Asked = (usize, Option<usize>);
 
-/// The levels whose measured label is the requested label.
+/// The levels whose measured label equals the requested label.
 #[derive(Serialize)]
 struct Hits {
     /// The fraction of levels with exactly the requested label.
     exact: Share,
-    /// The fraction of levels with the requested label or a neighbouring one.
+    /// The fraction of levels with the requested or a neighbouring label.
     within_one: Share,
     /// The expected fraction if each level were picked from the pool at random; `None` without a pool.
     random_exact: Option<f64>,
-    /// The same expected fraction for the requested label or a neighbouring one.
+    /// The same expected fraction, for the requested or a neighbouring label.
     random_within_one: Option<f64>,
 }
 
 /// Compares the requested and the measured difficulty, as a section and as a table; `None` if no difficulty was
-/// requested, or if no ladder played. Levels that could not be measured, because no win was found, count as misses.
+/// requested, or if no ladder played. Levels that could not be measured, for lack of a win, count as misses.
 pub(super) fn control(levels: &[SurveyedLevel], pool: &[Difficulty]) -> Option<(Section, Table)> {
     let asked = |level: &SurveyedLevel| Some((rank(level.asked?), level.label().map(rank)));
     let pairs: Vec<Asked> = levels.iter().filter_map(asked).collect();
@@ -122,7 +122,7 @@ impl Hits {
         Hits { exact, within_one, random_exact, random_within_one }
     }
 
-    /// Adds the hits to a section. `key` is the key of the fraction of exact hits for the head of the page.
+    /// Adds the hits to a section. `key` identifies the fraction of exact hits in the page header.
     fn add(&self, section: Section, key: &'static str, which: &str) -> Section {
         let random = |section: Section, value: Option<f64>| match value {
             Some(value) => section.shown("— picked at random", Value::Expected(value)),

@@ -1,4 +1,4 @@
-//! The likeness of levels to each other, and to the game's own levels.
+//! The similarity of levels to each other, and to the game's own levels.
 
 use crate::survey::SurveyedLevel;
 use base::Digest;
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 /// The maximum distance of near-duplicates.
 pub(crate) const NEAR: f64 = 0.05;
 
-/// The distances between the levels of a set.
+/// The distances between the levels in a set.
 pub(super) struct Distances {
     /// For each level, the mean distance to the other levels, if there are any.
     means: Vec<f64>,

@@ -1,7 +1,7 @@
-//! The report on levels, which is the same for every generator: the levels of a set, individually and together.
+//! The report on a set of levels, individually and as a whole. The report has the same form for every generator.
 //!
-//! The report is a pure function of the levels and their verdicts, so the same input gives the same bytes. It contains
-//! no times and no paths. The meaning of each figure, with its formula and source, is in
+//! The report is a pure function of the levels and their verdicts, so the same input produces the same bytes. The
+//! report contains no times or paths. For the meaning of each figure, with its formula and source, see
 //! `docs/how-to/generate-levels.md`.
 
 mod control;
@@ -29,17 +29,17 @@ pub const REPORT_FORMAT: u32 = 1;
 /// The input for a report.
 #[derive(Clone, Copy)]
 pub struct Sample<'a> {
-    /// The game with the analysis of its rules.
+    /// The game, with an analysis of its rules.
     pub analysis: &'a Analysis,
-    /// The method that made the levels: `constructive`, `search` or `evolutionary`.
+    /// The method that generated the levels: `constructive`, `search` or `evolutionary`.
     pub method: &'a str,
-    /// The levels, in the order in which they were made.
+    /// The levels, in the order of generation.
     pub levels: &'a [SurveyedLevel],
     /// The game's own levels, for comparison; empty if the game has no levels of its own.
     pub examples: &'a [SurveyedLevel],
-    /// The labels of levels made without a requested difficulty. They show the result of picking levels at random.
+    /// The labels of levels generated without a requested difficulty. The labels represent picking levels at random.
     pub pool: &'a [Difficulty],
-    /// The cost of making the levels, without judging them for the report.
+    /// The cost of generating the levels, excluding the judging for the report.
     pub cost: &'a Tally,
 }
 
@@ -47,7 +47,7 @@ pub struct Sample<'a> {
 /// levels for means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelSetReport {
-    /// The figures about the set.
+    /// The figures for the whole set.
     pub set: SetReport,
     /// The measures compared with those of the game's own levels; empty if the game has no levels of its own.
     pub fits: Vec<Fit>,
@@ -58,7 +58,7 @@ pub struct LevelSetReport {
 }
 
 impl LevelSetReport {
-    /// Creates the report on a set. Cost: one comparison per pair of levels, on all threads. The remaining cost is
+    /// Creates the report on a set. Cost: one comparison per pair of levels, on all threads. All other costs are
     /// small.
     pub fn of(sample: &Sample<'_>) -> LevelSetReport {
         let Sample { analysis, method, levels, examples, pool, cost } = *sample;

@@ -17,7 +17,7 @@ pub struct Fit {
     pub measure: String,
     /// The minimum and maximum of the game's own levels.
     pub examples: [f64; 2],
-    /// The minimum and maximum of the set.
+    /// The minimum and maximum across the set.
     pub levels: [f64; 2],
     /// The fraction of levels within the range of the game's own levels.
     pub within: Share,
@@ -67,7 +67,7 @@ fn span(values: &[f64]) -> Option<[f64; 2]> {
     Some([found.min, found.max])
 }
 
-/// Returns a table of the ranges of measures, side by side.
+/// Returns a table that compares the measures' ranges side by side.
 fn beside(fits: &[Fit]) -> Table {
     let mut table = Table::new("fit", "", "", &["", "these levels", "the game's own", "within them"]);
     let span = |[low, high]: [f64; 2]| {
@@ -139,7 +139,7 @@ pub(super) fn lengths(levels: &[SurveyedLevel]) -> Section {
         .quantiles("pushes", "pushes of the witness", &pushes)
 }
 
-/// Describes the skill that the levels demand; `None` if no ladder played.
+/// Describes the skill required by the levels; `None` if no ladder played.
 pub(super) fn skill(levels: &[SurveyedLevel]) -> Option<Section> {
     let gaps = || levels.iter().filter_map(|level| level.measures.as_ref()?.skill);
     let wins: Vec<f64> = gaps().map(|gap| gap.wins).collect();
@@ -163,14 +163,14 @@ pub(super) fn skill(levels: &[SurveyedLevel]) -> Option<Section> {
     Some(PlayerRate::add_all(section, ladders))
 }
 
-/// An interaction, and the levels that use the interaction.
+/// An interaction, and the levels that use it.
 #[derive(Serialize)]
 struct LineUse {
     /// The line, in canonical spelling.
     rule: String,
     /// `true` if the interaction is with the edge of the screen.
     guard: bool,
-    /// The fraction of levels with a witness whose witness executes the interaction.
+    /// The fraction, among levels with a witness, whose witness executes the interaction.
     levels: Share,
 }
 

@@ -4,7 +4,7 @@
 use crate::survey::SurveyedLevel;
 use serde::Serialize;
 
-/// The pairs of measures that are plotted, chosen before any level was made: x, then y.
+/// The pairs of measures to plot: x, then y. The pairs were chosen before any level was generated.
 const PAIRS: [(&str, &str); 6] = [
     ("openness", "ticks"),
     ("cover", "pressure"),
@@ -17,16 +17,16 @@ const PAIRS: [(&str, &str); 6] = [
 /// The number of cells per axis.
 pub const BINS: usize = 10;
 
-/// The positions of a set's levels in a pair of measures.
+/// The positions of a set's levels along a pair of measures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Range {
     /// The measure on the horizontal axis.
     pub x: Axis,
     /// The measure on the vertical axis.
     pub y: Axis,
-    /// The pairs of values, x then y, of the levels that have both measures.
+    /// The value pairs, x then y, of the levels that have both measures.
     pub levels: Vec<[f64; 2]>,
-    /// The pairs of values of the game's own levels that have both measures.
+    /// The value pairs of the game's own levels that have both measures.
     pub examples: Vec<[f64; 2]>,
     /// The number of levels in each cell: [`BINS`] rows, from the bottom, with [`BINS`] cells each.
     pub cells: Vec<Vec<u64>>,
@@ -34,10 +34,10 @@ pub struct Range {
     pub occupied: u64,
 }
 
-/// A measure, and the range of the measure that is shown.
+/// A measure, and its displayed range.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Axis {
-    /// The name of the measure.
+    /// The measure's name.
     pub measure: String,
     /// The lower end of the range.
     pub low: f64,
@@ -63,7 +63,7 @@ impl Axis {
     }
 }
 
-/// Returns the smallest number of the series 10, 20, 50, 100, … that is not below a value.
+/// Returns the smallest number in the series 10, 20, 50, 100, … that is at least a value.
 fn above(value: f64) -> f64 {
     let mut ten = 10.0;
     while ten * 10.0 <= value {
@@ -77,7 +77,7 @@ fn above(value: f64) -> f64 {
 }
 
 impl Range {
-    /// Returns the pairs of [`PAIRS`] whose measures the levels have and whose values are not all 0.
+    /// Returns the pairs of [`PAIRS`] for which the levels have both measures and not all values are 0.
     pub(super) fn all(levels: &[SurveyedLevel], examples: &[SurveyedLevel]) -> Vec<Range> {
         PAIRS.iter().filter_map(|&(x, y)| Range::of(x, y, levels, examples)).collect()
     }

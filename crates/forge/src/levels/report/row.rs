@@ -18,7 +18,7 @@ pub struct LevelRow {
     pub rows: u64,
     /// `true` if the level meets every requested criterion.
     pub passes: bool,
-    /// The first criterion that the level does not meet.
+    /// The first unmet criterion.
     pub obstacle: Option<Criterion>,
     /// The result of the search for a win: `solved`, `impossible` or `unknown`.
     pub solved: &'static str,
@@ -28,15 +28,15 @@ pub struct LevelRow {
     pub label: Option<Difficulty>,
     /// The ease measured by the ladder, from 0 to 1.
     pub ease: Option<f64>,
-    /// The number of ticks of the shortest win, if it is proved to be the shortest.
+    /// The number of ticks in the shortest win, if the win is proved to be the shortest.
     pub shortest: Option<u64>,
-    /// The measures of play and of the layout, by name.
+    /// The play and layout measures, by name.
     pub measures: BTreeMap<String, f64>,
     /// The distance to the nearest level of the set.
     pub nearest: Option<f64>,
 }
 
-/// The names of the measures of play, in the order of the report. The measures of the board follow.
+/// The names of the play measures, in report order. The board measures follow.
 const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressure", "skill"];
 
 impl LevelRow {
@@ -75,8 +75,8 @@ impl LevelRow {
         }
     }
 
-    /// Returns the measured difficulty, with the requested difficulty if the two differ: `hard (asked: easy)`. The text
-    /// is empty if neither is known.
+    /// Returns the measured difficulty, with the requested difficulty if the two differ: `hard (asked: easy)`. Returns
+    /// an empty text if neither difficulty is known.
     pub fn difficulty(&self) -> String {
         match (self.label, self.asked) {
             (Some(label), Some(asked)) if label != asked => format!("{label} (asked: {asked})"),
@@ -103,7 +103,7 @@ impl LevelRow {
     }
 }
 
-/// Returns the table of all levels, with the measures of play before those of the board.
+/// Returns the table of all levels, with play measures before board measures.
 pub(super) fn table(rows: &[LevelRow]) -> Table {
     let known: BTreeSet<&str> = rows.iter().flat_map(|row| row.measures.keys()).map(String::as_str).collect();
     let play: Vec<&str> = OF_PLAY.into_iter().filter(|name| known.contains(name)).collect();

@@ -1,4 +1,4 @@
-//! Tests with a small hand-made set, whose figures are easy to count.
+//! Tests with a small hand-made set that has easily counted figures.
 
 use super::*;
 use crate::survey::LevelSurvey;
@@ -28,8 +28,8 @@ fn fared(player: &str, looks_ahead: bool, wins: u64) -> PlayerResult {
     }
 }
 
-/// Returns a level that `steps` steps to the right win, with invented verdicts of its judges. If `steps` is 0, the
-/// level is not won.
+/// Returns a level that is won by `steps` steps to the right, with invented verdicts. If `steps` is 0, the level is
+/// not won.
 fn judged(game: &Game, text: &str, steps: usize, [random, weak, strong]: [u64; 3]) -> SurveyedLevel {
     let level = game.level(text).unwrap();
     let (mut episode, mut state) = Episode::begin(game, &level, Seed::from_text("made up"));
@@ -92,15 +92,15 @@ fn example() -> LevelSetReport {
     report(&levels, &examples, &pool)
 }
 
-/// The format of the report is stable. This test may change only with [`REPORT_FORMAT`], or with the meaning of a
-/// figure.
+/// The format of the report is stable. This test may change only with [`REPORT_FORMAT`], or with a figure's
+/// meaning.
 #[test]
 fn a_report_is_what_it_was() {
     let text = example().set.to_json().unwrap();
     assert_eq!(text, include_str!("golden.json"), "the report has moved; it reads\n{text}");
 }
 
-/// Parses the report like a program that reads it.
+/// Parses the report as an external program would.
 fn read(report: &LevelSetReport) -> Json {
     serde_json::from_str(&report.set.to_json().unwrap()).unwrap()
 }

@@ -1,4 +1,4 @@
-//! Entries of an archive: the only header that a file of a release may have, and the diagnosis of any other.
+//! Archive entries: the only header allowed for a release file, and the diagnostics for any other header.
 
 use crate::format::manifest::item::Item;
 use crate::format::manifest::{MANIFEST_FILE, Manifest};
@@ -6,7 +6,7 @@ use crate::format::path::check_path;
 use crate::format::problem::{Flaw, Problem};
 use tar::{EntryType, Header};
 
-/// The size of a block, in bytes. A header takes one block, and contents are padded to whole blocks.
+/// The size of a block, in bytes. A header takes one block, and content is padded to whole blocks.
 pub(super) const BLOCK: usize = 512;
 /// The number of zero bytes at the end of an archive.
 pub(super) const END: usize = 2 * BLOCK;
@@ -37,7 +37,7 @@ pub(super) fn total<'a>(items: impl Iterator<Item = &'a Item>) -> u64 {
     sizes.sum::<u64>() + END as u64
 }
 
-/// Parses the path and the size in a header.
+/// Parses the path and the size from a header.
 pub(super) fn path_and_size(block: &[u8; BLOCK]) -> Result<(String, u64), String> {
     let header = Header::from_byte_slice(block);
     let size = header.size().map_err(|_| "the tar header is damaged".to_owned())?;
@@ -117,7 +117,7 @@ fn path(header: &Header) -> String {
     String::from_utf8_lossy(&header.path_bytes()).into_owned()
 }
 
-/// Returns `true` if a header's own checksum is correct.
+/// Returns `true` if a header's checksum is correct.
 fn has_valid_checksum(header: &Header) -> bool {
     let mut copy = header.clone();
     copy.set_cksum();

@@ -1,8 +1,8 @@
 //! The container of an archive: one zstd frame, whose header bounds its size before decompression, and a seal.
 //!
-//! Some bits of compressed data have no effect: if they are flipped, the content stays the same. A skippable frame
-//! (RFC 8878 §3.1.2), which every zstd reader ignores, follows so that every flipped bit is detected. It holds the
-//! BLAKE3 hash of the bytes before it.
+//! Some bits of compressed data can be flipped without changing the content. To detect every flipped bit, the
+//! frame is followed by a skippable frame (RFC 8878 §3.1.2) with the BLAKE3 hash of the preceding bytes. Every
+//! zstd reader ignores the skippable frame.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -16,10 +16,10 @@ use base::Digest;
 const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 /// The base-2 logarithm of the compressor's window, in bytes: 8 MiB, which every reader accepts.
 const WINDOW_LOG: u8 = 23;
-/// The compression level, which is high because an archive is compressed once and read often.
+/// The compression level: high because an archive is compressed once and read often.
 const LEVEL: i32 = 15;
 
-/// Returns `true` if the regular file at `path` begins like an archive.
+/// Returns `true` if the regular file at `path` begins as an archive does.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read.
@@ -27,7 +27,7 @@ pub fn is_archive(path: &Path) -> Result<bool, SnapshotError> {
     Ok(head(path)?.starts_with(&MAGIC))
 }
 
-/// Returns `true` if the regular file at `path` has the frame header that [`pack`](super::pack) writes.
+/// Returns `true` if the regular file at `path` has the frame header written by [`pack`](super::pack).
 ///
 /// # Errors
 /// Returns an error if the file cannot be read.
@@ -36,7 +36,7 @@ pub(super) fn begins_as_packed(path: &Path) -> Result<bool, SnapshotError> {
     Ok(head.starts_with(&MAGIC) && stated_size(&head).is_ok())
 }
 
-/// Reads up to the length of the longest frame header: magic number, descriptor, window and size.
+/// Reads up to the maximum length of a frame header: magic number, descriptor, window and size.
 fn head(path: &Path) -> Result<Vec<u8>, SnapshotError> {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(4 + 1 + 1 + 8).read_to_end(&mut head));
@@ -156,7 +156,7 @@ pub(super) enum Unreadable {
     Damaged(String),
 }
 
-/// A reader of the uncompressed bytes of an archive, up to the number that its frame states.
+/// A reader for an archive's uncompressed bytes, up to the size stated in its frame.
 pub(super) struct FrameReader {
     decoder: zstd::Decoder<'static, Hashed<BufReader<File>>>,
     hasher: blake3::Hasher,
@@ -164,7 +164,7 @@ pub(super) struct FrameReader {
 }
 
 impl FrameReader {
-    /// Reads the frame header, and rejects a frame that holds more than `limit` bytes.
+    /// Reads the frame header, and rejects a frame with more than `limit` bytes.
     pub(super) fn open(file: File, limit: u64) -> Result<FrameReader, Unreadable> {
         let mut file = Hashed { inner: BufReader::new(file), hasher: blake3::Hasher::new() };
         // The longest header has 4 + 1 + 1 + 8 bytes, and a freshly filled buffer holds at least that many, or the
@@ -204,7 +204,7 @@ impl FrameReader {
         Ok(bytes)
     }
 
-    /// Reads a file of `size` bytes and the zeros that pad its last block.
+    /// Reads a file of `size` bytes and the zero padding of its last block.
     pub(super) fn file(&mut self, size: u64) -> Result<Vec<u8>, Unreadable> {
         let content = self.content(size)?;
         match self.content(padding(size) as u64)?.iter().all(|byte| *byte == 0) {
@@ -213,7 +213,7 @@ impl FrameReader {
         }
     }
 
-    /// Checks that the stated content, the frame and the file all end here.
+    /// Checks that the stated content, the frame and the file all end at the current position.
     pub(super) fn finish(&mut self) -> Result<(), Unreadable> {
         let damaged = |what: &str| Err(Unreadable::Damaged(what.into()));
         if self.left > 0 || self.decoder.read(&mut [0]).map_err(unreadable)? > 0 {
@@ -233,7 +233,7 @@ impl FrameReader {
         }
     }
 
-    /// Returns the digest of the bytes read, and their number.
+    /// Returns the digest and the number of the bytes read.
     pub(super) fn digest(&self) -> (Digest, u64) {
         (Digest::from_bytes(*self.hasher.finalize().as_bytes()), self.hasher.count())
     }
@@ -248,8 +248,8 @@ fn unreadable(error: io::Error) -> Unreadable {
     }
 }
 
-/// Parses the content size in a frame header (RFC 8878 §3.1.1.1). The header must have the form that
-/// [`FrameWriter::begin`] writes.
+/// Parses the content size in a frame header (RFC 8878 §3.1.1.1). The header must have the form written by
+/// [`FrameWriter::begin`].
 fn stated_size(head: &[u8]) -> Result<u64, String> {
     let cut_off = || "the archive is truncated in its header".to_owned();
     let odd = |what: &str| {

@@ -1,16 +1,16 @@
-//! A release as one file, `.tar.zst`, to send by mail, to attach to papers, or to identify by a single digest.
+//! A release as a single `.tar.zst` file that can be mailed, attached to papers, or identified by a single digest.
 //!
-//! The same folder always gives the same file, because every detail is fixed:
+//! The same folder always produces the same file, because every detail is fixed:
 //!
 //! - `<name>/MANIFEST.json` is the first entry, so that a reader knows what to expect. The items follow in the
-//!   manifest's order. In a revealed release, the lists of withheld files come next, then the files that they list,
+//!   manifest's order. In a revealed release, the lists of withheld files come next, followed by the listed files,
 //!   sorted.
-//! - Each entry is a regular file with a ustar header: mode 0644; owner, group and time 0; no owner names. There are
-//!   no folders and no extensions. Two blocks of zeros end the tar archive.
+//! - Each entry is a regular file with a ustar header: mode 0644; owner, group and time 0; no owner names. Folders
+//!   and extensions do not occur. Two blocks of zeros end the tar archive.
 //! - The tar archive is compressed into one zstd frame with a content size, a checksum and no dictionary. A skippable
 //!   frame with the BLAKE3 hash of the compressed bytes follows, to detect accidental damage.
 //!
-//! [`Archive::open`] accepts exactly these bytes: everything else that tar can express (links, devices, sparse files,
+//! [`Archive::open`] accepts exactly this form: everything else that tar can express (links, devices, sparse files,
 //! extended headers, duplicate names, other owners) differs from the expected header and is reported. The digest
 //! covers the *uncompressed* bytes, because a different version of zstd may compress them differently.
 //!
@@ -45,10 +45,10 @@ pub use frame::is_archive;
 /// The suffix of an archive's file name.
 pub const ARCHIVE_END: &str = ".tar.zst";
 
-/// The maximum unpacked size of an archive, in bytes: 512 MiB, because an archive is read into memory. Distribute a
-/// larger release as a folder.
+/// The maximum unpacked size of an archive, in bytes: 512 MiB, because an archive is read into memory. Larger
+/// releases must be distributed as folders.
 pub const MAX_UNPACKED: u64 = 512 << 20;
-/// The unpacked size that is allowed regardless of the packed size, in bytes: 16 MiB.
+/// The unpacked size allowed regardless of the packed size, in bytes: 16 MiB.
 pub const FREE_UNPACKED: u64 = 16 << 20;
 /// The maximum ratio of unpacked to packed bytes beyond [`FREE_UNPACKED`]. Releases stay below 30.
 pub const MAX_RATIO: u64 = 200;
@@ -56,7 +56,7 @@ pub const MAX_RATIO: u64 = 200;
 /// The result of [`pack`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Packed {
-    /// The root of the packed release.
+    /// The packed release's root.
     pub root: Digest,
     /// The digest of the uncompressed bytes.
     pub digest: Digest,
@@ -64,22 +64,22 @@ pub struct Packed {
     pub unpacked: u64,
     /// The size of the file, in bytes.
     pub size: u64,
-    /// The number of papers beside the release, which are not packed.
+    /// The number of papers stored with the release, none of which is packed.
     pub papers: usize,
 }
 
-/// Packs the release folder `root` into the file `out`, which must not exist. The same release gives the same
+/// Packs the release folder `root` into the file `out`, which must not exist yet. The same release produces the same
 /// uncompressed bytes on every machine.
 ///
-/// `out` is either complete or absent. Until it is complete, the data lies in the folder `<out>.partial` of a
+/// `out` is either complete or absent. Until `out` is complete, the data is stored in the folder `<out>.partial` of a
 /// [`Draft`], which replaces a stale folder of that name.
 ///
-/// Cost: two passes over the files, and enough memory for one of them.
+/// Cost: two passes over the files, and enough memory for one file.
 ///
 /// # Errors
 /// Returns an error if the folder is not a release or differs from its manifest. Also returns an error if the release
-/// exceeds the limits of an archive ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot represent, if
-/// `out` exists, or if a file system operation fails.
+/// exceeds the archive limits ([`MAX_UNPACKED`], [`MAX_RATIO`]) or has a path that tar cannot represent, if `out`
+/// exists, or if a file system operation fails.
 pub fn pack(root: &Path, out: &Path) -> Result<Packed, SnapshotError> {
     refuse_unfinished(root)?;
     let integrity = check_integrity(root)?;
@@ -161,10 +161,10 @@ fn most(size: u64) -> u64 {
 /// The result of reading an archive: its manifest, its files, and all problems found.
 #[derive(Debug, Clone)]
 pub struct Archive {
-    /// The manifest, and the problems in the form of [`check_integrity`]. After a fault in the archive's own
+    /// The manifest, and the problems in the form used by [`check_integrity`]. After a fault in the archive's own
     /// structure, nothing more is read.
     pub integrity: Integrity,
-    /// The digest of the uncompressed bytes read, which are all of them if the archive is sound.
+    /// The digest of the uncompressed bytes read: all bytes if the archive is sound.
     pub digest: Digest,
     /// The number of uncompressed bytes read.
     pub unpacked: u64,
@@ -173,10 +173,10 @@ pub struct Archive {
 }
 
 impl Archive {
-    /// Reads an untrusted archive. Nothing is unpacked to disk, and the file's own size bounds how much is read
+    /// Reads an untrusted archive. Nothing is unpacked to disk, and the file's own size limits the amount to read
     /// ([`MAX_RATIO`]) before anything is decompressed.
     ///
-    /// Cost: one pass, and memory for the content, at most [`MAX_UNPACKED`] plus a window of 8 MiB.
+    /// Cost: one pass, and memory for the content, up to [`MAX_UNPACKED`] plus a window of 8 MiB.
     ///
     /// # Errors
     /// Returns an error if the file is not a zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot), or a damaged
@@ -186,7 +186,7 @@ impl Archive {
         Archive::read(path, true)
     }
 
-    /// Checks an archive like [`Archive::open`], without keeping its files.
+    /// Checks an archive like [`Archive::open`], without keeping its files in memory.
     ///
     /// Cost: one pass, and memory for the manifest and one file.
     ///
@@ -196,7 +196,7 @@ impl Archive {
         Archive::read(path, false).map(|archive| archive.integrity)
     }
 
-    /// Reads an archive. If `keep` is set, the content of its files is kept.
+    /// Reads an archive. If `keep` is set, also stores the content of its files.
     fn read(path: &Path, keep: bool) -> Result<Archive, SnapshotError> {
         let io = |source| SnapshotError::io("read", path)(source);
         let broken = |message: String| SnapshotError::Archive { path: path.to_path_buf(), message };
@@ -253,12 +253,13 @@ impl Archive {
         })
     }
 
-    /// Returns the content of the item at `path`; `None` if there is no such item or the archive ends before it.
+    /// Returns the content of the item at `path`; `None` if the item does not exist or the archive ends before it.
     pub fn file(&self, path: &str) -> Option<&[u8]> {
         self.files.get(path).map(Vec::as_slice)
     }
 
-    /// Writes the release to the folder `out`, which must be absent or empty and ends up complete or absent.
+    /// Writes the release to the folder `out`, which must be absent or empty. Afterwards the folder is either
+    /// complete or absent.
     ///
     /// # Errors
     /// Returns an error if the archive is unsound, `out` is occupied, or a file system operation fails.
@@ -273,14 +274,14 @@ impl Archive {
     }
 }
 
-/// Returns `true` if a path has the suffix of an archive, which says nothing about the content.
+/// Returns `true` if a path has an archive's suffix. The suffix does not determine the content.
 pub(crate) fn is_called_archive(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ARCHIVE_END))
 }
 
-/// Returns `true` if the regular file at `path` is not an archive of a release, not even a damaged one. Such a file
-/// has no seal, and its first entry is not a manifest. If the first entry cannot be unpacked, the file must not begin
-/// like an archive either.
+/// Returns `true` if the regular file at `path` is not a release archive, not even a damaged one. Such a file has no
+/// seal, and its first entry is not a manifest. If the first entry cannot be unpacked, the file must also not begin
+/// as an archive does.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read.
@@ -293,7 +294,7 @@ pub(crate) fn is_foreign(path: &Path) -> Result<bool, SnapshotError> {
     Ok(first != MANIFEST_FILE && !first.ends_with(&format!("/{MANIFEST_FILE}")))
 }
 
-/// Reads the name of the top folder and the bytes of the manifest.
+/// Reads the top folder's name and the manifest's bytes.
 fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadable> {
     let block = reader.block()?.ok_or_else(|| Unreadable::Damaged("the archive is empty".to_owned()))?;
     let (path, size) = entry::path_and_size(&block).map_err(Unreadable::Damaged)?;
@@ -363,7 +364,7 @@ fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
     }
 }
 
-/// Reads the list of one part of the withheld files. The header states the list's size.
+/// Reads the list for one part of the withheld files. The header states the list's size.
 fn read_list(
     reader: &mut FrameReader,
     manifest: &Manifest,
@@ -383,7 +384,7 @@ fn read_list(
     Ok((item.path, content))
 }
 
-/// Reads files that the manifest lists.
+/// Reads the files listed in the manifest.
 fn read_listed<'a>(
     reader: &mut FrameReader,
     manifest: &Manifest,

@@ -1,9 +1,9 @@
-//! Reading a recipe as arbitrary JSON, with bounded memory.
+//! Reads a recipe as arbitrary JSON, with bounded memory.
 //!
 //! A manifest is untrusted input, and its root can be compared only after all of it has been read. Two limits bound
-//! the memory that a few bytes can cost: one on the nesting depth, because the canonical text indents every level,
-//! and one on the number of values, because each value takes much more memory than the two bytes in which it can be
-//! written.
+//! the memory that a few bytes can cost. The limit on nesting depth is needed because the canonical text indents
+//! every level. The limit on the number of values is needed because each value takes much more memory than the two
+//! bytes in which it can be written.
 
 use std::cell::Cell;
 
@@ -15,7 +15,7 @@ use serde_json::{Map, Value};
 pub(super) const MAX_NESTING: usize = 16;
 /// The maximum number of values in a recipe. An object counts as [`OBJECT`] values.
 pub(super) const MAX_VALUES: usize = 1 << 20;
-/// The number of values that an object counts as.
+/// The number of values counted for an object.
 const OBJECT: usize = 16;
 
 /// Reads a value with at most [`MAX_NESTING`] levels and [`MAX_VALUES`] values, and rejects any excess before storing
@@ -24,7 +24,7 @@ pub(super) fn bounded<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Valu
     Bounded { levels: MAX_NESTING, values: &Cell::new(MAX_VALUES) }.deserialize(deserializer)
 }
 
-/// The remaining budget: the number of levels below this value, and the number of values in the whole recipe.
+/// The remaining budget: the number of levels below the current value, and the number of values in the whole recipe.
 #[derive(Clone, Copy)]
 struct Bounded<'a> {
     levels: usize,
@@ -42,7 +42,7 @@ impl Bounded<'_> {
         left.map(|left| self.values.set(left))
     }
 
-    /// Returns the budget inside an array or object.
+    /// Returns the budget for the inside of an array or object.
     fn inside<E: Error>(self) -> Result<Self, E> {
         let levels = self.levels.checked_sub(1);
         let levels = levels
@@ -153,7 +153,7 @@ mod tests {
         refuse(&list("{}", MAX_VALUES / OBJECT), "more than 1048576 values");
     }
 
-    /// The recipes of the stored releases stay far below the bound on nesting.
+    /// The recipes of the stored releases stay far below the nesting limit.
     #[test]
     fn our_recipes_are_flat() {
         fn levels(value: &Value) -> usize {

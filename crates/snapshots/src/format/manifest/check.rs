@@ -1,4 +1,4 @@
-//! Checks that a manifest is consistent in itself, apart from its syntax, its root and the files.
+//! Checks a manifest's internal consistency, apart from its syntax, its root and the files.
 
 use super::{FORMAT, HEADER_LEAF, Manifest, OLDEST_FORMAT, SEALED_FORMAT};
 use crate::error::SnapshotError;
@@ -10,7 +10,7 @@ use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT};
 use crate::format::path::check_path;
 use crate::format::version::is_version_number;
 
-/// Checks a manifest, and returns the first fault as an error. Cost: O(n log n) in the number of items.
+/// Checks a manifest, and returns the first problem as an error. Cost: O(n log n) in the number of items.
 pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_format(manifest)?;
     let name = &manifest.name;
@@ -132,11 +132,11 @@ fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     check_tree(items, limits)
 }
 
-/// Checks that the items form one folder tree on any file system: no file is also a folder, and no two names differ
-/// in case only.
+/// Checks that the items form one folder tree on any file system: a path cannot be both a file and a folder, and no
+/// two names differ only in case.
 ///
-/// Each item is compared with its predecessor in tree order, so no paths are stored. The memory is two words per
-/// item, and the walk ends at the first folder beyond the limit.
+/// Each item is compared with its predecessor in tree order, so no paths are stored. Uses two words of memory per
+/// item, and stops at the first folder beyond the limit.
 fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     let mut paths: Vec<&str> = items.iter().map(|item| item.path.as_str()).collect();
     paths.sort_unstable_by(|a, b| tree_order(a).cmp(tree_order(b)));
@@ -154,13 +154,13 @@ fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     Ok(())
 }
 
-/// Returns the bytes that a path is sorted by. All entries of a folder are then adjacent, ignoring case, because
+/// Returns the bytes by which a path is sorted. All entries in a folder are then adjacent, ignoring case, because
 /// the separator sorts before every other character.
 fn tree_order(path: &str) -> impl Iterator<Item = u8> {
     path.bytes().map(|byte| if byte == b'/' { 0 } else { byte.to_ascii_lowercase() })
 }
 
-/// Returns the number of leading components that two paths, adjacent in tree order, have in common.
+/// Returns the number of leading components shared by two paths that are adjacent in tree order.
 fn shared_components(before: &str, path: &str) -> Result<usize, SnapshotError> {
     let (mut shared, mut ends) = (0, (0, 0));
     for (one, two) in before.split('/').zip(path.split('/')).take_while(|(a, b)| a.eq_ignore_ascii_case(b)) {

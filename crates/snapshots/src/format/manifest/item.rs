@@ -1,4 +1,4 @@
-//! The items and the kind of a release.
+//! A release's items and kind.
 
 use base::Digest;
 use serde::{Deserialize, Serialize};
@@ -7,26 +7,26 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ReleaseKind {
-    /// The seed is in the recipe.
+    /// The recipe contains the seed.
     Open,
-    /// The recipe holds a commitment to the seed, and the seed is revealed later.
+    /// The recipe contains a commitment to the seed, and the seed is revealed later.
     Sealed,
 }
 
-/// A file of a release.
+/// A file in a release.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Item {
-    /// The relative path, which [`check_path`](crate::check_path) accepts.
+    /// The relative path, as accepted by [`check_path`](crate::check_path).
     pub path: String,
-    /// The size in bytes.
+    /// The size, in bytes.
     pub size: u64,
     /// The digest of the content.
     pub digest: Digest,
 }
 
 impl Item {
-    /// Returns the item for a file with this content. Cost: one pass over the content.
+    /// Returns the item for a file with the given content. Cost: one pass over the content.
     pub fn of(path: impl Into<String>, content: &[u8]) -> Item {
         Item { path: path.into(), size: content.len() as u64, digest: Digest::of(content) }
     }

@@ -1,9 +1,9 @@
-//! `MANIFEST.json`: the description of a release, the list of its files, and the root that commits to both.
+//! `MANIFEST.json`: a release's description, its list of files, and the root that commits to both.
 //!
 //! # What the root covers
-//! The root is that of the [`merkle`] tree over
+//! The root is the root of the [`merkle`] tree over
 //!
-//! - one leaf per item, which is every file of the release except `MANIFEST.json` itself, at its path;
+//! - one leaf per item, at its path; the items are all files in the release except `MANIFEST.json` itself;
 //! - from format 3 on, one leaf for each list of withheld files instead of leaves for these files;
 //! - one leaf at the reserved path `MANIFEST` ([`HEADER_LEAF`]), which no file may have. Its digest is the BLAKE3 of
 //!   the [canonical JSON](crate::canonical) of the *header*. The header is an object of the manifest's fields
@@ -35,62 +35,61 @@ use std::collections::BTreeSet;
 
 /// The snapshot format of open releases.
 pub const FORMAT: u32 = 2;
-/// The snapshot format of sealed releases, which is the newest format that this crate reads. It
-/// [hides](crate::withhold) the withheld files, which sealed releases of earlier formats listed.
+/// The snapshot format of sealed releases: the newest format that this crate reads. It [hides](crate::withhold) the
+/// withheld files, which were listed in earlier formats.
 pub const SEALED_FORMAT: u32 = 3;
-/// The oldest snapshot format that this crate reads. Its manifests state no version.
+/// The oldest snapshot format that this crate reads. Manifests in this format do not state a version.
 pub(crate) const OLDEST_FORMAT: u32 = 1;
-/// The file that holds the manifest, at the top of the release.
+/// The file with the manifest, at the top of the release.
 pub const MANIFEST_FILE: &str = "MANIFEST.json";
-/// The path of the leaf that puts the manifest's header under the root.
+/// The path of the leaf that includes the manifest's header under the root.
 pub const HEADER_LEAF: &str = "MANIFEST";
 /// The maximum size of a manifest, in bytes: 64 MiB.
 pub const MANIFEST_LIMIT: u64 = 64 << 20;
 
-/// The description and the content of a release. The module documentation lists the fields that the root covers.
+/// A release's description and content. The module documentation lists the fields covered by the root.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
     /// The version of the folder's layout: [`FORMAT`] or [`SEALED_FORMAT`].
     pub format: u32,
-    /// The name of the release, such as `2026-12`, which is a single path component.
+    /// The release's name, such as `2026-12`: a single path component.
     pub name: String,
     /// The kind of release, which determines whether its seed is public from the start.
     pub kind: ReleaseKind,
-    /// The engine's `SEMANTICS` when the release was minted. Witnesses replay under the same semantics.
+    /// The engine's `SEMANTICS` at minting. Witnesses replay under the same semantics.
     pub semantics: u32,
-    /// The generators' `GENERATION` when the release was minted. Under the same generation, the recipe gives the same
-    /// bytes.
+    /// The generators' `GENERATION` at minting. Under the same generation, the recipe produces the same bytes.
     pub generation: u32,
-    /// The [version](crate::format::version) that minted the release, such as `0.12.0`. It is the first version of
-    /// its generation, even if a later version was used. `None` in format 1.
+    /// The [version](crate::format::version) that minted the release, such as `0.12.0`. This is the generation's
+    /// first version, even if a later version was used. `None` in format 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
     /// The root of the previous release; `None` for the first release.
     pub parent: Option<Digest>,
     /// The GUID in every file that can contain one: see [`canary`](crate::canary()).
     pub canary: String,
-    /// BLAKE3(seed ‖ nonce) of a sealed release; `None` for an open one.
+    /// BLAKE3(seed ‖ nonce) of a sealed release; `None` for an open release.
     pub commitment: Option<Digest>,
-    /// The digest of the minting binary's `Cargo.lock`. It is provenance only and not under the root.
+    /// The digest of the minting binary's `Cargo.lock`. Records provenance only, and is not covered by the root.
     pub lockfile: Digest,
-    /// The complete recipe of the release.
+    /// The release's complete recipe.
     #[serde(deserialize_with = "bounded::bounded")]
     pub recipe: Value,
-    /// Every file except `MANIFEST.json`, sorted by the bytes of the path. From format 3 on, withheld files are not
-    /// listed.
+    /// Every file except `MANIFEST.json`, sorted by the bytes of their paths. From format 3 on, withheld files are
+    /// not listed.
     pub items: Vec<Item>,
-    /// The commitments to withheld files; `None` if no files are withheld, and in earlier formats.
+    /// The commitments to withheld files; `None` if no files are withheld, or in earlier formats.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub withheld: Option<Withheld>,
     /// The root of the tree over the items and the header.
     pub root: Digest,
-    /// A checksum that detects a change of any byte of the manifest. It is the BLAKE3 of the digits of `root`, of
-    /// `lockfile` and of each item's size, with a line feed after each.
+    /// A checksum that detects a change to any byte in the manifest. The checksum is the BLAKE3 of the digits of
+    /// `root`, of `lockfile` and of each item's size, with a line feed after each.
     pub checksum: Digest,
 }
 
-/// The part of the manifest that its own leaf covers. Adding a field here changes every root.
+/// The part of the manifest covered by its own leaf. Adding a field here changes every root.
 #[derive(Serialize)]
 struct Header<'a> {
     format: u32,
@@ -112,7 +111,8 @@ impl Manifest {
         MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
     }
 
-    /// Returns the known paths of a sealed release's files that are withheld until the reveal, without the lists.
+    /// Returns the known paths of withheld files in a sealed release, without the lists. The files are withheld until
+    /// the reveal.
     pub(crate) fn held(&self) -> BTreeSet<&str> {
         let held = self.files().map(|item| item.path.as_str());
         held.filter(|path| path.starts_with(HELD) && HeldPart::of_list(path).is_none()).collect()
@@ -123,8 +123,7 @@ impl Manifest {
         self.items.iter().chain(self.disclosed())
     }
 
-    /// Returns the known withheld files, which are the lists and the files that they list. The result is empty before
-    /// format 3.
+    /// Returns the known withheld files: the lists and the files listed in them; empty before format 3.
     pub(crate) fn disclosed(&self) -> &[Item] {
         self.withheld.as_ref().map_or(&[], |withheld| &withheld.disclosed)
     }
@@ -134,8 +133,7 @@ impl Manifest {
         self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_none())
     }
 
-    /// Returns the files in the order of an archive: the items, then the lists of withheld files, then the withheld
-    /// files.
+    /// Returns the files in archive order: the items, then the lists of withheld files, then the withheld files.
     pub(crate) fn in_archive_order(&self) -> impl Iterator<Item = &Item> {
         let lists = self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_some());
         self.items.iter().chain(lists).chain(self.withheld_files())
@@ -193,8 +191,8 @@ impl Manifest {
         Ok(leaves)
     }
 
-    /// Sorts the items, and computes the root and the checksum. Call this function last, because a later change to
-    /// any field invalidates the root or the checksum.
+    /// Sorts the items, and computes the root and the checksum. Call this function last, because changing any field
+    /// afterwards invalidates the root or the checksum.
     ///
     /// # Errors
     /// Returns an error if two items have the same path, an item has the path [`HEADER_LEAF`], or the recipe has no
@@ -225,17 +223,17 @@ impl Manifest {
     }
 
     /// Reads a manifest and checks everything that can be checked without the files, except the root.
-    /// [`check_integrity`](crate::check_integrity) reports a wrong root together with the problems of the files.
+    /// [`check_integrity`](crate::check_integrity) reports a wrong root together with the problems in the files.
     ///
     /// # Errors
     /// Returns an error in each of these cases:
     ///
-    /// - The manifest is too large, has a different format, or is not JSON of this shape.
+    /// - The manifest is too large, has a different format, or is not JSON with the expected structure.
     /// - The items are unsorted, duplicate, reserved, too large, too many, equal except for case, or have unsafe
     ///   paths.
     /// - The name or the canary is malformed.
     /// - A commitment is missing or unexpected.
-    /// - The recipe nests too deeply or holds too many values.
+    /// - The recipe nests too deeply or contains too many values.
     pub fn parse(bytes: &[u8]) -> Result<Manifest, SnapshotError> {
         if bytes.len() as u64 > MANIFEST_LIMIT {
             return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
@@ -251,7 +249,7 @@ impl Manifest {
         Ok(manifest)
     }
 
-    /// Returns the bytes of `MANIFEST.json`: canonical JSON, which [`Manifest::parse`] reads back as the same
+    /// Returns the bytes of `MANIFEST.json`: canonical JSON, from which [`Manifest::parse`] restores the same
     /// manifest.
     ///
     /// # Errors
@@ -284,21 +282,21 @@ impl Manifest {
         Ok(is_canonical_json(self, bytes)?)
     }
 
-    /// Returns the text of this manifest in this format, without checking it.
+    /// Returns this manifest's text in this format, without checking it.
     pub(crate) fn text(&self) -> Result<String, SnapshotError> {
         Ok(to_canonical_json(self)?)
     }
 }
 
-/// Returns `true` if a manifest's root matches the format that its fields imply, regardless of the stated version.
-/// The root covers the version, so no release of a different format has this root.
+/// Returns `true` if a manifest's root matches the format implied by its fields, regardless of the stated version.
+/// The root covers the version, so no release in a different format has this root.
 fn commits_to_known_format(bytes: &[u8]) -> bool {
     let Ok(mut manifest) = serde_json::from_slice::<Manifest>(bytes) else { return false };
     manifest.format = check::shape(&manifest);
     manifest.computed_root().is_ok_and(|root| root == manifest.root)
 }
 
-/// The fields that every format has.
+/// The fields common to all formats.
 #[derive(Deserialize)]
 struct Version {
     format: u64,
@@ -337,7 +335,7 @@ pub(crate) mod tests {
         example(&[("games/x/lvl0.txt", b"w"), ("README.md", b"read me")])
     }
 
-    /// These texts and roots define the formats. They were computed by an independent implementation.
+    /// These texts and roots define the formats. The values were computed by an independent implementation.
     #[test]
     fn golden() {
         #[track_caller]

@@ -1,20 +1,20 @@
-//! The commitments of a sealed release to the files that it withholds.
+//! A sealed release's commitments to its withheld files.
 
 use crate::format::layout::{HELD, is_solution};
 use crate::format::manifest::item::Item;
 use base::Digest;
 use serde::{Deserialize, Serialize};
 
-/// The commitments of a sealed release to its withheld files, and the disclosed files.
+/// A sealed release's commitments to its withheld files, and the disclosed files.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Withheld {
-    /// The digest of the list of wins that can be revealed before the other withheld files.
+    /// The digest of the list of wins that can be revealed before all other withheld files.
     pub solutions: Digest,
     /// The digest of the list of all other withheld files.
     pub rest: Digest,
-    /// The available lists and the files that they list, sorted by the bytes of the path. They are not part of the
-    /// manifest's text.
+    /// The available lists and the files listed in them, sorted by the bytes of their paths. This field is not
+    /// part of the manifest's text.
     #[serde(skip)]
     pub(crate) disclosed: Vec<Item>,
 }
@@ -22,7 +22,7 @@ pub struct Withheld {
 /// A part of the withheld files that is revealed as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum HeldPart {
-    /// The published coin wins.
+    /// The published coin wins. A coin is a secret random decision about which of two equal items is published.
     Solutions,
     /// All other withheld files.
     Rest,

@@ -1,21 +1,21 @@
-//! The corpus of hand-written games. Releases contain new levels for corpus games, and commands accept corpus
-//! games by name.
+//! The corpus of hand-written games. Releases contain new levels for corpus games, and commands accept the
+//! names of corpus games.
 
 use serde::{Deserialize, Serialize};
 
-/// The `CARD.toml` of a corpus game.
+/// A corpus game's `CARD.toml`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CorpusCard {
-    /// The title under the game's own theme.
+    /// The title in the game's own theme.
     pub title: String,
     /// A description of the game.
     pub description: String,
-    /// The goal as a sentence.
+    /// The goal, as a sentence.
     pub goal: String,
     /// The kind of game.
     pub kind: String,
-    /// `true` if anything moves while the player does nothing.
+    /// `true` if sprites move even while the player does nothing.
     pub real_time: bool,
     /// The skill that the game requires.
     pub skill: String,
@@ -23,7 +23,7 @@ pub struct CorpusCard {
     pub levels: Vec<Intent>,
 }
 
-/// The purpose of a level.
+/// A level's purpose.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Intent {
@@ -31,10 +31,10 @@ pub struct Intent {
     pub intent: String,
 }
 
-/// A corpus game as text.
+/// A corpus game, as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CorpusGame {
-    /// The name of its folder.
+    /// The name of the game's folder.
     pub name: String,
     /// The content of `game.vgdl`.
     pub source: String,
@@ -45,7 +45,7 @@ pub struct CorpusGame {
 }
 
 impl CorpusGame {
-    /// Creates a game from these texts. `card` is the text of the game's `CARD.toml`.
+    /// Creates a game from the given texts. `card` is the text of the game's `CARD.toml`.
     ///
     /// # Errors
     /// Returns a message that names the game if the card is malformed.

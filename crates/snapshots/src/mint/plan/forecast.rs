@@ -12,27 +12,27 @@ use validators::{Criteria, Criterion, CriterionSet};
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
 const INVENTED: [f64; 3] = [8.0, 25.0, 35.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
-/// The mean cost of a level without gates if a search for a win may take [`PLAIN_BUDGET`] calls, the default. Most of
-/// the cost comes from failed searches, whose cost is proportional to their budget in calls.
+/// The mean cost of a level without gates if a win search may take [`PLAIN_BUDGET`] calls (the default). Most of the
+/// cost comes from failed searches, whose cost is proportional to their call budget.
 const PLAIN: f64 = 2.0;
 const PLAIN_BUDGET: f64 = 3e6;
 /// The fraction of [`PLAIN`] that does not depend on the budget.
 const FIXED: f64 = 0.2;
-/// The mean cost of measuring the difficulty of a level without gates. With gates, few levels reach this measurement.
+/// The mean cost of measuring a level's difficulty without gates. With gates, few levels reach this measurement.
 const LADDER: f64 = 0.8;
 /// The spread of a job's cost across seeds: the standard deviation as a multiple of the mean. Without gates, a few
 /// failed searches dominate the cost. With gates, every candidate is searched many times.
 const SPREAD_PLAIN: f64 = 1.9;
 const SPREAD_GATED: f64 = 0.7;
 const SPREAD_FIXED_RULES: f64 = 0.8;
-/// The spread that all jobs of a mint share, because their costs were measured with a few recipes on one machine.
+/// The spread shared by all jobs in a mint, because job costs were measured with few recipes on one machine.
 const SPREAD_SHARED: f64 = 0.15;
 /// The standard normal deviate of the 95th percentile.
 const NINETY_FIVE: f64 = 1.645;
-/// The call budget of a search for a win at which the costs with gates were measured.
+/// The call budget per win search at which the costs with gates were measured.
 const GATED_BUDGET: f64 = 1e6;
 
-/// The expected cost of several jobs, in seconds of one core.
+/// The expected cost of several jobs, in core seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forecast {
     /// The median over all seeds.
@@ -49,9 +49,9 @@ impl Forecast {
 }
 
 impl Plan<'_> {
-    /// Forecasts the total cost of jobs on the machine that docs/reference/recipes.md describes. The sum is approximated as
-    /// log-normal with the sum's mean and variance (L. F. Fenton, 1960), so that few jobs have a long tail and many
-    /// jobs have almost none.
+    /// Forecasts the total cost of jobs on the machine described in docs/reference/recipes.md. The total is
+    /// approximated as log-normal with the correct mean and variance (L. F. Fenton, 1960), so the tail is long for few
+    /// jobs and short for many.
     pub fn forecast(&self, jobs: &[Job]) -> Forecast {
         let costs = jobs.iter().map(|&job| self.cost(job));
         let (mean, variance) = costs.fold((0.0, 0.0), |(mean, variance), (cost, spread)| {
@@ -65,7 +65,7 @@ impl Plan<'_> {
         Forecast { median, tail: median * libm::exp(NINETY_FIVE * libm::log(relative).sqrt()) }
     }
 
-    /// Returns the mean cost of a job in seconds of one core, and its spread.
+    /// Returns a job's mean cost in core seconds, and the cost's spread.
     fn cost(&self, job: Job) -> (f64, f64) {
         let usual = Criteria::default();
         let is_gated = |criteria: &Criteria| !criteria.ask.only(CriterionSet::GATES).is_empty();

@@ -1,4 +1,4 @@
-//! The plan of a recipe: a list of independent jobs, each with its own seed.
+//! A recipe's plan: a list of independent jobs, each with its own seed.
 
 pub(crate) mod corpus;
 pub(crate) mod forecast;
@@ -31,7 +31,7 @@ use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
 use validators::{CheckedCriteria, Criteria, Criterion, Effort, Panel};
 
-/// A recipe with all the data that minting needs.
+/// A recipe with all data required for minting.
 #[derive(Debug)]
 pub struct Plan<'a> {
     /// The recipe to mint.
@@ -41,23 +41,23 @@ pub struct Plan<'a> {
     /// The compiled games, by index in the corpus.
     games: Vec<Game>,
     pub(super) forms: Vec<GameForm>,
-    /// The new games of previous releases.
+    /// The new games in previous releases.
     pub(super) before: Vec<GameForm>,
     jobs: Vec<Job>,
-    /// The criteria of the recipe.
+    /// The recipe's criteria.
     pub(super) criteria: CheckedCriteria,
-    /// The criteria for levels of corpus games.
+    /// The criteria for corpus game levels.
     corpus_criteria: CheckedCriteria,
-    /// The rules of new games, divided among the jobs. They are drawn when the first job needs them.
+    /// The rules of new games, divided among the jobs. Drawn when first needed by a job.
     sets: OnceLock<RuleSets>,
-    /// The reference players; `None` if they are not set.
+    /// The reference players; `None` if no players are set.
     players: Option<&'a dyn MarkPlayers>,
 }
 
-/// A part of the work that is independent of all other jobs.
+/// A unit of work that is independent of all other jobs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Job {
-    /// A new game of a kernel, by its number.
+    /// A new game from a kernel, by its number.
     Constructive(u32),
     /// An invented game, by its method and its number within the method.
     Invented(Method, u32),
@@ -67,18 +67,18 @@ pub enum Job {
     Puzzle(PuzzleKind, u32),
 }
 
-/// The number of additional judges of a game ([`GameEffort::judges`]). It is lower than in `arcade generate games`,
-/// because a month has hardly more candidates than games.
+/// The number of additional judges per game ([`GameEffort::judges`]). This number is lower than in
+/// `arcade generate games`, because a month has hardly more candidates than games.
 const JUDGES: u64 = 3;
 
 impl<'a> Plan<'a> {
-    /// Makes the plan of a recipe. `secret` is the secret of a sealed release.
+    /// Creates a recipe's plan. `secret` is a sealed release's secret.
     ///
-    /// Cost: compiling the corpus, tens of milliseconds.
+    /// Costs tens of milliseconds to compile the corpus.
     ///
     /// # Errors
     /// Returns an error if the criteria are out of range, the secret of a sealed release does not match its recipe,
-    /// the recipe requests more games than the corpus has, or the corpus is broken.
+    /// the recipe requests more games than the corpus contains, or the corpus is broken.
     pub fn new(
         recipe: &'a Recipe,
         secret: Option<&Secret>,
@@ -114,7 +114,7 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    /// Sets the reference players that the recipe requests. Without them, jobs of such a recipe fail.
+    /// Sets the reference players requested in the recipe. If a recipe requests players, its jobs fail without them.
     ///
     /// # Errors
     /// Returns an error if the recipe requests a player that is not available.
@@ -137,7 +137,7 @@ impl<'a> Plan<'a> {
         &self.jobs
     }
 
-    /// Returns the indices of the jobs in the order in which their games are listed, corpus games first.
+    /// Returns the job indices in the order in which the games are listed, corpus games first.
     pub(super) fn in_order(&self) -> Vec<usize> {
         let is_new = |at: &usize| !matches!(self.jobs[*at], Job::Corpus(_));
         let (new, old): (Vec<usize>, Vec<usize>) = (0..self.jobs.len()).partition(is_new);
@@ -154,7 +154,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Returns the canary that every file contains.
+    /// Returns the canary contained in every file.
     pub fn canary(&self) -> String {
         match self.recipe.commitment {
             // The canary is derived from the recipe's digest, so that two recipes have different canaries.
@@ -165,8 +165,8 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Returns the digest of everything that determines the results of the jobs. Two plans with the same digest share
-    /// their results, even if their recipes differ in other respects.
+    /// Returns the digest of everything that determines the jobs' results. Two plans with the same digest share their
+    /// results, even if their recipes differ in other respects.
     ///
     /// # Errors
     /// Returns no error for a checked recipe.
@@ -196,13 +196,13 @@ impl<'a> Plan<'a> {
         Ok(canonical_digest(&decisive)?)
     }
 
-    /// Returns the candidates for new games of kernels.
+    /// Returns the candidates for new games from kernels.
     fn generated(&self) -> impl Iterator<Item = Job> + use<> {
         let part = &self.recipe.generated;
         (0..candidates(part.games, part.candidates)).map(Job::Constructive)
     }
 
-    /// Returns the number of invented games that the recipe requests.
+    /// Returns the number of invented games requested in the recipe.
     fn invented_games(&self) -> u32 {
         self.recipe.invented.as_ref().map_or(0, |part| part.games)
     }
@@ -241,7 +241,8 @@ impl<'a> Plan<'a> {
         Ok(order.into_iter().map(Job::Corpus).collect())
     }
 
-    /// Runs a job. Cost: from a second to minutes of one core. Uses all threads of the current rayon pool.
+    /// Runs a job. Costs between one second and several minutes of core time. Uses all threads of the current rayon
+    /// pool.
     ///
     /// # Errors
     /// Returns an error if the recipe requests reference results and their players are missing or fail.
@@ -276,7 +277,7 @@ impl<'a> Plan<'a> {
         Ok(JobResult { games, tally })
     }
 
-    /// Returns the seed of a job, or the seed of its kind if jobs of the kind derive their own seeds.
+    /// Returns the seed of a job, or its kind's seed if jobs of that kind derive their own seeds.
     fn seed_of(&self, job: Job) -> SeedPath {
         let root = SeedPath::from(self.seed);
         match job {
@@ -287,7 +288,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Returns the criteria for the games of a job.
+    /// Returns the criteria for a job's games.
     pub(super) fn criteria_of(&self, job: Job) -> &CheckedCriteria {
         match job {
             Job::Corpus(_) => &self.corpus_criteria,
@@ -295,14 +296,14 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Makes a game of a kernel.
+    /// Builds a game from a kernel.
     fn draw(&self, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
         let order = self.order(self.recipe.generated.game_tries);
         let (made, tally) = make_one(&order, self.rule_sets(), &self.forms, seed, number);
         (made.into_iter().collect(), tally)
     }
 
-    /// Makes an invented game.
+    /// Generates an invented game.
     fn invent(&self, method: Method, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
         let Some(part) = &self.recipe.invented else { return (Vec::new(), Tally::default()) };
         // One attempt of a search, or one round of an archive, examines many rule sets.
@@ -317,7 +318,7 @@ impl<'a> Plan<'a> {
         (made.into_iter().collect(), tally)
     }
 
-    /// Returns the rules of new games. Jobs run independently, so their rules must be made different beforehand.
+    /// Returns the rules of new games. Jobs run independently, so diverse rules must be assigned beforehand.
     pub(super) fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
             let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
@@ -341,7 +342,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Makes a corpus game under a new theme, with new levels that resemble the game's own.
+    /// Creates a corpus game in a new theme, with new levels that resemble the game's own.
     fn new_levels(&self, at: usize, seed: &SeedPath) -> (Vec<MadeGame>, Tally) {
         let (recipe, known) = (self.recipe, &self.corpus.games[at]);
         let mut tally = Tally::default();
@@ -385,8 +386,8 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The maximum number of attempts at a corpus game whose levels leave a rule unused. After that many attempts, further
-/// levels would hardly use the rule.
+/// The maximum number of attempts to create a corpus game when its levels leave a rule unused. After this number of
+/// attempts, further levels are unlikely to use the rule.
 const UNUSED: u64 = 3;
 
 /// Returns the number of candidates for a given number of games.
@@ -402,7 +403,7 @@ mod tests {
     use crate::mint::tests::{FETCH, corpus, recipe};
     use validators::{CriterionSet, Difficulty};
 
-    /// Published episodes differ from the episodes that a level was accepted or selected for, because those episodes
+    /// Published episodes differ from the episodes that led to a level's acceptance or selection, because the latter
     /// were lucky.
     #[test]
     fn the_ladder_plays_again_for_the_card() {

@@ -1,4 +1,4 @@
-//! The maximum number of games that a recipe can have.
+//! The maximum number of games that a recipe can contain.
 
 use super::{Job, Plan};
 use crate::mint::error::MintError;
@@ -8,12 +8,12 @@ use forge::games::RuleSets;
 use forge::well::left;
 use validators::novelty::GameForm;
 
-/// The number of games up to which the first rule sets of all kernels suffice, so that the rule sets need not be
-/// counted.
+/// The maximum number of games for which the first rule sets of all kernels suffice, so that the rule sets need not
+/// be counted.
 const FEW: usize = 40;
 
-/// The number of rule sets that one invented game uses up. Nine of ten rule sets have no boards that pass, and
-/// near-copies among the candidates of a month are dropped.
+/// The number of rule sets used up by one invented game. Nine in ten rule sets have no passing boards, and
+/// near-duplicates among a month's candidates are dropped.
 const SETS_OF_A_GAME: f64 = 16.0;
 
 impl Plan<'_> {
@@ -62,8 +62,8 @@ impl Plan<'_> {
         })
     }
 
-    /// Checks that the mechanics suffice for the invented games, by estimating the number of their rule sets that are
-    /// not near a known game.
+    /// Checks that the mechanics suffice for the invented games, by estimating how many of their rule sets are not
+    /// near a known game.
     fn invented_supply(&self) -> Result<Option<usize>, MintError> {
         let asked = self.recipe.invented.as_ref().map_or(0, |part| part.games as usize);
         if asked <= FEW && (asked == 0 || self.before.is_empty()) {

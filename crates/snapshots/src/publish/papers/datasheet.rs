@@ -1,5 +1,5 @@
-//! The datasheet of a release, which gives the facts of its card under the headings of *Datasheets for Datasets*
-//! (Gebru et al., 2021).
+//! A release's datasheet: the facts on its card, under the headings of *Datasheets for Datasets* (Gebru et al.,
+//! 2021).
 
 use crate::card::{self, Rung};
 use crate::format::manifest::item::ReleaseKind;
@@ -12,17 +12,17 @@ use report::Quantiles;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The description of a sealed release that is not revealed yet.
+/// The description of a sealed release before the reveal.
 const SEALED: &str = "sealed: seed and winning episodes are held back until it is revealed";
-/// The limitation of a sealed release that is not revealed yet.
+/// The limitation of a sealed release before the reveal.
 const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only \
                          after the release is revealed, and wholly only by minting it again.\n";
 
-/// The description of a sealed release of which only the published coin wins are revealed.
+/// The description of a sealed release with only the published coin wins revealed.
 const SOLVED: &str = "sealed: a winning episode of each level is public, seed and second episodes are held \
                       back until it is revealed";
 
-/// Returns the datasheet after the reveal. The publisher's own changes are kept.
+/// Returns the datasheet after the reveal. The publisher's own changes are preserved.
 pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
     if what == Reveal::Solutions {
         return datasheet.replace(SEALED, SOLVED);
@@ -37,7 +37,7 @@ pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
         )
 }
 
-/// Returns the whole datasheet as Markdown.
+/// Returns the complete datasheet as Markdown.
 pub(super) fn datasheet(minted: &Minted) -> String {
     let Minted { manifest, card, cards } = minted;
     let description = manifest.recipe.get("description").and_then(|text| text.as_str()).unwrap_or_default();

@@ -1,10 +1,10 @@
-//! Papers: documents that accompany a release without being part of it, such as the licence, the citation, the
+//! Papers: documents that accompany a release without belonging to it, such as the licence, the citation, the
 //! datasheet, errata, and the publisher's additions.
 //!
-//! Papers lie in `papers/`, beside the hashed tree and outside the manifest, because a DOI or an erratum comes after
-//! the root is fixed. The root therefore proves nothing about papers. The size of papers is bounded, and links and
-//! unsafe names are rejected as everywhere else. Entries that other programs leave at the top of a folder (`.git`,
-//! `.DS_Store`) are skipped and reported.
+//! Papers are stored in `papers/`, outside the hashed tree and the manifest, because a DOI or an erratum is added
+//! after the root is fixed. The root therefore proves nothing about papers. The size of papers is bounded, and links
+//! and unsafe names are rejected as in the rest of a release. Entries left by other programs at the top of a folder
+//! (`.git`, `.DS_Store`) are skipped and reported.
 
 mod datasheet;
 
@@ -17,7 +17,7 @@ use crate::recipe::cited::Cited;
 use serde::Deserialize;
 
 impl Minted {
-    /// Returns the initial papers of a release, by path. Their facts come from the manifest and the cards.
+    /// Returns the initial papers of a release, by path. The facts in them come from the manifest and the cards.
     pub fn papers(&self) -> Vec<(String, String)> {
         let manifest = &self.manifest;
         let papers = [
@@ -38,7 +38,7 @@ pub(crate) fn revealed(path: &str, content: Vec<u8>, what: Reveal) -> Vec<u8> {
     }
 }
 
-/// Returns the licence of the generated content.
+/// Returns the licence for the generated content.
 fn licence(manifest: &Manifest) -> String {
     format!(
         "SPDX-License-Identifier: MIT OR Apache-2.0\n\n\
@@ -54,8 +54,8 @@ fn licence(manifest: &Manifest) -> String {
     )
 }
 
-/// Returns the citation of a release: [CFF 1.2.0](https://citation-file-format.github.io). The root identifies the
-/// bytes.
+/// Returns a release's citation in [CFF 1.2.0](https://citation-file-format.github.io). The root identifies the
+/// release's bytes.
 fn citation(manifest: &Manifest) -> String {
     let names = Names::of(manifest);
     let cited = Cited::of(&manifest.name, &names.authors, names.publisher.as_deref());
@@ -81,7 +81,7 @@ fn citation(manifest: &Manifest) -> String {
     )
 }
 
-/// The keys of a recipe that identify people.
+/// The recipe keys that identify people.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Names {
@@ -90,19 +90,19 @@ struct Names {
 }
 
 impl Names {
-    /// Reads the names in a manifest's recipe. Names that do not have the expected form are left empty.
+    /// Reads the names in a manifest's recipe. Names without the expected form are left empty.
     fn of(manifest: &Manifest) -> Names {
         serde_json::from_value(manifest.recipe.clone()).unwrap_or_default()
     }
 }
 
-/// Returns the title of a release.
+/// Returns a release's title.
 pub(crate) fn title(manifest: &Manifest) -> String {
     let names = Names::of(manifest);
     Cited::of(&manifest.name, &names.authors, names.publisher.as_deref()).title()
 }
 
-/// Quotes a text for YAML, with double quotes.
+/// Quotes text for YAML, with double quotes.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for character in text.chars() {
@@ -118,7 +118,7 @@ fn quoted(text: &str) -> String {
     quoted
 }
 
-/// Returns the page for errata.
+/// Returns the errata page.
 fn errata(manifest: &Manifest) -> String {
     let sealed = match manifest.kind {
         ReleaseKind::Open => "",

@@ -1,5 +1,5 @@
-//! Checks of reference results against the recipe's request, the cards of the games and each other. No episode is
-//! replayed.
+//! Checks reference results against the recipe's request, the games' cards and each other, without replaying
+//! episodes.
 
 use super::{Falls, GameMarks, LevelMarks, Marks, MarksPart, Wins, rates};
 use crate::contents::Contents;
@@ -13,8 +13,8 @@ use forge::card::Card;
 use generators::GENERATION;
 use std::collections::BTreeMap;
 
-/// Returns the problems with a release's reference results, given the cards of its games. For a different generation,
-/// only the canary is compared.
+/// Returns the problems with a release's reference results, given the cards of its games. For releases of a different
+/// generation, only the canary is compared.
 pub(super) fn problems(
     contents: &Contents,
     manifest: &Manifest,
@@ -86,7 +86,8 @@ fn of_game(game: &GameMarks, card: &Card, asked: &MarksPart) -> Option<String> {
     numbers_problem(&wins, asked).map(|what| format!("`{}`: {what}", game.id))
 }
 
-/// Returns a sentence about the fault of a game's reference results in the result of a job; `None` if they are sound.
+/// Returns a sentence about the problem with a game's reference results in a job's result; `None` if the results are
+/// sound.
 pub(super) fn shape_problem(wins: &[Wins], levels: usize, asked: Option<&MarksPart>) -> Option<String> {
     let Some(asked) = asked else {
         return (!wins.is_empty()).then(|| "marks that the recipe does not request".to_owned());

@@ -5,7 +5,7 @@ use crate::card::rungs::Clustered;
 use serde::{Deserialize, Serialize};
 use validators::{Commitment, Tier};
 
-/// The difference between the win rates of a reference player in two releases.
+/// The difference between a reference player's win rates in two releases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MarkDifference {
@@ -14,7 +14,7 @@ pub struct MarkDifference {
     pub tier: Option<Tier>,
     /// The reference player.
     pub player: String,
-    /// The number of actions that the player commits to at each look.
+    /// The number of actions to which the player commits at each look.
     pub commit: Commitment,
     /// The win rate in the first release.
     pub ours: Clustered,
@@ -26,8 +26,8 @@ pub struct MarkDifference {
     pub interval: [f64; 2],
 }
 
-/// Returns the differences between the reference results that both releases have, in the order of [`Marks::rates`].
-/// The result is empty if the episodes of the two releases have different limits, and so cannot be compared.
+/// Returns the differences between the reference results present in both releases, in the order of
+/// [`Marks::rates`]; empty if the two releases' episodes have different limits and therefore cannot be compared.
 pub fn mark_differences(ours: &Marks, theirs: &Marks) -> Vec<MarkDifference> {
     if ours.asked.max_steps != theirs.asked.max_steps {
         return Vec::new();

@@ -1,9 +1,9 @@
-//! Marks, which are reference results: the results of players that never change on the levels of a release. They are
-//! kept in the release, to compare other players with.
+//! Marks, or reference results: the results of never-changing players on a release's levels. The results are stored
+//! in the release for comparison with other players.
 //!
 //! The recipe specifies the players, which play each level with each commitment when the release is minted. Their
-//! results are a file of the release. In a sealed release, this file is withheld, so that the results do not reveal
-//! the difficulty of a level before the reveal.
+//! results are stored in a release file. In a sealed release, this file is withheld, so that a level's difficulty is
+//! not revealed early.
 
 mod check;
 mod compare;
@@ -27,10 +27,10 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 use validators::{Commitment, Tier};
 
-/// The file of the reference results. In a sealed release, it lies in [`HELD`].
+/// The file with the reference results. In a sealed release, it is stored in [`HELD`].
 pub const MARKS_FILE: &str = "MARKS.json";
 
-/// The version of the file's format.
+/// The version of the file format.
 pub const MARKS_FORMAT: u32 = 1;
 
 /// The maximum number of reference players that a recipe can request.
@@ -53,11 +53,11 @@ const PROMPT: f64 = 3e-3;
 
 /// The planner that searches for whole plans.
 const PLANNING: &str = "systematic";
-/// The fraction of the call budget of [`PLANNING`] that an action costs. In stochastic games, a ten-tick plan
-/// gets a tenth of the calls. In deterministic games, the planner searches for only a few plans per episode.
+/// The fraction of the call budget of [`PLANNING`] spent per action. In stochastic games, a ten-tick plan gets a
+/// tenth of the calls. In deterministic games, the planner searches for only a few plans per episode.
 const PLANNED: f64 = 0.01;
 
-/// The player that ignores the rules and reads no prompts.
+/// The player that ignores the rules and does not read prompts.
 const TOUCHING: &str = "touch-everything";
 
 base::with_defaults! {
@@ -120,8 +120,8 @@ impl MarksPart {
         Ok(())
     }
 
-    /// Estimates the cost of the reference results of a level, in seconds of one core of the machine that
-    /// docs/reference/recipes.md describes. In a deterministic game, planners play once for all commitments.
+    /// Estimates the cost of a level's reference results, in core seconds on the machine described in
+    /// docs/reference/recipes.md. In a deterministic game, planners play once for all commitments.
     pub(crate) fn seconds(&self, is_certain: bool) -> f64 {
         let looks = |commit: &Commitment| commit.actions().map_or(0.0, |actions| 1.0 / actions as f64);
         let of = |player: &String| match player.parse::<PlannerSpec>() {
@@ -142,13 +142,13 @@ impl MarksPart {
 /// The interface for playing the reference players. The evaluation crate implements it, because this crate does not
 /// depend on the evaluation crate.
 pub trait MarkPlayers: Sync + Debug {
-    /// Checks that there is a player with this name.
+    /// Checks that there is a player with the given name.
     ///
     /// # Errors
-    /// Returns a message if there is no such player.
+    /// Returns a message if the player does not exist.
     fn check(&self, player: &str) -> Result<(), String>;
 
-    /// Plays the levels of a game, and returns the number of episodes won for each level, player and commitment. The
+    /// Plays a game's levels, and returns the number of episodes won for each level, player and commitment. The
     /// result depends only on the texts and the request.
     ///
     /// # Errors
@@ -167,28 +167,28 @@ pub struct Marks {
     pub canary: String,
     /// The version of the format: [`MARKS_FORMAT`].
     pub format: u32,
-    /// The request of the recipe.
+    /// The recipe's request.
     pub asked: MarksPart,
-    /// The win rates of each player with each commitment: on the levels of each tier, lowest tier first, then on all
+    /// The win rate of each player with each commitment: first for each tier, from the lowest, and then for all
     /// levels.
     pub rates: Vec<MarkRate>,
-    /// The decreases of the win rate from each tier to the next, and from each commitment to the next.
+    /// The decreases in win rate from each tier to the next, and from each commitment to the next.
     pub falls: Falls,
-    /// The games, in the order of their folders' names.
+    /// The games, ordered by folder name.
     pub games: Vec<GameMarks>,
 }
 
-/// The reference results of a game.
+/// A game's reference results.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GameMarks {
     /// The name of the game's folder.
     pub id: String,
-    /// The levels of the game.
+    /// The game's levels.
     pub levels: Vec<LevelMarks>,
 }
 
-/// The reference results of a level.
+/// A level's reference results.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelMarks {
@@ -198,7 +198,7 @@ pub struct LevelMarks {
     pub wins: Wins,
 }
 
-/// The win rate of a player with a commitment on the levels of a tier.
+/// A player's win rate, with one commitment, on the levels of one tier.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MarkRate {
@@ -207,7 +207,7 @@ pub struct MarkRate {
     pub tier: Option<Tier>,
     /// The reference player.
     pub player: String,
-    /// The number of actions that the player commits to at each look.
+    /// The number of actions to which the player commits at each look.
     pub commit: Commitment,
     /// The number of levels.
     pub levels: u64,
@@ -226,7 +226,7 @@ impl Marks {
     /// Parses the reference results of a release.
     ///
     /// # Errors
-    /// Returns a message if the text does not hold reference results in this format.
+    /// Returns a message if the text does not contain reference results in this format.
     pub fn read(text: &[u8]) -> Result<Marks, String> {
         let marks: Marks = serde_json::from_slice(text).map_err(|error| error.to_string())?;
         match marks.format {
@@ -235,7 +235,7 @@ impl Marks {
         }
     }
 
-    /// Returns the path of the file in a release of this kind.
+    /// Returns the file's path in a release of the given kind.
     pub fn path(kind: ReleaseKind) -> String {
         match kind {
             ReleaseKind::Open => MARKS_FILE.to_owned(),
@@ -243,7 +243,8 @@ impl Marks {
         }
     }
 
-    /// Returns the path of the reference results according to a manifest; `None` if its recipe requests none.
+    /// Returns the path of the reference results according to a manifest; `None` if its recipe does not request
+    /// reference results.
     pub fn path_in(manifest: &Manifest) -> Option<String> {
         manifest.recipe.get("marks").filter(|part| !part.is_null()).map(|_| Marks::path(manifest.kind))
     }
@@ -296,7 +297,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// Returns the reference results of games with one level of tier 1 and one of tier 4.
+    /// Returns reference results for games with one level of tier 1 and one of tier 4.
     pub(crate) fn marks(ids: &[&str], wins: impl Fn(usize, Tier) -> Wins) -> Marks {
         let level = |game, tier| LevelMarks { tier, wins: wins(game, tier) };
         let game = |(at, id): (usize, &&str)| GameMarks {

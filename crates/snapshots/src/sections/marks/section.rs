@@ -1,4 +1,4 @@
-//! The hooks of `[marks]`.
+//! The hooks for `[marks]`.
 
 use super::check::{problems, shape_problem};
 use super::{GameMarks, LevelMarks, Marks, MarksPart};
@@ -72,7 +72,7 @@ impl Section for MarksSection {
     }
 }
 
-/// Returns the reference results of a game with the tiers of its card.
+/// Returns a game's reference results, with the tiers from its card.
 fn marks_of(game: &FrozenGame) -> GameMarks {
     let levels = game.card.levels.iter().zip(&game.marks);
     let level =

@@ -1,21 +1,21 @@
-//! The decreases of the reference players' win rates from tier to tier, and from commitment to commitment.
+//! The decreases in the reference players' win rates from tier to tier, and from commitment to commitment.
 
 use super::{GameMarks, LevelMarks, MarksPart};
 use serde::{Deserialize, Serialize};
 use statistics::paired_over_games;
 use validators::{Commitment, Tier};
 
-/// The decreases of win rates, first for all players together, then for each player.
+/// The decreases in win rates: first for all players together, and then for each player.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Falls {
     /// The decreases from each tier to the next existing tier, over all commitments.
     pub tiers: Vec<Fall<Tier>>,
-    /// The decreases from each commitment to the next one, over all levels.
+    /// The decreases from each commitment to the next, over all levels.
     pub commits: Vec<Fall<Commitment>>,
 }
 
-/// The difference between two win rates, paired over games. Each game counts once, and the difficulty of a game
+/// The difference between two win rates, paired over games. Each game counts once, and the games' difficulty
 /// cancels out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -27,18 +27,18 @@ pub struct Fall<T> {
     pub from: T,
     /// The higher tier, or the longer commitment.
     pub to: T,
-    /// The number of games that have levels of both kinds.
+    /// The number of games with levels of both kinds.
     pub games: u64,
-    /// The mean over these games of the win rate on the levels of each kind.
+    /// The mean win rate over these games on each kind of level.
     pub rates: [f64; 2],
     /// The first rate minus the second rate.
     pub fall: f64,
-    /// The 95% interval of the decrease, with such games as the sampling unit.
+    /// The 95% interval of the decrease, with games as the sampling unit.
     pub interval: [f64; 2],
 }
 
 impl Falls {
-    /// Computes the decreases from the reference results of games.
+    /// Computes the decreases from games' reference results.
     pub(super) fn of(asked: &MarksPart, games: &[GameMarks]) -> Falls {
         let has = |tier: &Tier| games.iter().flat_map(|game| &game.levels).any(|level| level.tier == *tier);
         let tiers: Vec<Tier> = Tier::ALL.into_iter().filter(has).collect();
@@ -74,7 +74,7 @@ impl Falls {
     }
 }
 
-/// Returns the mean fraction of episodes won over the selected levels and commitments of a game.
+/// Returns the mean fraction of episodes won, over the selected levels and commitments in a game.
 fn rate(
     asked: &MarksPart,
     game: &GameMarks,
@@ -94,8 +94,8 @@ fn rate(
     (of > 0).then(|| won as f64 / of as f64)
 }
 
-/// Computes a decrease; `None` for fewer than two games, because a single game says nothing about the variance
-/// between games.
+/// Computes a decrease; `None` for fewer than two games, because a single game does not show the variance between
+/// games.
 fn fall<T>(
     player: Option<String>,
     (from, to): (T, T),

@@ -1,10 +1,10 @@
-//! Coins for tests of memory. Mint makes two things that only a player who knows the published one can distinguish. A
-//! coin publishes one of the two, and the release commits to the other ([the
+//! Coins for tests of memory. Minting creates pairs whose two members only a player who knows the published member
+//! can tell apart. A coin decides which member is published, and the release commits to the other ([the
 //! tests](../../../../../docs/how-to/memory.md)).
 //!
-//! The two things are renamings of a game (siblings), or wins of a level. The coin of a pair is drawn from the
-//! release's secret and the smaller of the two digests, so it depends neither on the order in which the two were made
-//! nor on their positions. The withheld thing lies in [`HELD`] until the release is revealed.
+//! A pair consists of two renamings of a game (siblings) or two wins of a level. Its coin is drawn from the release's
+//! secret and the smaller of the two digests. The coin therefore does not depend on the members' order of creation or
+//! on their positions. The withheld member is stored in [`HELD`] until the release is revealed.
 
 mod pairs;
 pub(crate) mod part;
@@ -21,23 +21,23 @@ use base::{Digest, Seed, SeedStep};
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// The number of actions by which wins are distinguished. A player that knows a published win begins with the same
-/// actions.
+/// The number of initial actions by which wins are distinguished. A player that knows a published win begins with the
+/// same actions.
 pub const PREFIX: usize = 10;
 
-/// A sibling of a game, which has the same rules and levels under different names.
+/// A game's sibling: the same rules and levels under different names.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sibling {
-    /// The title of the sibling.
+    /// The sibling's title.
     pub title: String,
     /// The rules, headed by the title.
     pub text: String,
-    /// The levels, in the order of the game.
+    /// The levels, in the game's order.
     pub levels: Vec<String>,
 }
 
-/// A second win of a level.
+/// A level's second win.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SecondWin {
@@ -47,19 +47,19 @@ pub struct SecondWin {
     pub path: Vec<SeedStep>,
 }
 
-/// Returns `true` if the coin of a pair publishes `one`. `what` is the name of the kind of pair.
+/// Returns `true` if the coin of a pair publishes `one`. `what` names the kind of pair.
 fn publishes(root: Seed, what: &str, one: Digest, other: Digest) -> bool {
     let first = one.min(other);
     let is_first = root.child(&format!("coin of {what} {first}"), 0).sampler().ratio(1, 2);
     is_first == (one == first)
 }
 
-/// Returns `true` if the coin of two siblings, given by the digests of their rules, publishes the first one.
+/// Returns `true` if the coin for two siblings, identified by their rule digests, publishes the first.
 pub(crate) fn publishes_sibling(root: Seed, one: Digest, other: Digest) -> bool {
     publishes(root, "siblings", one, other)
 }
 
-/// Returns `true` if the coin of two wins of a level publishes the first one.
+/// Returns `true` if the coin for two wins of a level publishes the first.
 pub(crate) fn publishes_win(root: Seed, one: &Episode, other: &Episode) -> bool {
     let digest = |episode| canonical_digest(episode).expect("an episode has no numbers that JSON lacks");
     publishes(root, "wins", digest(one), digest(other))

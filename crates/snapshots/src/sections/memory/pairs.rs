@@ -1,5 +1,5 @@
-//! Checks of pairs after the reveal. The two members must differ only in the permitted ways, and the coin must have
-//! published the right one.
+//! Checks pairs after the reveal. The two members must differ only in permitted ways, and the published member must
+//! be the one chosen by the coin.
 
 use super::toss::differ;
 use super::{SecondWin, Sibling, publishes_sibling, publishes_win};
@@ -9,7 +9,7 @@ use base::{Seed, SeedPath};
 use engine::{Episode, Game, Level};
 use validators::GameForm;
 
-/// The levels of a game with their published wins.
+/// A game's levels with their published wins.
 pub(super) type Levels = [(Level, Option<Episode>)];
 
 /// A loaded withheld sibling.
@@ -41,8 +41,8 @@ impl SecretGame {
         Ok(SecretGame { game, levels })
     }
 
-    /// Returns a sentence about the fault of a published game's sibling: its rules or levels differ, or the coin did
-    /// not withhold it. `root` is the seed of the coins.
+    /// Returns a sentence about the problem with a published game's sibling: its rules or levels differ, or the coin
+    /// did not withhold it. `root` is the seed for the coins.
     pub(crate) fn flaw(&self, published: &Game, levels: &Levels, root: Option<Seed>) -> Option<String> {
         let (one, other) = (published.digest(), self.game.digest());
         if one == other {
@@ -67,7 +67,7 @@ impl SecretGame {
     }
 }
 
-/// Returns a sentence about the fault of a level's pair of wins, apart from the replay of the second win.
+/// Returns a sentence about the problem with a level's pair of wins, apart from the replay of the second win.
 pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Option<Seed>) -> Option<String> {
     let published = published?;
     if !differ(&published.actions, &second.actions) {
@@ -77,7 +77,7 @@ pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Opt
     (!is_tossed).then(|| "the coin publishes this win: the other win should be withheld".to_owned())
 }
 
-/// Returns a sentence about the fault of a game's pairs in the result of a job. `root` is the root seed of the plan.
+/// Returns a sentence about the problem with a game's pairs in a job's result. `root` is the plan's root seed.
 pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
     let FrozenGame { levels, witnesses, sibling, seconds, .. } = frozen;
     if !seconds.is_empty() && seconds.len() != levels.len() {
@@ -124,7 +124,7 @@ mod tests {
         TerminationSet\n        SpriteCounter stype=door limit=0 win=True\n        Timeout limit=50 win=False\n";
     const LEVEL: &str = "wwwww\nwm.dw\nwwwww\n";
 
-    /// Checks the mole's sibling after a change, with coins from a seed that gives heads or tails.
+    /// Checks the mole's sibling after a change, with coins from a seed for heads or tails.
     #[track_caller]
     fn check(change: impl Fn(&mut String, &mut Vec<String>), heads: bool, expect: Option<&str>) {
         let game = Game::from_source(GAME).unwrap();

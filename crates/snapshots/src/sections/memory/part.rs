@@ -37,14 +37,14 @@ impl MemoryPart {
         }
     }
 
-    /// Returns the section in a release's recipe; `None` if it is missing, or has the layout of a different version.
+    /// Returns the section in a release's recipe; `None` if it is missing, or has a different version's layout.
     pub fn of(manifest: &Manifest) -> Option<MemoryPart> {
         let part = manifest.recipe.get("memory").filter(|part| !part.is_null())?;
         serde_json::from_value(part.clone()).ok()
     }
 }
 
-/// Returns `true` if the published coin wins can be revealed before the other withheld files of a release.
+/// Returns `true` if the published coin wins can be revealed before a release's other withheld files.
 pub(crate) fn has_second_wins(manifest: &Manifest) -> bool {
     manifest.kind == ReleaseKind::Sealed && MemoryPart::of(manifest).is_some_and(|part| part.witnesses)
 }

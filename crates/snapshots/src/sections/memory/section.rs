@@ -1,4 +1,4 @@
-//! The hooks of `[memory]`.
+//! The hooks for `[memory]`.
 
 use super::pairs::shape_problem;
 use super::toss::toss;
@@ -17,7 +17,7 @@ use engine::{Game, syntax};
 use forge::games::marked;
 use serde_json::{Map, Value, json};
 
-/// The fraction that the search for second wins adds to the cost of a job, as measured on twelve games.
+/// The relative cost that the search for second wins adds to a job, as measured on twelve games.
 const SECOND_WINS: f64 = 0.2;
 
 /// The section `[memory]` of a recipe.

@@ -1,4 +1,4 @@
-//! Creation of pairs and their coin tosses when a game is minted.
+//! Creates pairs and tosses their coins when a game is minted.
 
 use super::{PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
 use crate::sections::frozen::FrozenGame;
@@ -13,19 +13,19 @@ use forge::games::slug;
 use rayon::prelude::*;
 use validators::Criteria;
 
-/// The number of attempts at a second win, each with planners first and then with systematic search.
+/// The number of attempts at a second win, each with planners first and with systematic search afterwards.
 const TRIES: u64 = 4;
-/// The maximum number of actions in a detour at the start of a deterministic level. The search for a win begins
-/// after the detour.
+/// The maximum number of actions in a detour at the start of a deterministic level. The win search begins after
+/// the detour.
 const DETOUR: usize = 6;
-/// The maximum number of pairs of renamings that are made to find a pair with different themes.
+/// The maximum number of renaming pairs to create in search of a pair with different themes.
 const THEME_TRIES: u64 = 16;
 
-/// Makes the requested pairs of a game, and publishes the member of each pair that its coin selects. A game
-/// without a second theme has no sibling, and a level without a second win has no pair. `criteria` are those of
+/// Creates a game's requested pairs, and publishes the member of each pair selected by the coin. A game without
+/// a second theme has no sibling, and a level without a second win has no pair. `criteria` are the criteria of
 /// the game's judges.
 ///
-/// Cost: up to [`TRIES`] attempts at a second win of each level.
+/// Cost: up to [`TRIES`] attempts at a second win per level.
 pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criteria: &Criteria) {
     if part.siblings {
         toss_siblings(frozen, root);
@@ -35,8 +35,8 @@ pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criter
     }
 }
 
-/// Replaces a game by one of two renamings, and keeps the other as the sibling. Both renamings are made from the
-/// game in the same way, so nothing published reveals which one was withheld.
+/// Replaces a game with one of two renamings, and stores the other as the sibling. Both renamings are created
+/// from the game in the same way, so nothing published reveals which renaming was withheld.
 fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
     let Ok(game) = Game::from_source(&frozen.text) else { return };
     let seed = root.child(&format!("siblings of {}", game.digest()), 0);
@@ -102,13 +102,13 @@ fn toss_wins(frozen: &mut FrozenGame, root: Seed, criteria: &Criteria) {
     }
 }
 
-/// Returns `true` if two wins begin differently, so that no player can begin like both wins.
+/// Returns `true` if two wins begin differently, so that a player cannot begin like both of them.
 pub(crate) fn differ(one: &[Action], other: &[Action]) -> bool {
     let common = PREFIX.min(one.len()).min(other.len());
     one[..common] != other[..common]
 }
 
-/// A search for a win of a level, given a seed.
+/// A win search on a level, with a given seed.
 type Search = fn(&Analysis, &Level, &PortfolioConfig, &SeedPath) -> Option<Episode>;
 
 /// Searches for a win with planners.

@@ -1,4 +1,4 @@
-//! Generation of puzzles of each kind.
+//! Generates puzzles of each kind.
 
 use super::PuzzleKind;
 use crate::recipe::Recipe;
@@ -11,20 +11,20 @@ use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
 use validators::{CheckedCriteria, Effort, Panel};
 
-/// The maximum number of fictions drawn for a puzzle in the search for a fiction of its theme.
+/// The maximum number of fictions to draw for a puzzle in search of a fiction with its theme.
 const FICTIONS: u64 = 400;
 
 /// A request for one puzzle.
 pub(crate) struct Request {
     pub(crate) kind: PuzzleKind,
-    /// The number of the job among the jobs of its kind.
+    /// The job's number among the jobs of its kind.
     pub(crate) number: u32,
-    /// The number of the job among the jobs of all puzzles.
+    /// The job's number among all puzzle jobs.
     pub(crate) place: usize,
 }
 
-/// Makes a puzzle in its own scene, with levels from the lowest requested tier to the highest. `root` is the seed of
-/// the release, and `seed` is the seed of the job.
+/// Generates a puzzle in its own scene, with levels from the lowest to the highest requested tier. `root` is the
+/// release's seed, and `seed` is the job's seed.
 pub(crate) fn make(
     recipe: &Recipe,
     criteria: &CheckedCriteria,

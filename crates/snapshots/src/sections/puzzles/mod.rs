@@ -1,5 +1,5 @@
-//! The sections of puzzles: pushed things (`[puzzles]`), locks, yards, and pushed things among strays. Their levels
-//! are constructed backwards from solutions, to meet the recipe's tiers.
+//! The puzzle sections: pushing (`[puzzles]`), locks, yards, and pushing among strays. Levels are constructed
+//! backwards from solutions, to meet the recipe's tiers.
 
 mod make;
 mod section;
@@ -18,21 +18,21 @@ const LEAST_SIDE: usize = 8;
 
 /// The facts that differ between kinds of puzzles.
 struct Facts {
-    /// The name in jobs and in steps of seeds.
+    /// The name used in jobs and seed steps.
     name: &'static str,
     /// The noun for a game of this kind.
     noun: &'static str,
-    /// The name of the section.
+    /// The section's name.
     section: &'static str,
-    /// The keys of the section.
+    /// The section's keys.
     keys: [&'static str; 7],
     /// The number of rule sets, no two of which are near each other.
     rules: usize,
-    /// The maximum number of cells of a board.
+    /// The maximum number of cells per board.
     cells: usize,
-    /// The maximum number of things to push on a board.
+    /// The maximum number of pushable objects per board.
     things: u32,
-    /// The cost per requested level, in seconds of one core, as measured with `frontier` up to the highest tiers.
+    /// The cost per requested level, in core seconds, as measured with `frontier` up to the highest tiers.
     seconds: f64,
 }
 
@@ -76,18 +76,18 @@ base::with_defaults! {
 /// A kind of puzzle, with its own section in recipes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PuzzleKind {
-    /// Puzzles in which things are pushed.
+    /// Puzzles about pushing objects.
     Pushing,
     /// Puzzles in which doors use up keys.
     Locks,
-    /// Puzzles in which parcels are carried between carts.
+    /// Puzzles in which the player carries parcels between carts.
     Yards,
-    /// Puzzles in which things are pushed among strays.
+    /// Puzzles about pushing objects among strays (sprites that wander at random and kill).
     Strays,
 }
 
 impl PuzzleKind {
-    /// All kinds, in the order of jobs.
+    /// All kinds, in job order.
     pub const ALL: [PuzzleKind; 4] =
         [PuzzleKind::Pushing, PuzzleKind::Locks, PuzzleKind::Yards, PuzzleKind::Strays];
 
@@ -136,7 +136,7 @@ impl PuzzleKind {
         }
     }
 
-    /// Returns the name of the kind in jobs and in steps of seeds.
+    /// Returns the kind's name in jobs and seed steps.
     pub(crate) fn name(self) -> &'static str {
         self.facts().name
     }
@@ -156,13 +156,12 @@ impl PuzzleKind {
         self.facts().rules
     }
 
-    /// Returns the cost per requested level, in seconds of one core, as measured with `frontier` up to the highest
-    /// tiers.
+    /// Returns the cost per requested level, in core seconds, as measured with `frontier` up to the highest tiers.
     pub(crate) fn seconds(self) -> f64 {
         self.facts().seconds
     }
 
-    /// Returns a rule set without a theme, and the name of the rule set.
+    /// Returns a rule set without a theme, and its name.
     fn plain(self, at: usize) -> (Game, String) {
         match self {
             PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),

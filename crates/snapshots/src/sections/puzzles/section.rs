@@ -1,4 +1,4 @@
-//! The hooks of the sections of puzzles.
+//! The hooks for the puzzle sections.
 
 use super::{PuzzleKind, PuzzlePart};
 use crate::recipe::Recipe;

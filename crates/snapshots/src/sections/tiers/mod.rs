@@ -40,7 +40,7 @@ impl Tiers {
     /// Checks that the fractions are valid and add up to 1.
     ///
     /// # Errors
-    /// Returns an error if the fractions are not valid, or do not add up to 1.
+    /// Returns an error if the fractions are invalid or do not add up to 1.
     pub(crate) fn check(&self) -> Result<(), RecipeError> {
         let total: f64 = self.shares().iter().sum();
         let are_shares = self.shares().iter().all(|share| (0.0..=1.0).contains(share));

@@ -1,4 +1,4 @@
-//! The hooks of `[tiers]`.
+//! The hooks for `[tiers]`.
 
 use crate::recipe::Recipe;
 use crate::recipe::error::RecipeError;

@@ -1,4 +1,4 @@
-//! Furnishing of levels that the avatar walks through, with exits, keys, goods and dangers.
+//! Furnishing for levels that the avatar walks through, with exits, keys, goods and dangers.
 
 use crate::levels::construct::builder::{Builder, back};
 use crate::levels::construct::plan;
@@ -16,7 +16,7 @@ impl Builder<'_> {
         self.furnish(&gates);
     }
 
-    /// Places everything except the avatar, the gates and the types that have already been placed.
+    /// Places everything except the avatar, the gates and the already placed types.
     pub(crate) fn furnish(&mut self, gates: &[SpriteType]) {
         let wishes = self.wishes();
         let done: Vec<SpriteType> = self.log.iter().map(|(_, stype)| *stype).collect();
@@ -42,7 +42,7 @@ impl Builder<'_> {
         self.soil();
     }
 
-    /// Places as many of the wished sprites as possible.
+    /// Places as many of the desired sprites as possible.
     pub(crate) fn fulfil(&mut self, wish: Wish) {
         // Exact numbers and numbers of keys include the sprites that have already been placed.
         let exact =
@@ -95,7 +95,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Returns the weight of the footing. If avatars fall, most things stand on the ground, but goods may hang in the
+    /// Returns the weight of the footing. If avatars fall, most sprites stand on the ground, but goods may hang in the
     /// air.
     fn ground(&self, cell: usize, role: Role) -> u32 {
         match role {
@@ -107,7 +107,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the suitability of a cell for a sprite. A suitability of 0 means unsuitable.
+    /// Returns a cell's suitability for a sprite; 0 means unsuitable.
     fn weigh(&self, cell: usize, stype: SpriteType, role: Role, steps: &[u32], radius: u32) -> u32 {
         let zone = self.board.zone[cell];
         let reached = steps[cell] != FAR;
@@ -181,14 +181,14 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the minimum distance in cells between a protected thing and its threats.
+    /// Returns the minimum distance in cells between a protected sprite and its threats.
     fn ward_distance(&self) -> usize {
         let grid = self.board.grid;
         if self.target.is_some() { ((grid.columns + grid.rows) / 5).max(4) } else { 4 }
     }
 
-    /// Returns `true` if the cell is close to something other than the avatar that the type chases. The player needs
-    /// time to step in.
+    /// Returns `true` if the cell is close to a target, other than the avatar, that the type chases. The player needs
+    /// time to intervene.
     fn is_on_prey(&self, cell: usize, stype: SpriteType) -> bool {
         let Motion::Chasing(target) = self.analysis.facts(stype).motion else { return false };
         let hunted = |other: SpriteType| {
@@ -197,8 +197,7 @@ impl Builder<'_> {
         self.apart(cell, hunted) < self.min_distance(stype).max(4)
     }
 
-    /// Returns the weight of a cell for a mover. The mover needs room to move, and must not move straight at the
-    /// avatar.
+    /// Returns a cell's weight for a mover. The mover needs room to move, and must not move straight at the avatar.
     fn weigh_mover(&self, cell: usize, stype: SpriteType, share: u32) -> u32 {
         let others = self.apart_from(cell, Role::Enemy).min(6) as u32;
         let spread = 1 + others + share / 20;
@@ -216,8 +215,8 @@ impl Builder<'_> {
         if lane { 0 } else { spread * room.min(12) as u32 }
     }
 
-    /// Returns the weight of a cell for a spawner. Suitable cells are at a wall or the edge, with a free line of fire
-    /// that does not meet the avatar.
+    /// Returns a cell's weight for a spawner. Suitable cells are at a wall or an edge, with a free line of fire that
+    /// does not meet the avatar.
     fn weigh_spawner(&self, cell: usize, stype: SpriteType, walls: u32) -> u32 {
         let from_start = self.board.grid.manhattan(cell, self.board.start);
         let others = self.apart_from(cell, Role::Spawner).min(8) as u32;
@@ -235,21 +234,21 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the minimum distance between a spawner and the avatar's start. The distance ensures that spawned sprites
-    /// do not reach the avatar at once.
+    /// Returns the minimum distance between a spawner and the avatar's start. This distance prevents spawned sprites
+    /// from reaching the avatar immediately.
     fn min_spawn_distance(&self, stype: SpriteType) -> usize {
         let made = self.analysis.facts(stype).makes.iter().map(|&made| self.min_distance(made));
         made.max().unwrap_or(2).max(4)
     }
 
-    /// Returns the number of sprites of a type in the eight cells around a cell.
+    /// Returns the number of sprites of a type in the eight cells surrounding a cell.
     fn crowd(&self, cell: usize, stype: SpriteType) -> usize {
         let around = self.board.grid.around(cell).into_iter().flatten();
         around.filter(|&next| self.log.contains(&(next, stype))).count()
     }
 
-    /// Chooses the avatar's start. The start is near an end of the longest path, or in the middle if the aim is to
-    /// survive.
+    /// Chooses the avatar's start. The start is near an end of the longest path, or in the middle if survival is the
+    /// aim.
     fn choose_start(&mut self) -> usize {
         let grid = self.board.grid;
         let cells: Vec<usize> = self.board.free().collect();
@@ -286,7 +285,7 @@ impl Builder<'_> {
         best.unwrap_or(some)
     }
 
-    /// Places the keys that the placed locks need, each in front of its lock.
+    /// Places the keys required by the placed locks, each in front of its lock.
     pub(crate) fn keys(&mut self, gates: &[SpriteType]) {
         let placed = self.log.iter().map(|(_, stype)| *stype);
         let exits: Vec<SpriteType> = placed.filter(|&stype| self.role(stype) == Role::Exit).collect();
@@ -346,8 +345,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places a key in front of the gates that it opens, either in zone 0 or behind a gate of a different kind. Returns
-    /// the cell.
+    /// Places a key in front of the gates that it opens, in zone 0 or behind a gate of a different kind. Returns the
+    /// cell.
     fn place_key(&mut self, giver: SpriteType) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
@@ -373,7 +372,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Places a few walls that differ from the walls of the structure, as obstacles.
+    /// Places a few walls of a type other than the structural walls, as obstacles.
     pub(crate) fn other_walls(&mut self) {
         let structure = self.palette.wall;
         let types = plan::furnishable(self.analysis, self.palette, Role::Wall);
@@ -406,8 +405,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places refills of a resource that the ground drains, densely enough that no path between them is longer than the
-    /// supply.
+    /// Places refills for a resource drained by the ground, densely enough that no path between refills is longer than
+    /// the supply.
     fn fuel(&mut self) {
         let Some(start) = self.analysis.start_avatar() else { return };
         for resource in self.analysis.resources() {
@@ -452,7 +451,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Fills most of the remaining cells with soil, leaving burrows around moving things.
+    /// Fills most of the remaining cells with soil, leaving burrows around moving sprites.
     pub(crate) fn soil(&mut self) {
         let types = plan::furnishable(self.analysis, self.palette, Role::Soil);
         let Some(&stype) = types.first() else { return };

@@ -1,4 +1,4 @@
-//! Adjustment of a furnished board to the requested cover.
+//! Adjusts a furnished board to the requested cover.
 
 use crate::levels::construct::builder::Builder;
 use crate::levels::examples::is_cover;
@@ -6,9 +6,9 @@ use crate::levels::grid::FAR;
 use engine::analysis::{Role, Steering};
 
 impl Builder<'_> {
-    /// Adds walls (or more things, on boards without walls) until enough cells are covered, or removes some until few
-    /// enough are covered. Everything that the game needs stays, and nothing is cut off, so the requested cover is not
-    /// always reached.
+    /// Adds walls (or other sprites, on boards without walls) until enough cells are covered, or removes some until
+    /// few enough are. Everything required by the game is preserved, and nothing is cut off, so the requested cover is
+    /// not always reached.
     pub(crate) fn adjust_cover(&mut self) {
         let Some((low, high)) = self.config.cover else { return };
         if is_cover(self.analysis, self.palette.base) {
@@ -29,7 +29,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the number of cells with more than floor.
+    /// Returns the number of cells that contain more than floor.
     fn covered(&self) -> usize {
         let covered = |&cell: &usize| match self.board.placed[cell] {
             Some(symbol) => is_cover(self.analysis, symbol),
@@ -38,21 +38,21 @@ impl Builder<'_> {
         (0..self.board.grid.len()).filter(covered).count()
     }
 
-    /// Adds a wall or a thing. Returns `true` if there was room.
+    /// Adds a wall or a sprite. Returns `true` if there was room.
     fn add_cover(&mut self) -> bool {
         // Add walls while there are fewer than in the examples, then other things, then walls again.
         let missing = self.target.as_ref().is_none_or(|target| self.inner_walls() < target.walls);
         missing && self.add_wall() || self.add_thing() || !missing && self.add_wall()
     }
 
-    /// Returns the fraction of the cells inside the border that are walls.
+    /// Returns the fraction of walls among the cells inside the border.
     fn inner_walls(&self) -> f64 {
         let grid = self.board.grid;
         let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
         inner().filter(|&cell| self.board.wall[cell]).count() as f64 / inner().count().max(1) as f64
     }
 
-    /// Adds a wall that cuts off nothing. Returns `true` if there was room.
+    /// Adds a wall without cutting off cells. Returns `true` if there was room.
     fn add_wall(&mut self) -> bool {
         let grid = self.board.grid;
         let bare = self.target.as_ref().is_some_and(|target| target.walls <= 0.0);
@@ -95,7 +95,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds a thing of a type that is already on the board. Returns `true` if there was room.
+    /// Adds a sprite of a type already on the board. Returns `true` if there was room.
     fn add_thing(&mut self) -> bool {
         let lying = |stype: &engine::SpriteType| {
             matches!(
@@ -113,7 +113,7 @@ impl Builder<'_> {
         self.place(stype, self.role(stype)).is_some()
     }
 
-    /// Removes a wall or a thing. Returns `true` if there was a wall or a thing to spare.
+    /// Removes a dispensable wall or sprite. Returns `true` if there was one.
     fn remove_cover(&mut self) -> bool {
         let grid = self.board.grid;
         let spare = |&(cell, stype): &(usize, engine::SpriteType)| {

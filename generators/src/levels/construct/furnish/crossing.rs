@@ -1,5 +1,5 @@
-//! Furnishing of crossings: the avatar starts at the bottom, its goal lies at the top, and traffic runs in lanes from
-//! edge to edge in between.
+//! Furnishing of crossings: the avatar starts at the bottom, its goal is at the top, and in between traffic runs in
+//! lanes from edge to edge.
 
 use crate::levels::construct::builder::{Builder, way};
 use crate::levels::construct::plan;
@@ -8,7 +8,7 @@ use crate::levels::palette::Palette;
 use engine::analysis::{EffectSummary, Motion, Role};
 use engine::{Analysis, SpriteType};
 
-/// The use of a row.
+/// A row's use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Row {
     /// A row of walls.
@@ -23,12 +23,13 @@ pub(crate) enum Row {
 #[derive(Clone, Debug)]
 pub(crate) struct Traffic {
     pub(crate) types: Vec<SpriteType>,
-    /// `true` if the traffic wraps around to the other side, and `false` if it turns at the walls.
+    /// `true` if the traffic wraps around to the other side; `false` if it turns at the walls.
     pub(crate) wraps: bool,
 }
 
-/// Returns the enemies that drive left or right, if they make the game a crossing. This is the case if they wrap around
-/// to the other side. It is also the case in a game with an exit if they turn at walls and some go left and some right.
+/// Returns the enemies that drive left or right, if their traffic makes the game a crossing. Traffic makes a crossing
+/// if the enemies wrap around to the other side or, in a game with an exit, if they turn at walls and drive in both
+/// directions.
 pub(crate) fn traffic(analysis: &Analysis, palette: &Palette) -> Option<Traffic> {
     let enemies = plan::furnishable(analysis, palette, Role::Enemy);
     let sideways = |stype: &SpriteType| match analysis.facts(*stype).motion {
@@ -73,8 +74,8 @@ impl Builder<'_> {
         rows
     }
 
-    /// Returns the walls above and below the board, at the sides of verges, and at the sides of lanes whose traffic
-    /// turns there.
+    /// Returns the walls above and below the board, at the sides of verges, and at the sides of lanes with turning
+    /// traffic.
     pub(crate) fn lane_walls(grid: Grid, rows: &[Row], ring: bool, traffic: &Traffic) -> Vec<bool> {
         let side = |cell: usize| grid.x(cell) == 0 || grid.x(cell) + 1 == grid.columns;
         let wall = |cell: usize| match rows[grid.y(cell)] {
@@ -85,7 +86,7 @@ impl Builder<'_> {
         (0..grid.len()).map(wall).collect()
     }
 
-    /// Furnishes the rows of a crossing.
+    /// Furnishes a crossing's rows.
     pub(crate) fn crossing(&mut self, rows: &[Row], traffic: &Traffic) {
         let grid = self.board.grid;
         let verges: Vec<usize> = (0..grid.rows).filter(|&row| rows[row] == Row::Verge).collect();
@@ -129,7 +130,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Puts vehicles of one type along a lane, with gaps of at least two cells, but not next to the avatar's start.
+    /// Places vehicles of one type along a lane, with gaps of at least two cells, but not next to the avatar's start.
     fn drive(&mut self, row: usize, stype: SpriteType) {
         let grid = self.board.grid;
         let least = 3 + plan::round(3.0 * (1.0 - self.difficulty()), &mut self.sampler);

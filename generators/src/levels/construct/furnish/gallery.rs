@@ -1,4 +1,4 @@
-//! Furnishing of an open field for an avatar that moves along one edge, with enemies at the far side and cover in
+//! The layout of an open field for an avatar that moves along one edge, with enemies on the far side and cover in
 //! between.
 
 use crate::levels::construct::builder::Builder;
@@ -6,8 +6,8 @@ use crate::levels::construct::plan::Wish;
 use engine::SpriteType;
 use engine::analysis::{Motion, Role, Steering};
 
-/// A field from the avatar's point of view. `along` is the position on its line of movement, and `deep` is the row
-/// counted from the far side.
+/// A field from the avatar's point of view. `along` is the position on the avatar's line of movement, and `deep` is the
+/// row counted from the far side.
 struct Field {
     upright: bool,
     edge: usize,
@@ -15,7 +15,7 @@ struct Field {
 }
 
 impl Field {
-    /// Returns the cell at a position.
+    /// Returns the cell at a position in the field.
     fn cell(&self, builder: &Builder<'_>, along: usize, deep: usize) -> usize {
         let grid = builder.board.grid;
         if self.upright {
@@ -122,7 +122,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Places sprites in evenly spaced ranks at the far side, one type per rank.
+    /// Places sprites in evenly spaced ranks on the far side, one type per rank.
     fn formation(&mut self, field: &Field, wish: Wish, home: usize) {
         let deepest = (home / 2).max(1);
         let grid = self.board.grid;
@@ -176,7 +176,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Places all other sprites. Still things to touch go on the avatar's line, and the rest in between.
+    /// Places all other sprites. Stationary sprites that the avatar must touch go on its line, and the rest in between.
     fn somewhere(&mut self, field: &Field, wish: Wish, home: usize) {
         let touched = matches!(
             wish.role,

@@ -1,4 +1,4 @@
-//! Furnishing of a board, with one file for each kind of game.
+//! Board furnishing, with one file for each kind of game.
 
 pub(crate) mod adventure;
 pub(crate) mod cover;

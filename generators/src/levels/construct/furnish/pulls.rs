@@ -1,5 +1,5 @@
-//! Levels with things to push, constructed backwards. From the solved state, the avatar pulls the things away from
-//! their destinations, so that pushing them back is a solution.
+//! Levels with pushable objects, constructed backwards. From the solved state, the avatar pulls the objects away
+//! from their destinations, so that pushing them back is a solution.
 
 use crate::levels::construct::jobs::{Job, Jobs};
 use crate::levels::grid::{FAR, Grid, WAYS};
@@ -7,42 +7,42 @@ use base::Sampler;
 use engine::SpriteType;
 use std::collections::VecDeque;
 
-/// A push that moves the thing in a cell by one step.
+/// A push that moves a cell's object by one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Push {
     pub(crate) from: usize,
     pub(crate) way: (i32, i32),
 }
 
-/// A floor plan with pushed things, in the state before the pushes found so far.
+/// A floor plan with pushable objects, in the state before the pushes found so far.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulls {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
-    /// The pushable thing in each cell; `None` if the cell has none.
+    /// The pushable object in each cell; `None` for cells without one.
     pub(crate) things: Vec<Option<SpriteType>>,
-    /// The partner of a job in each cell, with `true` if the avatar can currently walk into the cell.
+    /// The job partner in each cell, with `true` if the avatar can currently walk into the cell.
     pub(crate) partners: Vec<Option<(SpriteType, bool)>>,
-    /// For each cell, `true` if nothing may be pushed into it.
+    /// For each cell, `true` if pushing objects into it is forbidden.
     pub(crate) barred: Vec<bool>,
-    /// For each cell, `true` if the avatar cannot walk into the cell either.
+    /// For each cell, `true` if the avatar cannot walk into it.
     pub(crate) closed: Vec<bool>,
-    /// The avatar's cell; `None` if it may be anywhere.
+    /// The avatar's cell; `None` if the avatar may be anywhere.
     pub(crate) avatar: Option<usize>,
     /// The pushes of the solution, in reverse order.
     pub(crate) pushes: Vec<Push>,
 }
 
-/// The state right after a pull, given by the cells of the thing and of the avatar.
+/// The state immediately after a pull, given by the cells of the object and the avatar.
 #[derive(Clone, Copy)]
 struct Node {
     thing: usize,
     avatar: usize,
     /// The number of pulls so far.
     depth: usize,
-    /// The index of the node before the pull.
+    /// The index of the preceding node.
     before: usize,
-    /// The number of cells that the avatar can reach.
+    /// The number of cells within the avatar's reach.
     room: usize,
 }
 
@@ -67,14 +67,13 @@ impl Pulls {
         !self.wall[cell] && !self.closed[cell] && self.things[cell].is_none() && partner
     }
 
-    /// Returns `true` if a thing can lie in the cell between pushes.
+    /// Returns `true` if an object can lie in the cell between pushes.
     fn lies(&self, cell: usize) -> bool {
         let free = !self.wall[cell] && !self.closed[cell] && !self.barred[cell];
         free && self.things[cell].is_none() && self.partners[cell].is_none()
     }
 
-    /// Returns the distances in steps of all cells from the avatar. Cells that the avatar cannot reach have the
-    /// distance [`FAR`].
+    /// Returns the distances, in steps, of all cells from the avatar. Unreachable cells have the distance [`FAR`].
     pub(crate) fn reachable(&self) -> Vec<u32> {
         match self.avatar {
             Some(cell) => self.grid.flood(&[cell], |next| self.stands(next)),
@@ -82,7 +81,7 @@ impl Pulls {
         }
     }
 
-    /// Undoes the last push of a job onto the partner at `cell`, and moves the thing away by about `pulls` pulls.
+    /// Undoes a job's last push onto the partner at `cell`, and moves the object away by about `pulls` pulls.
     pub(crate) fn undo(&mut self, job: &Job, cell: usize, pulls: usize, sampler: &mut Sampler) -> Option<()> {
         let reachable = self.reachable();
         let reaches = |cell: usize| reachable[cell] != FAR;
@@ -115,7 +114,7 @@ impl Pulls {
         Some(())
     }
 
-    /// Pulls the thing in a cell to a position that takes about `pulls` pulls, or as far as possible.
+    /// Pulls a cell's object to a position about `pulls` pulls away, or as far as possible.
     pub(crate) fn pull(&mut self, from: usize, pulls: usize, sampler: &mut Sampler) {
         let Some(stype) = self.things[from] else { return };
         let Some(first) = self.avatar else { return };
@@ -164,7 +163,7 @@ impl Pulls {
         self.avatar = Some(end.avatar);
     }
 
-    /// Walks the avatar backwards to a cell, sometimes pulling the thing right behind it.
+    /// Walks the avatar backwards to a cell, sometimes pulling the object directly behind it.
     pub(crate) fn wander(&mut self, to: usize, eager: usize, sampler: &mut Sampler) {
         for _ in 0..self.grid.len() {
             let Some(at) = self.avatar.filter(|&at| at != to) else { return };
@@ -182,8 +181,8 @@ impl Pulls {
         }
     }
 
-    /// Returns the avatar's steps for the pushes, beginning at `start`, and then for the visits to the cells in
-    /// `visits` in turn. Returns `None` if the pushes do not work.
+    /// Returns the avatar's steps, beginning at `start`, for the pushes and then for visiting the cells in `visits`
+    /// in turn. Returns `None` if the pushes do not work.
     pub(crate) fn solution(
         &self,
         plan: &Jobs,

@@ -1,4 +1,4 @@
-//! Locks and keys: a gate in a bottleneck guards the cells behind the gate, and the gate's key lies in front.
+//! Locks and keys: a gate in a bottleneck guards the cells behind it, and the gate's key lies in front.
 
 use crate::levels::construct::builder::Builder;
 use crate::levels::construct::plan::furnishable;
@@ -6,15 +6,15 @@ use crate::levels::grid::{FAR, WAYS};
 use engine::SpriteType;
 use engine::analysis::{Key, Lock, Role};
 
-/// A bottleneck: its cell, and the cells that can be reached only through it.
+/// A bottleneck: its cell, and the cells reachable only through it.
 pub(crate) struct Bottleneck {
     pub(crate) cell: usize,
     pub(crate) behind: Vec<usize>,
 }
 
 impl Builder<'_> {
-    /// Puts gates into bottlenecks of the area that is still open, and numbers the zones behind the gates from 1 in
-    /// that order. The key of a gate may lie behind a gate with a higher number. Returns the placed types.
+    /// Places gates in bottlenecks of the still open area, and numbers the zones behind the gates from 1 in that
+    /// order. A gate's key may lie behind a gate with a higher number. Returns the placed types.
     pub(crate) fn gates(&mut self) -> Vec<SpriteType> {
         let mut types: Vec<SpriteType> = furnishable(self.analysis, self.palette, Role::Gate);
         types.retain(|&stype| {
@@ -40,14 +40,14 @@ impl Builder<'_> {
         placed
     }
 
-    /// Returns the lock of a type; `None` if the type has no lock.
+    /// Returns a type's lock; `None` if the type has no lock.
     pub(crate) fn lock_of(&self, stype: SpriteType) -> Option<&Lock> {
         self.analysis.locks().iter().find(|lock| lock.stype == stype)
     }
 
-    /// Draws a bottleneck of zone 0 that cuts off neither too few nor too many cells; `None` if there is no such
-    /// bottleneck. If `runway` is `true`, there must be two free cells in a line in front of the bottleneck, so that
-    /// something can be pushed into it.
+    /// Draws a bottleneck in zone 0 that cuts off neither too few nor too many cells; `None` if there is no such
+    /// bottleneck. If `runway` is `true`, two free cells must lie in a line in front of the bottleneck, so that an
+    /// object can be pushed into it.
     pub(crate) fn bottleneck(&mut self, runway: bool) -> Option<Bottleneck> {
         let grid = self.board.grid;
         let here = |builder: &Self, cell: usize| {

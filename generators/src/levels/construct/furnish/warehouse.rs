@@ -1,4 +1,4 @@
-//! Furnishing of levels with things to push, together with their solutions.
+//! Furnishing for levels with pushable objects, together with their solutions.
 
 use super::pulls::Pulls;
 use crate::levels::construct::builder::Builder;
@@ -10,7 +10,7 @@ use engine::SpriteType;
 use engine::analysis::Role;
 
 impl Builder<'_> {
-    /// Furnishes walls with a puzzle, and returns the solution as steps of the avatar.
+    /// Furnishes walls with a puzzle, and returns the solution as avatar steps.
     pub(crate) fn warehouse(&mut self, plan: &Jobs) -> Option<Vec<(i32, i32)>> {
         let grid = self.board.grid;
         let mut pulls = Pulls::new(grid, self.board.wall.clone());
@@ -103,8 +103,8 @@ impl Builder<'_> {
         Some(visits)
     }
 
-    /// Draws a cell to push something onto, with enough room on at least one side, and near the other cells of this
-    /// kind.
+    /// Draws a cell onto which to push an object, with enough room on at least one side, and near the other cells of
+    /// this kind.
     fn choose_socket(
         &mut self,
         pulls: &Pulls,
@@ -138,7 +138,7 @@ impl Builder<'_> {
         self.sampler.weighted(&weights).map(|at| cells[at])
     }
 
-    /// Scatters loose things in the final state of the solution, from which the search goes backwards.
+    /// Scatters loose objects in the solution's final state, from which the backward search starts.
     fn scatter(&mut self, plan: &Jobs, sockets: &[usize], pulls: &mut Pulls) {
         let grid = self.board.grid;
         for &stype in &plan.loose {
@@ -161,7 +161,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Walks the avatar backwards among the loose things, dragging some of them into its way.
+    /// Walks the avatar backwards among the loose objects, dragging some of them into its way.
     fn stray(&mut self, pulls: &mut Pulls) {
         let goal = pulls.avatar;
         let least = 3 + round(3.0 * self.difficulty(), &mut self.sampler);
@@ -178,7 +178,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Draws the avatar's start from the cells that it can reach, preferably far from the first push.
+    /// Draws the avatar's start from the reachable cells, preferably far from the first push.
     fn choose_stand(&mut self, pulls: &Pulls, behind: &dyn Fn(usize) -> bool) -> Option<usize> {
         let reachable = pulls.reachable();
         let weight = |cell: usize| {
@@ -199,7 +199,7 @@ impl Builder<'_> {
         self.sampler.weighted(&weights).or(pulls.avatar)
     }
 
-    /// Puts the puzzle on the board, fills unused corners with walls, and keeps the cells of the solution free.
+    /// Places the puzzle on the board, fills unused corners with walls, and keeps the solution's cells free.
     fn finish(
         &mut self,
         plan: &Jobs,
@@ -236,7 +236,7 @@ impl Builder<'_> {
         Some(ways.to_vec())
     }
 
-    /// Turns some cells that the solution does not need into walls, without cutting off other cells.
+    /// Turns some cells that are not needed for the solution into walls, without cutting off other cells.
     fn tighten(&mut self, used: &[bool]) {
         if self.sampler.unit() > 0.3 + 0.5 * self.difficulty() {
             return;
@@ -254,7 +254,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds the game's other things after the puzzle without obstructing the puzzle's solution.
+    /// Adds the game's other sprites after the puzzle, without obstructing the solution.
     pub(crate) fn furnish_rest(&mut self, plan: &Jobs) {
         self.board.pushing = true;
         if plan.gate.is_none() {

@@ -4,7 +4,7 @@ use super::mirror::Mirror;
 use crate::levels::grid::{Grid, WAYS};
 use base::Sampler;
 
-/// Draws straight and bent walls of two to four cells that touch neither each other nor the border.
+/// Draws straight and bent walls of two to four cells that do not touch each other or the border.
 pub(super) fn pieces(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let mirror = Mirror::draw(sampler);
     let margin = if ring { 2 } else { 1 };

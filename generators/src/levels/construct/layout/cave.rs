@@ -7,7 +7,7 @@ use base::Sampler;
 /// The number of smoothing rounds.
 const ROUNDS: usize = 3;
 
-/// Draws caves that are more and more open, until one region holds most of the inside.
+/// Draws increasingly open caves, until one region contains most of the inside.
 pub(super) fn cave(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let border: Vec<bool> = wall.to_vec();
     let inside = border.iter().filter(|&&wall| !wall).count();
@@ -32,7 +32,7 @@ pub(super) fn cave(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bo
     }
 }
 
-/// Adds single rocks in the widest places, so that large halls have something to walk around.
+/// Adds single rocks in the widest places, so that large halls contain obstacles.
 fn roughen(grid: Grid, border: &[bool], sampler: &mut Sampler, cells: &mut [bool]) {
     for cell in 0..grid.len() {
         let clear = grid.around(cell).into_iter().all(|next| next.is_some_and(|next| !cells[next]));

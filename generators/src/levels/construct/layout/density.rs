@@ -1,11 +1,11 @@
-//! Adjustment of the number of walls without a change of structure.
+//! Adjusts the number of walls without changing the structure.
 
 use super::mirror::Mirror;
 use crate::levels::grid::Grid;
 use base::Sampler;
 
 /// Thickens walls, or erodes them at their ends, until the fraction of walls inside the border is about `share`.
-/// Regions stay connected, and symmetries are kept. Cost: O(cells) per changed cell in the worst case.
+/// Regions stay connected, and symmetries are preserved. Cost: O(cells) per changed cell in the worst case.
 pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     let inner: Vec<usize> = (0..grid.len()).filter(|&cell| !grid.on_border(cell)).collect();
     let wanted = (share * inner.len() as f64 + 0.5) as usize;

@@ -1,35 +1,35 @@
-//! Walls learnt from examples. Every window of three by three cells in the result occurs in some example.
+//! Walls learnt from examples. Every 3×3 window in the result occurs in an example.
 //!
 //! This is the overlapping model of wave function collapse: Karth and Smith 2017, "WaveFunctionCollapse is Constraint
 //! Solving in the Wild". In this implementation, border cells have their own classes, so that windows learnt at an edge
-//! stay there. The last decisions are undone before a board is restarted.
+//! stay at that edge. The last decisions are undone before a board is restarted.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
 use std::collections::{BTreeMap, VecDeque};
 
-/// The side length of a window in cells.
+/// A window's side length, in cells.
 const SIDE: usize = 3;
 /// The number of cells in a window.
 const CELLS: usize = SIDE * SIDE;
-/// The maximum number of different windows. The most frequent windows are kept. Time and memory grow with the square of
-/// this number.
+/// The maximum number of different windows. The most frequent windows are retained. Time and memory grow with the
+/// square of this number.
 const MOST: usize = 320;
-/// The maximum number of boards to start.
+/// The maximum number of boards to attempt.
 const RESTARTS: usize = 2;
-/// The maximum number of windows to examine on one board.
+/// The maximum number of windows to examine per board.
 const WORK: usize = 1_500_000;
-/// The number of decisions on one board that can be undone.
+/// The number of decisions per board that can be undone.
 const MEMORY: usize = 24;
 
-/// The classes of a window's cells. Classes 0 and 2 are open, and 1 and 3 are walls. Classes 2 and 3 are cells on the
-/// border.
+/// The classes of a window's cells. Classes 0 and 2 are open, and classes 1 and 3 are walls. Classes 2 and 3 are border
+/// cells.
 type Window = [u8; CELLS];
 
-/// The windows of the examples.
+/// The windows in the examples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Patterns {
-    /// The windows, with the frequency of each.
+    /// The windows, with their frequencies.
     seen: BTreeMap<Window, u32>,
     /// The model of the most frequent windows; see [`Patterns::conclude`].
     model: Model,
@@ -40,7 +40,7 @@ fn class(grid: Grid, cell: usize, wall: bool) -> u8 {
 }
 
 impl Patterns {
-    /// Adds the windows of a board and of its left-to-right reflection, because walls mean the same in both.
+    /// Adds the windows of a board and of its left-to-right reflection, because walls have the same meaning in both.
     pub(crate) fn learn(&mut self, grid: Grid, wall: &[bool]) {
         for mirrored in [false, true] {
             for y in 0..(grid.rows + 1).saturating_sub(SIDE) {
@@ -56,13 +56,12 @@ impl Patterns {
         }
     }
 
-    /// Returns `true` if there is a structure to learn, which requires a variety of windows with inner walls.
+    /// Returns `true` if there is a structure to learn: a variety of windows with inner walls.
     pub(crate) fn has_structure(&self) -> bool {
         self.seen.keys().filter(|window| window.contains(&1)).count() >= 8
     }
 
-    /// Computes which windows may overlap. This function must be called after the last board. Cost: the square of
-    /// [`MOST`].
+    /// Computes which windows may overlap. Must be called after the last board. Cost: the square of [`MOST`].
     pub(crate) fn conclude(&mut self) {
         let mut windows: Vec<(u32, Window)> =
             self.seen.iter().map(|(window, &count)| (count, *window)).collect();
@@ -96,11 +95,11 @@ struct Model {
     windows: Vec<(u32, Window)>,
     /// For each window, its frequency times the logarithm of its frequency.
     logs: Vec<f64>,
-    /// For each window, the sets of windows that fit one cell to its right, below, to its left, and above.
+    /// For each window, the sets of windows that fit one cell to the right, below, to the left, and above.
     fits: [Vec<Vec<u64>>; 4],
 }
 
-/// The steps from a window to its neighbours, in the order of [`Model::fits`].
+/// The steps from a window to its neighbours, in [`Model::fits`] order.
 const STEPS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
 impl Model {
@@ -131,16 +130,16 @@ impl Model {
     }
 }
 
-/// A partly decided board, with the windows that are still possible at each position.
+/// A partly decided board, with the windows still possible at each position.
 #[derive(Clone)]
 struct Wave<'a> {
     model: &'a Model,
-    /// The size of the board.
+    /// The board's size.
     grid: Grid,
-    /// The positions of windows, by their upper left cells.
+    /// The positions of windows, by upper left cell.
     places: Grid,
     possible: Vec<u64>,
-    /// The number of words in a set of windows.
+    /// The number of machine words in a set of windows.
     words: usize,
     /// The entropy of the choice at each position.
     entropy: Vec<u64>,
@@ -182,7 +181,7 @@ impl<'a> Wave<'a> {
         Some(wave)
     }
 
-    /// Repeatedly decides the position with the least entropy.
+    /// Repeatedly decides the position with the lowest entropy.
     fn collapse(mut self, sampler: &mut Sampler) -> Option<Vec<bool>> {
         // Ties are broken by a random order.
         let mut order: Vec<usize> = (0..self.places.len()).collect();
@@ -225,13 +224,13 @@ impl<'a> Wave<'a> {
         Some(wall)
     }
 
-    /// Returns the windows that are possible at a position.
+    /// Returns the windows possible at a position.
     fn set(&self, place: usize) -> &[u64] {
         &self.possible[place * self.words..][..self.words]
     }
 
-    /// Returns the entropy of a position. The entropy is Shannon's entropy of the frequencies, in thousandths of a nat,
-    /// plus one; 0 if there is no choice.
+    /// Returns a position's entropy: the Shannon entropy of the frequencies, in thousandths of a nat, plus one; 0 if
+    /// there is no choice.
     fn measure(&self, place: usize) -> u64 {
         let (mut sum, mut logs, mut options) = (0.0, 0.0, 0);
         for at in members(self.set(place)) {
@@ -242,8 +241,8 @@ impl<'a> Wave<'a> {
         if options < 2 { 0 } else { ((libm::log(sum) - logs / sum) * 1000.0) as u64 + 1 }
     }
 
-    /// Rules out all windows that no neighbouring window allows, starting from the changed positions. Returns `None` if
-    /// a position is left without a window.
+    /// Rules out all windows that are incompatible with every window at a neighbouring position, starting from the
+    /// changed positions. Returns `None` if a position is left without a window.
     fn propagate(&mut self, mut changed: Vec<usize>) -> Option<()> {
         let mut waiting = vec![false; self.places.len()];
         for &place in &changed {
@@ -312,7 +311,7 @@ mod tests {
         patterns.seen.into_keys().collect()
     }
 
-    /// Every window of an assembled board occurs in the examples.
+    /// Every window on an assembled board occurs in the examples.
     #[test]
     fn assembled_boards_consist_of_windows_of_the_example() {
         let boards = [

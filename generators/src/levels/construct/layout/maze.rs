@@ -1,9 +1,10 @@
-//! Mazes, which are depth-first corridors on every second cell, with some dead ends opened.
+//! Mazes: depth-first corridors on every second cell, with some dead ends opened.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::Sampler;
 
-/// Draws a maze. On a board of even width or height, the last column or row joins the border.
+/// Draws a maze. On a board of even width or height, the last column or row becomes part of the
+/// border.
 pub(super) fn maze(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     let first = usize::from(ring);
     let node = |cell: usize| {
@@ -35,7 +36,7 @@ pub(super) fn maze(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, wa
     open_dead_ends(grid, ring, 0.15 + 0.5 * loops, sampler, wall);
 }
 
-/// Opens a wall at a fraction of the dead ends.
+/// Opens a wall at some of the dead ends.
 fn open_dead_ends(grid: Grid, ring: bool, share: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     for cell in 0..grid.len() {
         let exits = grid.beside(cell).filter(|&next| !wall[next]).count();

@@ -1,9 +1,9 @@
-//! Symmetries of a board.
+//! Board symmetries.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
 
-/// A symmetry of a board.
+/// A board symmetry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mirror {
     None,
@@ -24,13 +24,13 @@ impl Mirror {
         ])
     }
 
-    /// Returns the symmetry of the walls.
+    /// Returns the walls' symmetry.
     pub(crate) fn of_walls(grid: Grid, wall: &[bool]) -> Mirror {
         let kept = |mirror: &Mirror| (0..grid.len()).all(|cell| wall[cell] == wall[mirror.of(grid, cell)]);
         [Mirror::Sides, Mirror::Turn, Mirror::Ends].into_iter().find(kept).unwrap_or(Mirror::None)
     }
 
-    /// Returns the mirror image of a cell.
+    /// Returns a cell's mirror image.
     pub(crate) fn of(self, grid: Grid, cell: usize) -> usize {
         let (x, y) = (grid.x(cell), grid.y(cell));
         let (other_x, other_y) = (grid.columns - 1 - x, grid.rows - 1 - y);

@@ -7,7 +7,7 @@ use base::Sampler;
 const RISE: usize = 3;
 
 /// Draws ledges of three to seven cells every three rows, from the floor up, with gaps between them. Every storey has
-/// at least one gap to climb through.
+/// at least one gap that the avatar can climb through.
 pub(super) fn platforms(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let edge = usize::from(ring);
     let (left, right) = (edge, grid.columns - edge);

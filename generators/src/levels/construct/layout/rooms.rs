@@ -1,4 +1,4 @@
-//! Rooms, made by walls with doors that divide the inside recursively.
+//! Rooms, created by walls with doors that divide the inside recursively.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
@@ -31,7 +31,7 @@ pub(super) fn rooms(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, w
     }
 }
 
-/// Puts a wall across a room in a position where it blocks no door. Returns the two halves of the room.
+/// Places a wall across a room without blocking a door. Returns the room's two halves.
 fn divide(
     grid: Grid,
     room: Room,

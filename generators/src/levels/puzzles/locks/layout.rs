@@ -1,10 +1,10 @@
-//! Layouts of lock puzzles, and changes to layouts.
+//! Lock puzzle layouts, and changes to layouts.
 
 use crate::Variation;
 use crate::levels::grid::Grid;
 use base::{Sampler, Seed};
 
-/// The content of a cell.
+/// A cell's content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tile {
     Floor,
@@ -28,23 +28,23 @@ pub(super) struct Layout {
     pub(super) start: usize,
 }
 
-/// The numbers of things in a layout.
+/// The numbers of items in a layout.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Furniture {
     pub(super) kinds: usize,
-    /// The number of keys, which equals the number of doors, of each kind.
+    /// The number of keys, and also of doors, of each kind.
     pub(super) locks: usize,
     pub(super) planks: usize,
     pub(super) goals: usize,
 }
 
-/// A generator of layouts of one size with the same things.
+/// A generator of layouts with a fixed size and fixed contents.
 pub(super) struct Layouts {
     pub(super) grid: Grid,
     pub(super) furniture: Furniture,
 }
 
-/// The maximum fraction of inner cells that are dug as corridors.
+/// The maximum fraction of inner cells dug as corridors.
 const CARVED: f64 = 0.62;
 
 impl Layouts {
@@ -52,7 +52,7 @@ impl Layouts {
         (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
     }
 
-    /// Digs corridors, first through cells that join no two connected floor cells, and then through a few more
+    /// Digs corridors: first through cells that do not join connected floor cells, and then through a few more
     /// cells.
     fn dig(&self, sampler: &mut Sampler) -> Vec<Tile> {
         let mut tiles = vec![Tile::Wall; self.grid.len()];
@@ -77,7 +77,7 @@ impl Layouts {
         tiles
     }
 
-    /// Returns the things to place, starting with the goals.
+    /// Returns the items to place, starting with the goals.
     fn things(&self) -> Vec<Tile> {
         let Furniture { kinds, locks, planks, goals } = self.furniture;
         let of_kinds =
@@ -89,8 +89,8 @@ impl Layouts {
     }
 }
 
-/// Returns `true` if a cell is part of a corridor, which means that two opposite neighbours are floor, and the
-/// other two are walls.
+/// Returns `true` if a cell is part of a corridor: two opposite neighbours are floor, and the other two are
+/// walls.
 fn is_corridor(grid: Grid, tiles: &[Tile], cell: usize) -> bool {
     let is_wall = |way| grid.shift(cell, way).is_none_or(|next| tiles[next] == Tile::Wall);
     let [up, left, down, right] = [(0, -1), (-1, 0), (0, 1), (1, 0)].map(is_wall);

@@ -1,4 +1,4 @@
-//! Lock puzzles that meet a target: long orders of keys, doors and planks, with tempting wrong orders.
+//! Lock puzzles that meet a target: long sequences of keys, doors and planks, with tempting wrong sequences.
 
 mod layout;
 mod walk;
@@ -21,32 +21,32 @@ base::with_defaults! {
         pub rows: (usize, usize) = (10, 11),
         /// The minimum number of actions in a shortest win.
         pub decisions: usize = 60,
-        /// The minimum fraction of dead ends among the states one step off the shortest win. No win exists from
-        /// a dead end.
+        /// The minimum fraction of dead ends among the states one step off the shortest win. A dead end is a
+        /// state from which no win exists.
         pub dead_ends: f64 = 0.05,
-        /// The maximum number of layouts to examine for a level.
+        /// The maximum number of layouts to examine per level.
         pub layouts: usize = 20_000,
     }
 }
 
-/// The maximum number of states of a layout, so that a level can be searched completely.
+/// The maximum number of states per layout, so that a level can be searched exhaustively.
 const MOST_STATES: usize = 15_000;
-/// The number of layouts to request at once. They are rated one after the other.
+/// The number of layouts to request together. The layouts are then rated one by one.
 const BATCH: usize = 8;
-/// The number of inner cells of a board for which [`furniture`] gives the usual numbers of things.
+/// The number of inner cells on a board for which [`furniture`] returns the default numbers of items.
 const USUAL: f64 = 64.0;
 
-/// A lock puzzle in the characters of [`LockRules::game`], with actions that win it.
+/// A lock puzzle in the characters of [`LockRules::game`], with a winning sequence of actions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LockLevel {
-    /// The level as text.
+    /// The level, as text.
     pub text: String,
     /// A win with the minimum number of actions.
     pub solution: Vec<Action>,
 }
 
 impl LockConfig {
-    /// Generates the level for a seed. Layouts are annealed until an exhaustive search of one shows that it
+    /// Generates the level for a seed. Layouts are annealed until an exhaustive search shows that a layout
     /// meets the target. Returns `None` if no layout meets the target. Cost: about a millisecond per layout.
     pub fn level(&self, rules: LockRules, seed: Seed) -> Option<LockLevel> {
         let mut sampler = seed.child("size", 0).sampler();
@@ -92,7 +92,7 @@ impl LockConfig {
 /// The actions of the steps up, left, down and right.
 const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
 
-/// Returns the numbers of things for a board of the given size.
+/// Returns the numbers of items for a board of the given size.
 fn furniture(rules: LockRules, grid: Grid) -> Furniture {
     let share = ((grid.columns - 2) * (grid.rows - 2)) as f64 / USUAL;
     let of = |number: f64| (number * share).round() as usize;

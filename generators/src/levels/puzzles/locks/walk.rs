@@ -1,9 +1,9 @@
-//! Exhaustive search through a layout of locks. The search is exact because only the avatar moves.
+//! Exhaustive search of a lock layout. The search is exact because only the avatar moves.
 
 use super::layout::{Layout, Tile};
 use crate::levels::grid::WAYS;
 
-/// A shortest win of a layout, and statistics of the states beside it.
+/// A layout's shortest win, and statistics on the states one step off the win.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Walk {
     /// The steps of a shortest win, as indices into [`WAYS`].
@@ -12,21 +12,21 @@ pub(super) struct Walk {
     pub(super) beside: usize,
     /// The number of states in `beside` from which no win exists.
     pub(super) dead: usize,
-    /// The number of all reachable states.
+    /// The total number of reachable states.
     pub(super) states: usize,
 }
 
-/// A state as one number: the avatar's cell, and one bit for each thing that was taken, opened or worn out.
+/// A state as one number: the avatar's cell, and one bit for each item taken, opened or worn out.
 type Packed = u128;
 
 /// The number of bits for the cell.
 const CELL: u32 = 8;
-/// The index for the absence of a state.
+/// The index that represents no state.
 const NONE: u32 = u32::MAX;
 
 struct Space<'a> {
     layout: &'a Layout,
-    /// For each cell, the bit of its thing; `None` if the cell has no thing that can be taken, opened or worn out.
+    /// For each cell, its item's bit; `None` if the cell has no item that can be taken, opened or worn out.
     bits: Vec<Option<u32>>,
     /// The bits of keys, by kind.
     keys: [Packed; 2],
@@ -83,8 +83,8 @@ impl Space<'_> {
     }
 }
 
-/// States by number. A state is found by its content with open addressing, in a table at least twice as large as the
-/// number of states.
+/// States by number. States are looked up by content in a hash table with open addressing, at least twice as large as
+/// the number of states.
 struct Table {
     slots: Vec<u32>,
     states: Vec<Packed>,
@@ -95,7 +95,7 @@ impl Table {
         Table { slots: vec![NONE; 1024], states: Vec::new() }
     }
 
-    /// Returns the slot of a state, or the free slot where it belongs.
+    /// Returns a state's slot, or the free slot where the state belongs.
     fn slot(&self, state: Packed) -> usize {
         let folded = (state as u64) ^ ((state >> 64) as u64).rotate_left(29);
         let mask = self.slots.len() - 1;
@@ -128,8 +128,8 @@ impl Table {
 }
 
 impl Walk {
-    /// Searches all states, up to `most` states. Returns `None` if there are more states, or if there is no win. Cost:
-    /// about a tenth of a microsecond per state.
+    /// Searches up to `most` states. Returns `None` if there are more states, or if there is no win. Cost: about a
+    /// tenth of a microsecond per state.
     pub(super) fn of(layout: &Layout, most: usize) -> Option<Walk> {
         let space = Space::of(layout)?;
         let mut table = Table::new();
@@ -181,13 +181,13 @@ impl Walk {
         Some(Walk { ways, beside: beside.len(), dead, states: table.states.len() })
     }
 
-    /// Returns the fraction of states beside the win from which no win exists.
+    /// Returns the fraction of dead ends among the states one step off the win.
     pub(super) fn dead_share(&self) -> f64 {
         self.dead as f64 / self.beside.max(1) as f64
     }
 }
 
-/// Returns, for each state, `true` if a win can be reached from it.
+/// Returns, for each state, `true` if a win is reachable from that state.
 fn alive(space: &Space<'_>, states: &[Packed], after: &[[u32; 4]]) -> Vec<bool> {
     let mut first = vec![0_u32; states.len() + 1];
     let edges =

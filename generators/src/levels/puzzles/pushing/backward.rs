@@ -1,4 +1,4 @@
-//! Breadth-first search backwards from all solved positions. It computes the distance of each position from a solution.
+//! Breadth-first search backwards from all solved positions. Computes each position's distance from a solution.
 
 use super::floor_plan::{Position, Pushing, bit, each};
 use crate::levels::grid::WAYS;
@@ -6,12 +6,12 @@ use crate::levels::grid::WAYS;
 /// The value of an empty slot.
 const NONE: u32 = u32::MAX;
 
-/// The positions found, in order of discovery, with their distances.
+/// The positions found, in discovery order, with their distances.
 #[derive(Default)]
 pub(crate) struct SearchedPositions {
     positions: Vec<Position>,
     distances: Vec<u16>,
-    /// The hash table with open addressing, which holds indices of positions. Its size is a power of two.
+    /// A hash table with open addressing that contains position indices. The table size is a power of two.
     slots: Vec<u32>,
     /// `true` if all reachable positions have been found.
     pub(crate) complete: bool,
@@ -35,7 +35,7 @@ impl SearchedPositions {
         Some(usize::from(self.distances[at as usize]))
     }
 
-    /// Returns the slot of a position, or the free slot where it belongs.
+    /// Returns a position's slot, or the free slot where the position belongs.
     fn slot(&self, position: &Position) -> usize {
         let mask = self.slots.len().wrapping_sub(1);
         let mut slot = hash(position) as usize & mask;
@@ -80,11 +80,11 @@ fn hash(position: &Position) -> u64 {
 }
 
 impl Pushing<'_> {
-    /// Computes the minimum number of pushes to solve each position. Positions that differ only by a walk of the avatar
-    /// count as one position, with the avatar in the first cell that it can walk to. The search stops after about
-    /// `most` positions, and the farthest positions are then missing.
+    /// Computes the minimum number of pushes needed to solve each position. Positions that differ only by a walk count
+    /// as one position, with the avatar in the first reachable cell. The search stops after about `most` positions; the
+    /// farthest positions are then missing.
     ///
-    /// Cost: O(positions × things), about a microsecond per position.
+    /// Cost: O(positions × objects), about a microsecond per position.
     pub(crate) fn by_pushes(&self, most: usize) -> SearchedPositions {
         let mut searched = SearchedPositions::default();
         for solved in self.solved() {
@@ -119,7 +119,7 @@ impl Pushing<'_> {
         searched
     }
 
-    /// Computes the minimum number of the avatar's steps to solve each position.
+    /// Computes the minimum number of avatar steps needed to solve each position.
     pub(crate) fn by_steps(&self, most: usize) -> SearchedPositions {
         let mut searched = SearchedPositions::default();
         for solved in self.solved() {

@@ -1,4 +1,4 @@
-//! Floor plans for puzzles. They are drawn, varied, and rated by the distance of their farthest position from a
+//! Floor plans for puzzles. Floor plans are drawn, varied, and rated by the distance of their farthest position from a
 //! solution.
 
 use super::floor_plan::{Cells, FloorPlan, Position, Pushing, bit, each};
@@ -19,14 +19,14 @@ const MAX_SILLS: usize = 5;
 /// The number of attempts at a change before a floor plan is returned unchanged.
 const REDRAWS: usize = 40;
 
-/// A generator of floor plans of one size, for given numbers of things.
+/// A generator of fixed-size floor plans for given numbers of objects.
 pub(crate) struct FloorPlans<'a> {
     pub(crate) rules: &'a Rules,
     pub(crate) grid: Grid,
     pub(crate) counts: [usize; KINDS],
     /// The maximum number of positions to examine when rating a floor plan.
     pub(crate) most_positions: usize,
-    /// `true` if floor plans have sills, in games with such a type.
+    /// `true` if floor plans have sills, in games that declare such a type.
     pub(crate) sills: bool,
 }
 
@@ -41,15 +41,15 @@ impl FloorPlans<'_> {
         if has_targets { self.counts[kind] } else { 0 }
     }
 
-    /// Returns the minimum number of open cells. It leaves enough room for all things, and more than a small closet in
-    /// a block of walls.
+    /// Returns the minimum number of open cells. This number leaves enough room for all objects, and more than a small
+    /// closet in a block of walls.
     fn least(&self) -> usize {
         let things: usize = self.counts.iter().sum();
         let share = (self.grid.columns - 2) * (self.grid.rows - 2) * 2 / 5;
         (3 * things + 5).max(share.min(self.most()))
     }
 
-    /// Returns the initial maximum number of open cells. If things may meet anywhere, a large yard has too many
+    /// Returns the initial maximum number of open cells. If objects may meet anywhere, a large yard has too many
     /// positions.
     fn most(&self) -> usize {
         if self.rules.in_pairs() { 22 } else { usize::MAX }
@@ -97,7 +97,7 @@ impl FloorPlans<'_> {
         (0..self.grid.len()).filter(|&cell| open & bit(cell) == 0).map(bit).sum()
     }
 
-    /// Returns `true` if a target in the cell would join the group of targets.
+    /// Returns `true` if a target in the cell would belong to the group of targets.
     fn joins(&self, floor_plan: &FloorPlan, cell: usize) -> bool {
         floor_plan.all_targets() == 0
             || each(floor_plan.all_targets()).any(|other| self.grid.manhattan(cell, other) <= GROUP)
@@ -123,7 +123,7 @@ impl FloorPlans<'_> {
             && pushing.flood(first, open) == open
     }
 
-    /// Makes a small change: removes, adds or moves a wall, moves one or all targets, or adds or removes a sill.
+    /// Applies a small change: removes, adds or moves a wall, moves one or all targets, or adds or removes a sill.
     fn change(&self, floor_plan: &FloorPlan, sampler: &mut Sampler) -> Option<FloorPlan> {
         let mut next = floor_plan.clone();
         let inner = self.inner();
@@ -179,7 +179,7 @@ impl FloorPlans<'_> {
         self.is_fair(&next).then_some(next)
     }
 
-    /// Returns the number of pushes from the farthest position of a floor plan.
+    /// Returns the number of pushes from a floor plan's farthest position.
     pub(crate) fn depth(&self, floor_plan: &FloorPlan) -> usize {
         let pushing = Pushing { floor_plan, rules: self.rules };
         let searched = pushing.by_pushes(self.most_positions);
@@ -187,12 +187,12 @@ impl FloorPlans<'_> {
         starts.map(|(_, pushes)| pushes).max().unwrap_or(0)
     }
 
-    /// Returns the number of positions examined for the depth of a floor plan.
+    /// Returns the number of positions examined for a floor plan's depth.
     pub(crate) fn positions(&self, floor_plan: &FloorPlan) -> usize {
         Pushing { floor_plan, rules: self.rules }.by_pushes(self.most_positions).len()
     }
 
-    /// Rates a yard by the number of pushes that its solution takes, with a penalty for halls and isolated wall blocks.
+    /// Rates a yard by the number of pushes in its solution, with a penalty for halls and isolated wall blocks.
     pub(crate) fn rate(&self, floor_plan: &FloorPlan) -> Evaluation {
         let depth = self.depth(floor_plan);
         let objective = (depth as f64 - self.tidiness_penalty(floor_plan)).max(0.0) / PERFECT;
@@ -203,7 +203,7 @@ impl FloorPlans<'_> {
         }
     }
 
-    /// Returns `true` if a rating means that the yard takes at least `pushes` pushes after penalties.
+    /// Returns `true` if a rating corresponds to at least `pushes` pushes after penalties.
     pub(crate) fn is_at_least(&self, rated: &Evaluation, pushes: usize) -> bool {
         rated.is_feasible() && rated.objective >= (pushes as f64 / PERFECT).min(1.0)
     }
@@ -221,8 +221,8 @@ impl FloorPlans<'_> {
         1.5 * halls.count() as f64 + crumbs.count() as f64
     }
 
-    /// Turns floor that no solution needs into walls, and removes isolated walls, as long as the farthest position does
-    /// not get closer.
+    /// Turns floor that is not needed for any solution into walls, and removes isolated walls, as long as the farthest
+    /// position does not get closer.
     pub(crate) fn tidy(&self, floor_plan: &FloorPlan) -> FloorPlan {
         let mut best = floor_plan.clone();
         let mut depth = self.depth(&best);
@@ -248,7 +248,8 @@ impl FloorPlans<'_> {
         best
     }
 
-    /// Returns the number of things of each kind. The numbers are equal if things are pushed onto each other in pairs.
+    /// Returns the number of objects of each kind. The numbers are equal if objects are pushed onto each other in
+    /// pairs.
     pub(crate) fn counts_of(rules: &Rules, things: usize) -> [usize; KINDS] {
         match rules.kinds.len() {
             1 => [things, 0],
@@ -275,7 +276,7 @@ impl Variation for FloorPlans<'_> {
         floor_plan
     }
 
-    /// Combines half of each parent.
+    /// Combines halves of both parents.
     fn cross(&self, one: &FloorPlan, two: &FloorPlan, sampler: &mut Sampler) -> FloorPlan {
         for _ in 0..REDRAWS {
             let across = sampler.ratio(1, 2);

@@ -3,18 +3,18 @@
 use super::rules::{Destination, KINDS, Rules};
 use crate::levels::grid::{Grid, WAYS};
 
-/// The maximum number of cells of a board, because the cells are bits of one number.
+/// The maximum number of cells on a board. A set of cells is stored as the bits of one number.
 pub(crate) const MAX_CELLS: usize = 128;
 
 /// A set of cells.
 pub(crate) type Cells = u128;
 
-/// Returns the set with one cell.
+/// Returns a set with one cell.
 pub(crate) fn bit(cell: usize) -> Cells {
     1 << cell
 }
 
-/// Returns the cells of a set, in order.
+/// Returns a set's cells, in order.
 pub(crate) fn each(mut cells: Cells) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let cell = (cells != 0).then(|| cells.trailing_zeros() as usize)?;
@@ -28,11 +28,11 @@ pub(crate) fn each(mut cells: Cells) -> impl Iterator<Item = usize> {
 pub(crate) struct FloorPlan {
     pub(crate) grid: Grid,
     pub(crate) wall: Cells,
-    /// The cells of targets, by kind.
+    /// The target cells, by kind.
     pub(crate) targets: [Cells; KINDS],
-    /// Floor that things cannot be pushed onto.
+    /// Floor onto which objects cannot be pushed.
     pub(crate) sills: Cells,
-    /// The number of things of each kind at the start.
+    /// The number of objects of each kind at the start.
     pub(crate) counts: [usize; KINDS],
 }
 
@@ -43,19 +43,19 @@ impl FloorPlan {
     }
 }
 
-/// A position: the cells of the things, the targets and the avatar.
+/// A position: the cells of the objects, the targets and the avatar.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Position {
-    /// The cells of things, by kind.
+    /// The object cells, by kind.
     pub(crate) things: [Cells; KINDS],
     /// The remaining targets, by kind.
     pub(crate) targets: [Cells; KINDS],
-    /// The avatar's cell, or the first cell that the avatar can walk to.
+    /// The avatar's cell, or the first cell within its reach.
     pub(crate) avatar: u8,
 }
 
 impl Position {
-    /// Returns the cells with a thing.
+    /// Returns the cells with an object.
     pub(crate) fn taken(&self) -> Cells {
         self.things[0] | self.things[1]
     }
@@ -66,7 +66,7 @@ impl Position {
     }
 }
 
-/// A floor plan with the rules of pushing.
+/// A floor plan with the pushing rules.
 #[derive(Clone, Copy)]
 pub(crate) struct Pushing<'a> {
     pub(crate) floor_plan: &'a FloorPlan,
@@ -79,13 +79,13 @@ impl Pushing<'_> {
         WAYS.map(|(x, y)| x as isize + y as isize * self.floor_plan.grid.columns as isize)
     }
 
-    /// Returns the cells where the avatar can stand.
+    /// Returns the cells in which the avatar can stand.
     pub(crate) fn stands(&self, position: &Position) -> Cells {
         let barred = |kind: usize| if self.rules.walkable[kind] { 0 } else { position.targets[kind] };
         self.inside() & !(self.floor_plan.wall | position.taken() | barred(0) | barred(1))
     }
 
-    /// Returns the cells where a thing of a kind can come to lie.
+    /// Returns the cells in which an object of a kind can come to rest.
     pub(crate) fn lies(&self, kind: usize, position: &Position) -> Cells {
         let barred = |of: usize| {
             let rests = match kind == of {
@@ -103,7 +103,7 @@ impl Pushing<'_> {
         if cells == MAX_CELLS { Cells::MAX } else { bit(cells) - 1 }
     }
 
-    /// Returns the cells of `open` that are connected with `from`. Cost: a few operations per step of the longest path.
+    /// Returns the cells in `open` that are connected to `from`. Cost: a few operations per step on the longest path.
     pub(crate) fn flood(&self, from: Cells, open: Cells) -> Cells {
         let columns = self.floor_plan.grid.columns;
         let mut reached = from & open;
@@ -144,7 +144,7 @@ impl Pushing<'_> {
         all
     }
 
-    /// Returns `true` if all things are present and no thing is at its destination yet.
+    /// Returns `true` if all objects are present and none has reached its destination.
     pub(crate) fn is_start(&self, position: &Position) -> bool {
         let counted =
             |kind: usize| position.things[kind].count_ones() as usize == self.floor_plan.counts[kind];
@@ -154,12 +154,12 @@ impl Pushing<'_> {
         (0..KINDS).all(counted) && !self.rules.destinations.iter().enumerate().any(has_arrived)
     }
 
-    /// Returns `true` if there are fewer things of a kind than at the start.
+    /// Returns `true` if there are fewer objects of a kind than at the start.
     fn is_missing(&self, kind: usize, position: &Position) -> bool {
         (position.things[kind].count_ones() as usize) < self.floor_plan.counts[kind]
     }
 
-    /// Returns the cells where the push that led to a position may have ended.
+    /// Returns the possible end cells of the push that led to a position.
     pub(crate) fn ends(&self, after: &Position) -> Cells {
         let gone = |(kind, destination): (usize, &Destination)| match destination {
             _ if !self.is_missing(kind, after) => 0,
@@ -171,8 +171,8 @@ impl Pushing<'_> {
     }
 
     /// Finds the positions before the push that left the avatar at `near`, coming from `near` plus `stride`. The push
-    /// moved the thing from `near` to `near` minus `stride`. In the returned positions, the avatar is in the cell that
-    /// it pushed from.
+    /// moved the object from `near` to `near` minus `stride`. In the returned positions, the avatar is in the cell from
+    /// which it pushed.
     pub(crate) fn before(
         &self,
         after: &Position,

@@ -1,57 +1,56 @@
-//! The rules of pushing, for games that are won only by pushing.
+//! The pushing rules, for games won only by pushing.
 
 use crate::GenerateError;
 use crate::levels::palette::{Palette, Walk};
 use engine::analysis::{Condition, Fate, Role, Sink, Steering};
 use engine::{Analysis, SpriteType};
 
-/// The maximum number of kinds of pushed things.
+/// The maximum number of kinds of pushed objects.
 pub(crate) const KINDS: usize = 2;
 
-/// The destination of a pushed thing.
+/// A pushed object's destination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Destination {
-    /// A target on which the thing vanishes, while the target remains.
+    /// A target on which the object vanishes, while the target remains.
     Sink,
-    /// A target that vanishes together with the thing.
+    /// A target that vanishes together with the object.
     Hole,
-    /// A target from which the thing can be pushed off again.
+    /// A target from which the object can be pushed off again.
     Place,
-    /// A thing of the other kind. Both things vanish.
+    /// An object of the other kind. Both objects vanish.
     Partner,
 }
 
-/// The rules of pushing.
+/// The pushing rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
-    /// The pushed types. There is one kind, or there are two kinds, which have their own targets or are pushed onto
-    /// each other.
+    /// The pushed types: one kind, or two kinds that have their own targets or are pushed onto each other.
     pub(crate) kinds: Vec<SpriteType>,
-    /// The destination of each kind.
+    /// Each kind's destination.
     pub(crate) destinations: Vec<Destination>,
-    /// The type of the targets of each kind; `None` if things are pushed onto other things.
+    /// The type of the targets of each kind; `None` if objects are pushed onto other objects.
     pub(crate) targets: Vec<Option<SpriteType>>,
     /// For each kind, `true` if the avatar can stand on its targets.
     pub(crate) walkable: [bool; KINDS],
-    /// `crosses[a][b]` is `true` if a thing of kind a can lie on a target of kind b and be pushed further.
+    /// `crosses[a][b]` is `true` if an object of kind a can lie on a target of kind b and be pushed further.
     pub(crate) crosses: [[bool; KINDS]; KINDS],
-    /// Ground that the avatar can walk on and things cannot be pushed onto; `None` if the rules have no such type.
+    /// Ground that the avatar can walk on and objects cannot be pushed onto; `None` if the rules have no such type.
     pub(crate) sill: Option<SpriteType>,
-    /// `merges[a][b]` is `true` if pushing a thing of kind a onto a thing of kind b removes both.
+    /// `merges[a][b]` is `true` if pushing an object of kind a onto an object of kind b removes both.
     pub(crate) merges: [[bool; KINDS]; KINDS],
 }
 
 impl Rules {
-    /// Returns `true` if things of one kind are pushed onto things of the other kind.
+    /// Returns `true` if objects of one kind are pushed onto objects of the other kind.
     pub(crate) fn in_pairs(&self) -> bool {
         self.destinations.contains(&Destination::Partner)
     }
 
-    /// Derives the rules of pushing from a game.
+    /// Derives the pushing rules from a game.
     ///
     /// # Errors
-    /// Returns [`GenerateError::Unsuitable`] with the reason if the game is not won by pushing alone, or if it has
-    /// unsupported rules of pushing.
+    /// Returns [`GenerateError::Unsuitable`] with the reason if the game is not won by pushing alone, or if its
+    /// pushing rules are unsupported.
     pub(crate) fn of(analysis: &Analysis, palette: &Palette) -> Result<Rules, GenerateError> {
         find(analysis, palette).map_err(|why| GenerateError::Unsuitable(why.to_owned()))
     }
@@ -141,7 +140,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
     }
 }
 
-/// Finds a placed type that stops things and nothing else.
+/// Finds a placed type that stops only pushed objects.
 fn find_sill(
     analysis: &Analysis,
     palette: &Palette,
@@ -160,8 +159,8 @@ fn find_sill(
     })
 }
 
-/// Returns the rules for one kind of things that are pushed to targets: the target, the destination of the things, and
-/// whether the avatar can stand on the target.
+/// Returns the rules for one kind of objects pushed to targets: the target, the objects' destination, and whether the
+/// avatar can stand on the target.
 fn single(
     analysis: &Analysis,
     palette: &Palette,

@@ -1,5 +1,5 @@
-//! Pushing puzzles on open boards among strays, which wander at random. The player must plan the pushes ahead, and look
-//! before walking.
+//! Pushing puzzles on open boards among strays (sprites that wander at random). The player must plan the pushes ahead,
+//! and look before walking.
 
 use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
 use super::rules::{Destination, KINDS, Rules};
@@ -21,60 +21,60 @@ base::with_defaults! {
         /// The minimum and maximum number of rows, including the row of the fuse. Without that row, a board has at most
         /// 128 cells.
         pub rows: (usize, usize) = (11, 12),
-        /// The range of the number of actions in a win without strays. The upper end is exclusive.
+        /// The range of win lengths without strays, in actions. The upper end is exclusive.
         pub decisions: (usize, usize) = (50, 120),
-        /// The minimum and maximum number of strays. A level has the largest number of strays with which it is fair.
+        /// The minimum and maximum number of strays. A level gets the largest number of strays that keeps it fair.
         pub strays: (usize, usize) = (3, 10),
-        /// The minimum fraction of episodes that a careful player wins with a look before every action.
+        /// The minimum fraction of episodes won by a careful player that looks before every action.
         pub fairness: f64 = 0.4,
         /// The commitments for which the careful player's win rate is measured.
         pub commitments: Vec<usize> = Vec::new(),
-        /// The maximum number of boards to draw for a level.
+        /// The maximum number of boards to draw per level.
         pub boards: u64 = 400,
     }
 }
 
-/// The minimum side length of a board.
+/// The minimum side length of boards.
 const LEAST_SIDE: usize = 7;
-/// The fraction of inner cells that are walls.
+/// The fraction of walls among the inner cells.
 const WALLS: f64 = 0.08;
-/// The fraction of inner cells that are sills, for rules with sills.
+/// The fraction of sills among the inner cells, for rules with sills.
 const SILLS: f64 = 0.05;
-/// The approximate number of actions per thing.
+/// The approximate number of actions per pushed object.
 const ACTIONS_EACH: usize = 15;
-/// The minimum number of inner cells per thing, which limits the number of things.
+/// The minimum number of inner cells per pushed object, which limits the number of objects.
 const ROOM: usize = 8;
-/// The number of actions of the win per extra action of allowed time.
+/// The number of actions in the win per extra action of allowed time.
 const SPARE: usize = 2;
 /// The minimum distance between strays and the avatar.
 const AWAY: usize = 4;
-/// The number of episodes of the careful player per test of fairness.
+/// The number of episodes played by the careful player per fairness test.
 const PLAYS: usize = 40;
-/// The number of episodes of the careful player per measured commitment.
+/// The number of episodes played by the careful player per measured commitment.
 const MEASURED: usize = 200;
 
 /// A pushing puzzle among strays in the characters of [`PushRules::game`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrayLevel {
-    /// The level as text.
+    /// The level, as text.
     pub text: String,
     /// The actions that win if no stray gets in the way.
     pub solution: Vec<Action>,
-    /// The fraction of episodes that a careful player wins, for each commitment in the configuration.
+    /// The fraction of episodes won by a careful player, for each commitment in the configuration.
     pub chances: Vec<f64>,
     /// The level without strays.
     calm: Level,
-    /// The cells of the strays.
+    /// The strays' cells.
     cells: Vec<usize>,
-    /// The number of cells of the fuse, including the keg.
+    /// The length of the fuse in cells, including the keg.
     fuse: usize,
 }
 
-/// A generator of levels for the rules in [`PushRules::AMONG_STRAYS`].
+/// A level generator for the rules in [`PushRules::AMONG_STRAYS`].
 ///
-/// Boards are open, so that the avatar is not cornered for long. The solution pushes one thing after the other, always
-/// the thing that takes the fewest steps. Strays pass over everything except walls. The win rate of a careful player
-/// that keeps to these pushes shows how often looking wins.
+/// Boards are open, so that the avatar is not cornered for long. The solution pushes one object after the other, always
+/// choosing the object that takes the fewest steps. Strays pass over everything except walls. The win rate of a careful
+/// player that follows these pushes shows how often the level can be won by looking.
 pub struct StrayLevels {
     /// The game without strays.
     calm: Game,
@@ -86,7 +86,7 @@ impl StrayLevels {
     /// Creates a generator for rules with strays.
     ///
     /// # Panics
-    /// This function never panics: without strays, all rules are rules of pushing puzzles, as a test checks.
+    /// Never panics: without strays, all rules are valid pushing puzzle rules, as a test verifies.
     pub fn new(rules: PushRules, config: StrayConfig) -> StrayLevels {
         let calm = rules.without_strays().game();
         let analysis = Analysis::of(&calm);
@@ -97,7 +97,7 @@ impl StrayLevels {
 
     /// Generates the level for a seed, by drawing boards until one meets the target. Returns `None` if all drawn boards
     /// miss the target, or if no board of the drawn size is possible. Cost: a millisecond per board, and up to a second
-    /// for each board that meets the rest of the target.
+    /// more for each board that meets the rest of the target.
     pub fn level(&self, seed: Seed) -> Option<StrayLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
@@ -137,7 +137,7 @@ impl StrayLevels {
         Some(StrayLevel { text: among(&calm, &cells, fuse), solution, chances, calm, cells, fuse })
     }
 
-    /// Draws a board with things and targets.
+    /// Draws a board with objects and targets.
     fn furnished(&self, grid: Grid, sampler: &mut Sampler) -> Option<(FloorPlan, Position)> {
         let mut is_floor: Vec<bool> = (0..grid.len()).map(|cell| !grid.on_border(cell)).collect();
         let inner = (grid.columns - 2) * (grid.rows - 2);
@@ -177,8 +177,8 @@ impl StrayLevels {
         Some((floor_plan, start))
     }
 
-    /// Wins a level made by this generator, in any theme, by playing like the careful player. `stray` is the type of
-    /// the strays, and `seed` determines their moves. Returns `None` if the player loses with every degree of patience.
+    /// Wins a level from this generator, in any theme, by playing like the careful player. `stray` is the strays' type,
+    /// and `seed` determines the strays' moves. Returns `None` if the player loses with every patience setting.
     pub fn win(
         &self,
         made: &StrayLevel,
@@ -209,9 +209,9 @@ impl StrayLevels {
     }
 }
 
-/// Returns the steps, as indices into [`WAYS`], that push one thing after the other to its destination. The next thing
-/// is always the one that takes the fewest steps. Returns `None` if a thing cannot reach its destination in this order.
-/// Cost: O(things² · cells²).
+/// Returns the steps, as indices into [`WAYS`], that push one object after the other to its destination. The next
+/// object is always the one that takes the fewest steps. Returns `None` if an object cannot reach its destination in
+/// this order. Cost: O(objects² · cells²).
 fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
     let (mut position, mut ways) = (start, Vec::new());
     loop {
@@ -231,8 +231,8 @@ fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
     }
 }
 
-/// Returns the shortest list of steps that push one thing to its destination while all other things stay in place, and
-/// the position after these steps.
+/// Returns the shortest list of steps that push one object to its destination while all other objects stay in place,
+/// and the resulting position.
 fn errand(
     pushing: &Pushing<'_>,
     start: Position,
@@ -293,7 +293,7 @@ fn text(floor_plan: &FloorPlan, start: &Position) -> String {
     rows((0..floor_plan.grid.len()).map(symbol).collect(), floor_plan.grid.columns)
 }
 
-/// Returns a level with strays on floor, and with a fuse of `length` cells above it.
+/// Returns a level with strays on floor, and with a fuse of `length` cells above the board.
 fn among(calm: &Level, strays: &[usize], length: usize) -> String {
     let mut cells: Vec<char> = calm.cells().iter().map(|&symbol| char::from(symbol)).collect();
     for &stray in strays {
@@ -311,7 +311,7 @@ mod tests {
     use super::*;
 
     /// Levels are won if no stray is in the way, and the careful player wins as many episodes in the game as in the
-    /// generator. This test checks one set of rules, or two in a sweep (`cargo xtask sweep`).
+    /// generator. This test covers one set of rules, or two in a sweep (`cargo xtask sweep`).
     #[test]
     fn plays_among_strays_agree_with_the_game() {
         const PLAYS: u64 = 40;

@@ -1,4 +1,4 @@
-//! Comparison of the puzzle rules and of the backward search with plain forward search, for every kind of destination.
+//! Compares the puzzle rules and the backward search with plain forward search, for every kind of destination.
 
 #[path = "../../../../tests/it/levels/puzzles/crates.rs"]
 mod crates;
@@ -19,8 +19,8 @@ fn rules_of(game: &Game) -> Rules {
     Rules::of(&analysis, &Palette::of(&analysis).unwrap()).unwrap()
 }
 
-/// Returns a corpus game with two kinds of things, in which things of one kind vanish when they meet things of the
-/// other.
+/// Returns a corpus game with two kinds of pushable objects, in which objects of different kinds vanish when they
+/// meet.
 fn jars() -> Game {
     Game::from_source(include_str!("../../../../../corpora/quiet-jars/game.vgdl")).unwrap()
 }

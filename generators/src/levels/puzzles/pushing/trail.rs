@@ -1,4 +1,4 @@
-//! The trail of a win among pushed things. The avatar may rest and walk about between the pushes of the win.
+//! The trail of a win in a pushing puzzle. Between the win's pushes, the avatar may rest and walk around.
 
 use crate::games::PushRules;
 use crate::levels::grid::{Grid, WAYS};
@@ -6,7 +6,7 @@ use crate::levels::puzzles::lookout::{ACTIONS, Moves};
 use base::Seed;
 use engine::{Action, Game, Level, Outcome, SpriteType, State};
 
-/// The pushes of a win, in order. A state consists of the number of pushes so far and the avatar's cell.
+/// A win's pushes, in order. A state consists of the number of pushes so far and the avatar's cell.
 pub(crate) struct Trail {
     grid: Grid,
     start: usize,
@@ -17,8 +17,8 @@ pub(crate) struct Trail {
 }
 
 impl Trail {
-    /// Plays a win in a level of [`PushRules`] without strays. Returns `None` if the actions do not win. Cost:
-    /// that of the episode.
+    /// Plays a win in a [`PushRules`] level without strays. Returns `None` if the actions do not win. Costs
+    /// one episode.
     pub(crate) fn of(game: &Game, level: &Level, win: &[Action]) -> Option<Trail> {
         let named = |is_one: fn(&str) -> bool| -> Vec<SpriteType> {
             game.sprite_types().filter(|stype| is_one(game.name(*stype))).collect()
@@ -83,7 +83,7 @@ impl Moves for Trail {
         false
     }
 
-    /// Only the next push of the win is possible.
+    /// Only the win's next push is possible.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
         let (pushed, cell) = (state / self.grid.len(), self.cell(state));
         (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {

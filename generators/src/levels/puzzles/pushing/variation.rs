@@ -1,4 +1,4 @@
-//! Pushing puzzles as candidates of a search.
+//! Pushing puzzles as search candidates.
 
 use super::floor::{self, FloorPlans};
 use super::floor_plan::{Cells, FloorPlan, MAX_CELLS, Position, Pushing, bit, each};
@@ -13,74 +13,71 @@ use crate::{Annealing, AnnealingConfig, GenerateError, Search, Variation};
 use base::{Sampler, Seed};
 use engine::{Game, Level, SpriteType};
 
-/// The maximum number of positions to search for the level of a floor plan.
+/// The maximum number of positions to search per floor plan when creating its level.
 const MAX_POSITIONS: usize = 400_000;
-/// The maximum number of positions to search for the longest path, if positions are distinguished by the avatar's cell.
-/// With more positions, any position is used.
+/// The maximum number of positions to search for the longest path, with positions distinguished by the avatar's cell.
+/// With more positions, an arbitrary position is used.
 const MAX_STEPS: usize = 250_000;
-/// The approximate total number of positions to search for a level. If floor plans have many positions, fewer plans are
+/// The approximate total number of positions to search per level. If floor plans have many positions, fewer plans are
 /// rated.
 const POSITIONS: usize = 1_200_000;
-/// The number of floor plans to request at once. They are rated one after the other.
+/// The number of floor plans to request together. The plans are then rated one by one.
 const BATCH: usize = 8;
-/// The number of attempts to turn floor plans into a level, after which generation with the seed fails.
+/// The number of attempts to turn floor plans into a level before generation fails for the seed.
 const ATTEMPTS: u64 = 4;
-/// The number of changes to a floor plan, from which a mutation keeps the best.
+/// The number of changes to a floor plan from which a mutation selects the best.
 const CHANGES: usize = 6;
 
 base::with_defaults! {
-    /// The configuration of pushing puzzles.
+    /// The configuration for pushing puzzles.
     #[derive(Clone, Debug, PartialEq)]
     pub struct PuzzleConfig {
-        /// The number of things to push. If `None`, it comes from [`LevelConfig::counts`], or else is at least two,
-        /// depending on difficulty and room. With a target and more than three things, a floor plan takes up to some
-        /// seconds and 500 MB.
+        /// The number of pushable objects. If `None`, the number comes from [`LevelConfig::counts`], or otherwise is at
+        /// least two, depending on difficulty and room. With a target and more than three objects, a floor plan takes
+        /// up to several seconds and 500 MB.
         pub things: Option<usize> = None,
-        /// The maximum number of floor plans to examine for a level.
+        /// The maximum number of floor plans to examine per level.
         pub floor_plans: usize = 600,
         /// The range of the level's distance from its solution, as a fraction of the longest distance. The draw favours
         /// the lower end. If `None`, the range is derived from [`LevelConfig::difficulty`].
         pub way: Option<(f64, f64)> = None,
-        /// The minimum demand of a level. Floor plans are searched until one meets the demand, with more positions for
-        /// each plan.
+        /// A level's minimum demand. Floor plans are searched until one meets the demand, with more positions per plan.
         pub target: Option<PuzzleTarget> = None,
     }
 }
 
-/// The minimum demand of a puzzle.
+/// A puzzle's minimum demand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PuzzleTarget {
     /// The minimum number of pushes in any win.
     pub pushes: usize,
-    /// The minimum number of actions in the solution with the minimum number of pushes.
+    /// The minimum number of actions in the push-optimal solution.
     pub decisions: usize,
 }
 
-/// The maximum number of positions per floor plan, in a search with a target for up to [`DEEP_THINGS`]
-/// things.
+/// The maximum number of positions per floor plan, in a target search with up to [`DEEP_THINGS`] objects.
 const DEEP_POSITIONS: usize = 150_000;
-/// The maximum total number of positions, in a search with a target for up to [`DEEP_THINGS`] things.
+/// The maximum total number of positions, in a target search with up to [`DEEP_THINGS`] objects.
 const DEEP_SEARCH: usize = 150_000_000;
-/// The maximum number of positions per floor plan, in a search with a target for more than [`DEEP_THINGS`]
-/// things.
+/// The maximum number of positions per floor plan, in a target search with more than [`DEEP_THINGS`] objects.
 const VAST_POSITIONS: usize = 3_000_000;
-/// The maximum total number of positions, in a search with a target for more than [`DEEP_THINGS`] things.
+/// The maximum total number of positions, in a target search with more than [`DEEP_THINGS`] objects.
 const VAST_SEARCH: usize = 1_500_000_000;
-/// The default number of things of a puzzle with a target, and the maximum for the lower limits.
+/// The default number of objects in a puzzle with a target, and the maximum number to which the lower limits apply.
 const DEEP_THINGS: usize = 3;
-/// The number of additional pushes required of the next floor plan, after a floor plan with enough pushes but too few
+/// The number of additional pushes required from the next floor plan after a plan with enough pushes but too few
 /// actions.
 const RAISE: usize = 3;
 
-/// Levels of games that are won by pushing things to their destinations (Sokoban and its relatives).
+/// Levels for games won by pushing objects to their destinations (Sokoban and its relatives).
 ///
 /// Simulated annealing optimises the floor plan for the number of pushes from its farthest position. That number is
 /// exact, because all positions are searched backwards from all solved positions (Taylor and Parberry 2011, "Procedural
-/// generation of Sokoban levels"). Among the farthest positions, the level is the one that takes the avatar the most
-/// steps. Each level has been won in the game itself.
+/// generation of Sokoban levels"). Among the farthest positions, the position that takes the avatar the most steps
+/// becomes the level. Each level has been won in the game itself.
 ///
-/// Cost: about a tenth of a millisecond per floor plan of 8 by 8 cells with three things. A level takes at most about a
-/// second, because the number of positions to search is limited.
+/// Cost: about a tenth of a millisecond per 8×8 floor plan with three objects. A level takes at most about a second,
+/// because the number of positions to search is limited.
 pub struct PuzzleVariation<'a> {
     levels: ConstructiveLevels<'a>,
     rules: Rules,
@@ -89,11 +86,11 @@ pub struct PuzzleVariation<'a> {
 }
 
 impl<'a> PuzzleVariation<'a> {
-    /// Creates a variation for a game. Cost: about that of generating a few small puzzles.
+    /// Creates a variation for a game. Costs about as much as generating a few small puzzles.
     ///
     /// # Errors
     /// Returns [`GenerateError::Unsuitable`] with the reason if the game is not won by pushing alone, or if no board of
-    /// the requested size is small enough to be searched. Also returns the errors of [`ConstructiveLevels::new`].
+    /// the requested size is small enough to search. Also returns the errors of [`ConstructiveLevels::new`].
     pub fn new(
         game: &'a Game,
         config: LevelConfig,
@@ -128,8 +125,9 @@ impl<'a> PuzzleVariation<'a> {
         &self.levels
     }
 
-    /// Generates the level for a seed with actions that win it. The actions use the minimum number of pushes, but not
-    /// always the minimum number of actions. Returns `None` if no level is found, or if no level meets the target.
+    /// Generates the level for a seed, with a winning sequence of actions. The sequence uses the minimum number of
+    /// pushes, but not always the minimum number of actions. Returns `None` if no level is found, or if no level meets
+    /// the target.
     pub fn create_solved(&self, seed: Seed) -> Option<Solved> {
         if self.puzzle.target.is_some() {
             return self.made(seed, self.puzzle.floor_plans, self.puzzle.target);
@@ -173,7 +171,7 @@ impl<'a> PuzzleVariation<'a> {
         FloorPlans { rules: &self.rules, grid, counts, most_positions, sills: is_deep }
     }
 
-    /// Anneals floor plans until the level from one of them meets the target.
+    /// Anneals floor plans until a resulting level meets the target.
     fn deep(
         &self,
         floors: &FloorPlans<'_>,
@@ -206,7 +204,7 @@ impl<'a> PuzzleVariation<'a> {
         }
     }
 
-    /// Makes a level from the farthest position of a floor plan.
+    /// Creates a level from a floor plan's farthest position.
     fn level_of(&self, floor_plan: &FloorPlan, seed: Seed) -> Option<Solved> {
         let pushing = Pushing { floor_plan, rules: &self.rules };
         let is_deep = self.puzzle.target.is_some();
@@ -239,8 +237,8 @@ impl<'a> PuzzleVariation<'a> {
         self.furnish(floor_plan, &start, &ways, seed)
     }
 
-    /// Puts a position on a board and furnishes the board with the game's other things, if the level can still be won
-    /// afterwards.
+    /// Places a position on a board and furnishes the board with the game's other sprites, if the level remains
+    /// winnable.
     fn furnish(
         &self,
         floor_plan: &FloorPlan,
@@ -287,7 +285,7 @@ impl<'a> PuzzleVariation<'a> {
         Some(solved(&builder.board).unwrap_or(bare))
     }
 
-    /// Returns the floor plan of a level; `None` if the level is not a puzzle of this kind.
+    /// Returns a level's floor plan; `None` if the level is not a puzzle of this kind.
     fn floor_plan_of(&self, level: &Level) -> Option<FloorPlan> {
         let grid = Grid { columns: level.columns(), rows: level.rows() };
         if grid.len() > MAX_CELLS {
@@ -315,7 +313,7 @@ impl<'a> PuzzleVariation<'a> {
         (floor_plan.wall & border == border && floor_plan.counts[0] > 0).then_some(floor_plan)
     }
 
-    /// Rates a few floor plans and makes a level from the best plan.
+    /// Rates a few floor plans and creates a level from the best one.
     fn best(
         &self,
         parent: &FloorPlan,
@@ -339,8 +337,7 @@ impl Variation for PuzzleVariation<'_> {
         self.create_solved(seed).map(|solved| solved.level)
     }
 
-    /// Makes a level from the best of a few changes to the parent's floor plan. Returns the parent itself if that
-    /// fails.
+    /// Creates a level from the best of a few changes to the parent's floor plan. Returns the parent itself on failure.
     fn mutate(&self, parent: &Level, sampler: &mut Sampler) -> Level {
         let varied = self.floor_plan_of(parent).and_then(|floor_plan| {
             (0..ATTEMPTS).find_map(|_| {
@@ -350,8 +347,8 @@ impl Variation for PuzzleVariation<'_> {
         varied.unwrap_or_else(|| parent.clone())
     }
 
-    /// Makes a level from half of one floor plan and half of the other, with a small change. Mutates the first level if
-    /// the two halves do not fit together.
+    /// Creates a level from halves of two floor plans, with a small change. Mutates the first level if the two halves
+    /// do not fit together.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.floor_plan_of(one), self.floor_plan_of(two));
         let fit = first
@@ -367,8 +364,7 @@ impl Variation for PuzzleVariation<'_> {
     }
 }
 
-/// Returns the limits of a search with a target for the given things: the number of positions per floor plan, and in
-/// total.
+/// Returns the limits for a target search with the given objects: the number of positions per floor plan, and in total.
 fn deep(counts: [usize; KINDS]) -> (usize, usize) {
     match counts.iter().sum::<usize>() {
         ..=DEEP_THINGS => (DEEP_POSITIONS, DEEP_SEARCH),

@@ -1,5 +1,5 @@
-//! Yards that meet a target. The player carries parcels past carts whose course must be foreseen, with hardly any time
-//! to spare.
+//! Yards that meet a target. The player carries parcels past carts whose course must be predicted, with hardly any
+//! time to spare.
 
 mod timetable;
 mod yard;
@@ -14,66 +14,66 @@ use timetable::{Errands, Timetable};
 use yard::{Furniture, Sign, Yard};
 
 base::with_defaults! {
-    /// The configuration of yards.
+    /// The configuration for yards.
     #[derive(Clone, Debug, PartialEq)]
     pub struct YardConfig {
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (11, 12),
-        /// The minimum and maximum number of rows, including the row of the fuse.
+        /// The minimum and maximum number of rows, including the fuse row.
         pub rows: (usize, usize) = (11, 12),
-        /// The range of the number of keys pressed in a fastest win. The upper end is exclusive.
+        /// The range of the number of key presses in a fastest win. The upper end is exclusive.
         pub decisions: (usize, usize) = (50, 120),
-        /// The number of carts on a board of the usual size.
+        /// The number of carts on a board of typical size.
         pub carts: usize = 4,
-        /// The minimum and maximum number of strays. A level has the largest number of strays with which it is fair.
+        /// The minimum and maximum number of strays. A level gets the largest number of strays that keeps it fair.
         pub strays: (usize, usize) = (4, 10),
-        /// The minimum fraction of ticks of the win at which it would be deadly to stay for ten ticks.
+        /// The minimum fraction of the win's ticks at which staying in place for ten ticks would be fatal.
         pub exposure: f64 = 0.2,
-        /// The minimum fraction of episodes that a careful player wins with a look before every action.
+        /// The minimum fraction of episodes won by a careful player that looks before every action.
         pub fairness: f64 = 0.4,
         /// The commitments for which the careful player's win rate is measured.
         pub commitments: Vec<usize> = Vec::new(),
-        /// The maximum number of yards to draw for a level.
+        /// The maximum number of yards to draw per level.
         pub yards: u64 = 2_000,
     }
 }
 
-/// The minimum side length of a board, including the row of the fuse. Smaller boards have no room for tracks.
+/// The minimum side length of a board, including the fuse row. Smaller boards have no room for tracks.
 const LEAST_SIDE: usize = 6;
-/// The number of inner cells of a board that has the configured number of carts.
+/// The number of inner cells on a board that gets the configured number of carts.
 const USUAL: f64 = 80.0;
-/// The number of ticks to stay for [`YardConfig::exposure`].
+/// The number of ticks of staying in place assumed by [`YardConfig::exposure`].
 const WAIT: usize = 10;
-/// The number of ticks of the fastest win per spare tick.
+/// The number of ticks in the fastest win per spare tick.
 const DETOURS: usize = 6;
-/// The maximum number of carts. Prompts list the directions of up to this many sprites of a type.
+/// The maximum number of carts. Prompts list the directions of at most this number of sprites per type.
 const CARTS: usize = 8;
-/// The maximum number of parcels. Each parcel doubles the time of the search for the win.
+/// The maximum number of parcels. Each parcel doubles the time of the win search.
 const PARCELS: usize = 6;
-/// The number of episodes of the careful player per test of fairness.
+/// The number of episodes played by the careful player per fairness test.
 const PLAYS: usize = 40;
-/// The number of episodes of the careful player per measured commitment.
+/// The number of episodes played by the careful player per measured commitment.
 const MEASURED: usize = 200;
-/// The number of times that the same tracks are furnished.
+/// The number of attempts to furnish the same tracks.
 const FURNISHED: usize = 4;
-/// The maximum number of ticks of a fastest win, as a multiple of the number of steps without carts.
+/// The maximum length of a fastest win in ticks, as a multiple of the number of steps needed without carts.
 const DELAY: f64 = 1.5;
 
-/// A yard in the characters of [`YardRules::game`], with actions that win it.
+/// A yard in the characters of [`YardRules::game`], with a winning sequence of actions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct YardLevel {
-    /// The level as text.
+    /// The level, as text.
     pub text: String,
     /// The actions that win in the minimum number of ticks if no stray gets in the way.
     pub solution: Vec<Action>,
-    /// The fraction of episodes that a careful player wins, for each commitment in the configuration.
+    /// The fraction of episodes won by a careful player, for each commitment in the configuration.
     pub chances: Vec<f64>,
 }
 
 impl YardConfig {
     /// Generates the level for a seed, by drawing yards until one meets the target. Returns `None` if all drawn yards
-    /// miss the target, or if a side has fewer than 6 cells. Cost: a hundredth of a second for a yard whose carts do
-    /// not obstruct each other, and up to a second more for each yard that meets the rest of the target.
+    /// miss the target, or if a side has fewer than 6 cells. Cost: a hundredth of a second per yard with unobstructed
+    /// carts, and up to a second more for each yard that meets the rest of the target.
     pub fn level(&self, rules: YardRules, seed: Seed) -> Option<YardLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
@@ -122,7 +122,7 @@ impl YardConfig {
         Some(YardLevel { text: text(&yard, fuse), solution: ways.into_iter().map(action).collect(), chances })
     }
 
-    /// Returns the numbers of things for a board of the given size.
+    /// Returns the numbers of objects for a board of the given size.
     fn furniture(&self, rules: YardRules, grid: Grid) -> Furniture {
         let inner = (grid.columns - 2) * (grid.rows - 2);
         let carts = (self.carts as f64 * inner as f64 / USUAL).round().max(1.0) as usize;

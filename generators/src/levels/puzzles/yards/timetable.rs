@@ -1,5 +1,5 @@
-//! The timetable of a yard's carts, and the fastest win of the yard. Both are exact, because the avatar does not
-//! influence the carts.
+//! A yard's cart timetable and fastest win. The timetable and the win are exact, because the avatar does not influence
+//! the carts.
 
 use super::yard::{RIGHT, Sign, Yard, opposite};
 use crate::levels::grid::WAYS;
@@ -10,20 +10,21 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Timetable {
     cells: usize,
-    /// For each tick and cell, `true` if a cart is in the cell after the tick.
+    /// For each tick and cell, `true` if the cell contains a cart after the tick.
     is_busy: Vec<bool>,
-    /// For each cell, the number of ticks after which a cart is in the cell.
+    /// For each cell, the number of ticks after which a cart is in that cell.
     pub(super) visits: Vec<u32>,
 }
 
-/// The value for no load.
+/// The value for an empty load.
 const EMPTY: usize = 0;
 /// The minimum fraction of carts that are separate from each other at the end.
 const APART: f64 = 0.75;
 
 impl Timetable {
-    /// Runs the carts for a number of ticks. Returns `None` if two carts enter the same points at once, because the
-    /// order of rules would then decide, or if too many carts end up running together. Cost: O(ticks · carts²).
+    /// Runs the carts for a number of ticks. Returns `None` if two carts enter the same points simultaneously, because
+    /// the outcome would then depend on the rule order, or if too many carts end up running together. Cost: O(ticks ·
+    /// carts²).
     pub(super) fn of(yard: &Yard, ticks: usize) -> Option<Timetable> {
         let cells = yard.grid.len();
         let mut signs = yard.signs.clone();
@@ -67,8 +68,8 @@ impl Timetable {
         self.is_busy[tick * self.cells + cell]
     }
 
-    /// Returns the fraction of ticks of a walk at which it would be deadly to stay for the next `wait` ticks. The walk
-    /// is given by the cell after each tick.
+    /// Returns the fraction of a walk's ticks at which staying in place for the next `wait` ticks would be fatal. The
+    /// walk is given by the cell after each tick.
     pub(super) fn exposure(&self, way: &[usize], wait: usize) -> f64 {
         let ends = |tick: usize| (tick + 1 + wait).min(self.ticks());
         let deadly =
@@ -76,9 +77,9 @@ impl Timetable {
         way.iter().enumerate().filter(|&at| deadly(at)).count() as f64 / way.len().max(1) as f64
     }
 
-    /// Returns the steps of a fastest win within the first `most` ticks of the timetable, and the cells after each
-    /// tick. Steps are indices into [`WAYS`], with `None` for a tick of rest. Cost: O(ticks · cells · 2^parcels), much
-    /// less if hardly any walk is fast enough.
+    /// Returns the steps of a fastest win within the timetable's first `most` ticks, and the cell after each tick.
+    /// Steps are indices into [`WAYS`], or `None` for a tick of rest. Cost: O(ticks · cells · 2^parcels), much less if
+    /// hardly any walk is fast enough.
     pub(super) fn fastest(&self, yard: &Yard, most: usize) -> Option<(Vec<Option<usize>>, Vec<usize>)> {
         let most = most.min(self.ticks());
         let remaining = Remaining::of(yard);
@@ -110,12 +111,12 @@ impl Timetable {
     }
 }
 
-/// The moves of a yard's avatar, and their results. A state consists of the avatar's cell, its load, and the set of
+/// The moves of a yard's avatar, and their results. A state consists of the avatar's cell, the load, and the set of
 /// parcels already taken.
 pub(super) struct Errands<'a> {
     yard: &'a Yard,
     timetable: &'a Timetable,
-    /// For each cell, the number and kind of its parcel; `None` if it has no parcel.
+    /// For each cell, its parcel's index and kind; `None` for cells without a parcel.
     parcels: Vec<Option<(usize, usize)>>,
 }
 
@@ -128,7 +129,7 @@ impl<'a> Errands<'a> {
         Errands { yard, timetable, parcels }
     }
 
-    /// Returns the number of possible loads, which are no load or a parcel of one of the kinds.
+    /// Returns the number of possible loads: an empty load, or a parcel of one of the kinds.
     fn loads(&self) -> usize {
         self.yard.depots.len() + 1
     }
@@ -161,7 +162,7 @@ impl Moves for Errands<'_> {
         state % self.timetable.cells
     }
 
-    /// Returns `true` if a state wins, which means that all parcels are at their depots.
+    /// Returns `true` if a state is won: all parcels are at their depots.
     fn is_won(&self, state: usize) -> bool {
         let (_, load, taken) = self.unpack(state);
         taken == self.all() && load == EMPTY
@@ -220,7 +221,7 @@ impl Remaining {
     }
 
     /// Returns the lower bound for a state. The first walk to a parcel begins at the avatar instead of a depot. By the
-    /// triangle inequality, that saves at most the distance between the avatar and the nearest depot.
+    /// triangle inequality, the saving is at most the distance between the avatar and the nearest depot.
     fn least(&self, taken: usize, load: usize, cell: usize) -> usize {
         let tours = self.tours[taken];
         match load {
@@ -233,7 +234,7 @@ impl Remaining {
     }
 }
 
-/// Returns the steps and the cells on the way to the last state of the last layer.
+/// Returns the steps and cells on the path to the last state in the last layer.
 fn back(layers: &[Vec<(u32, u32, Option<usize>)>], cells: usize) -> (Vec<Option<usize>>, Vec<usize>) {
     let mut at = layers[layers.len() - 1].len() - 1;
     let (mut ways, mut visited) = (Vec::new(), Vec::new());

@@ -1,24 +1,24 @@
-//! A yard: its walls, the signs that carts follow, and the things in it.
+//! A yard: its walls, the signs that carts follow, and its other objects.
 
 use crate::games::YardRules;
 use crate::levels::grid::{Grid, WAYS};
 use base::Sampler;
 
-/// The index of the step to the right in [`WAYS`].
+/// The index of the rightward step in [`WAYS`].
 pub(super) const RIGHT: usize = 3;
-/// The fraction of inner cells that are walls.
+/// The fraction of walls among the inner cells.
 const WALLS: f64 = 0.14;
 
-/// The minimum number of visits by carts at which a cell counts as frequented by carts.
+/// The minimum number of cart visits at which a cell counts as frequented.
 const OFTEN: u32 = 6;
 
 /// The minimum distance between strays and the avatar.
 const AWAY: usize = 5;
 
-/// A sign that turns the carts that enter its cell.
+/// A sign that turns carts entering its cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sign {
-    /// Turns carts in one direction, which is an index into [`WAYS`].
+    /// Turns carts in one direction, given as an index into [`WAYS`].
     Fixed(usize),
     /// Turns the first cart in one direction, the next in the opposite direction, and so on.
     Points(usize),
@@ -48,13 +48,13 @@ pub(super) struct Cart {
     pub(super) is_wagon: bool,
 }
 
-/// The numbers of things in a yard.
+/// The numbers of objects in a yard.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Furniture {
     pub(super) carts: usize,
     pub(super) parcels: usize,
     pub(super) strays: usize,
-    /// The minimum sum of the walks from each parcel to its depot and back, in steps.
+    /// The minimum total length, in steps, of the walks from each parcel to its depot and back.
     pub(super) steps: usize,
 }
 
@@ -65,18 +65,18 @@ pub(super) struct Yard {
     pub(super) is_floor: Vec<bool>,
     pub(super) signs: Vec<Option<Sign>>,
     pub(super) carts: Vec<Cart>,
-    /// The cell where the avatar starts.
+    /// The avatar's initial cell.
     pub(super) start: usize,
     /// The cells and kinds of parcels.
     pub(super) parcels: Vec<(usize, usize)>,
     /// The cells of depots, by kind.
     pub(super) depots: Vec<usize>,
-    /// The cells of strays.
+    /// The strays' cells.
     pub(super) strays: Vec<usize>,
 }
 
 impl Yard {
-    /// Draws a yard that contains only carts, which never run into a wall; `None` if the draw fails.
+    /// Draws a yard that contains only carts. The carts never run into a wall. Returns `None` if the draw fails.
     pub(super) fn draw(rules: YardRules, grid: Grid, carts: usize, sampler: &mut Sampler) -> Option<Yard> {
         let mut yard = Yard {
             grid,
@@ -109,7 +109,7 @@ impl Yard {
         cells
     }
 
-    /// Lays signs so that every exit of a sign leads to a sign.
+    /// Places signs such that every exit of a sign leads to a sign.
     fn lay_tracks(&mut self, rules: YardRules, carts: usize, sampler: &mut Sampler) -> Option<()> {
         let most = 3 * carts + 4;
         let mut floor = self.floor();
@@ -144,7 +144,7 @@ impl Yard {
         (self.carts.len() == carts).then_some(())
     }
 
-    /// Draws a sign for carts coming in a direction, with a preference for signs that lead to existing signs.
+    /// Draws a sign for carts coming in a direction, preferring signs that lead to existing signs.
     fn sign(&self, rules: YardRules, cell: usize, way: usize, sampler: &mut Sampler) -> Option<Sign> {
         let fixed = (0..WAYS.len()).filter(|&exit| exit != way).map(Sign::Fixed);
         let points = rules.has_points().then_some([Sign::Points(0), Sign::Points(RIGHT)]);
@@ -167,8 +167,8 @@ impl Yard {
         Some(signs[sampler.weighted(&weights)?])
     }
 
-    /// Places depots, the avatar, parcels far from their depots, and strays, preferably in cells that carts frequent.
-    /// `visits` holds the number of visits by carts for each cell.
+    /// Places depots, the avatar, parcels far from their depots, and strays, preferably in cells frequented by carts.
+    /// `visits` contains the number of cart visits per cell.
     pub(super) fn furnish(
         &mut self,
         rules: YardRules,
