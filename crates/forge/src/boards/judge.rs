@@ -49,7 +49,7 @@ const SEARCHED: f64 = 3.0;
 /// The fraction of its quality that a board loses if it fails every gate.
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
-const CONSTRAINTS: f64 = 8.0;
+const CONSTRAINTS: f64 = 9.0;
 /// The minimum fraction of the requested uses that a win must need.
 const LEAST_USES: f64 = 0.6;
 
@@ -125,6 +125,9 @@ impl Judge<'_> {
             return Judged::failed(6.0, 0.0, calls);
         }
         let events = events(self.analysis, level, &win);
+        if !self.order.uses.is_empty() && events.handled < 1.0 {
+            return Judged::failed(7.0, events.handled, calls);
+        }
         // The uses matter most, so the other interactions are tried only after the uses.
         let ordered: BTreeSet<usize> = self.order.uses.concat().into_iter().collect();
         // Guards leave no events in a win, so only a search without them can show whether they are needed.
@@ -134,7 +137,7 @@ impl Judge<'_> {
         calls += spent;
         let uses = self.needed_uses(&needed);
         if uses < LEAST_USES {
-            return Judged::failed(7.0, uses, calls);
+            return Judged::failed(8.0, uses, calls);
         }
         let others = events.firsts.iter().copied().filter(|line| !ordered.contains(line));
         let (others, spent) = self.ablations.needed(others, level, &win, self.budget.small_calls);

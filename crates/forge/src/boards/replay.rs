@@ -2,6 +2,7 @@
 
 use engine::analysis::{EffectSummary, Motion, Role};
 use engine::{Analysis, Episode, Game, Level, Meeting, SpriteType, Watch};
+use generators::boards::Idiom;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The events of a win.
@@ -11,11 +12,16 @@ pub(super) struct Events {
     pub(super) firsts: Vec<usize>,
     /// The fraction of placed types, not counting walls and floor, that took part.
     pub(super) used: f64,
+    /// The fraction of placed types with an idiom in [`HANDLED`] that took part.
+    pub(super) handled: f64,
     /// The longest stretch without an interaction of `firsts`, as a fraction of the win's ticks.
     pub(super) dead: f64,
     /// The mean number of cells swept by self-moving sprites.
     pub(super) sweep: Option<f64>,
 }
+
+/// The idioms of types that the player handles. A win that leaves such a type alone shows that nobody needs the type.
+const HANDLED: [Idiom; 4] = [Idiom::Thing, Idiom::Heavy, Idiom::Spot, Idiom::Exit];
 
 /// Returns `true` if an interaction only stops or turns its first sprite, which makes it a guard.
 pub(super) fn is_guard(analysis: &Analysis, line: usize) -> bool {
@@ -60,9 +66,16 @@ pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Event
         .map(|(most, cells)| cells.len() as f64 / *most as f64)
         .collect();
     let placed = placed(game, analysis, level);
-    let used = placed.iter().filter(|stype| log.took_part.contains(*stype)).count();
+    let took_part = |of: &dyn Fn(&&SpriteType) -> bool| {
+        let all = placed.iter().filter(of).count();
+        let part = placed.iter().filter(of).filter(|stype| log.took_part.contains(*stype)).count();
+        if all == 0 { 1.0 } else { part as f64 / all as f64 }
+    };
+    let is_handled =
+        |stype: &&SpriteType| Idiom::of(analysis, **stype).is_some_and(|idiom| HANDLED.contains(&idiom));
     Events {
-        used: if placed.is_empty() { 1.0 } else { used as f64 / placed.len() as f64 },
+        used: took_part(&|_| true),
+        handled: took_part(&is_handled),
         dead: longest as f64 / win.actions.len().max(1) as f64,
         sweep: (!swept.is_empty()).then(|| swept.iter().sum::<f64>() / swept.len() as f64),
         firsts: log.firsts,
@@ -112,5 +125,32 @@ impl Watch for Log<'_> {
     fn meeting(&mut self, meeting: Meeting) {
         self.took_part.insert(meeting.first);
         self.took_part.extend(meeting.second);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::shortest::{Limits, shortest_win};
+    use super::*;
+    use base::Seed;
+
+    const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    gate > Immovable\n    key > Resource limit=2\n    bead > Immovable\n    plum > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    G > gate\n    k > key\n    b > bead\n    p > plum\n  InteractionSet\n    avatar wall > stepBack\n    gate avatar > killIfOtherHasMore resource=key limit=1\n    avatar gate > stepBack\n    key avatar > collectResource\n    bead avatar > killSprite scoreChange=1\n    plum avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=avatar win=False\n    SpriteCounter stype=plum win=True\n";
+
+    #[test]
+    fn a_bead_beside_the_way_is_not_handled() {
+        let game = Game::from_source(GAME).unwrap();
+        let analysis = Analysis::of(&game);
+        let handled = |level: &str| {
+            let level = game.level(level).unwrap();
+            let (mut win, mut state) = Episode::begin(&game, &level, Seed::from_text("events"));
+            let limits = Limits { calls: 10_000, ticks: 40 };
+            let found = shortest_win(&analysis, &state, limits);
+            for action in found.win.unwrap() {
+                win.play(&game, &mut state, action);
+            }
+            events(&analysis, &level, &win).handled
+        };
+        assert_eq!(handled("wwwwwww\nwkAbGpw\nwwwwwww\n"), 1.0);
+        assert_eq!(handled("wwwwwww\nwkA Gpw\nwbwwwww\nwwwwwww\n"), 2.0 / 3.0);
     }
 }
