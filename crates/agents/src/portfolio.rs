@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// How a budget is divided between methods.
+    /// The division of a budget between methods.
     ///
     /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then
     /// [`best_first`]. After that, and from the start in stochastic games, planners play episodes in rounds
@@ -51,7 +51,7 @@ base::with_defaults! {
 /// The result of the portfolio.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// Whether the level can be won, as far as known.
+    /// The answer about the level's winnability, as far as known.
     pub solution: Solution,
     /// The number of forward-model calls across all searches and episodes.
     pub calls: u64,
@@ -59,7 +59,7 @@ pub struct Solved {
     pub plays: Vec<Play>,
 }
 
-/// Whether a level can be won.
+/// The answer about a level's winnability.
 #[derive(Clone, Debug)]
 pub enum Solution {
     /// The level was won in an episode.

@@ -24,7 +24,7 @@ const MANY: i32 = 3;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Taxonomy {
-    /// Whether the game is turn-based or real-time.
+    /// The game's pace: turn-based or real-time.
     pub time: Time,
     /// The player's greatest spatial freedom across all avatar types that can occur, compared in variant
     /// order.
@@ -38,7 +38,7 @@ pub struct Taxonomy {
 }
 
 base::named_enum! {
-    /// Whether the game is turn-based or real-time.
+    /// The game's pace: turn-based or real-time.
     pub enum Time {
         /// Nothing moves, appears or disappears unless the player acts. Exceptions are short effects of an
         /// action (a shot, a puff of smoke), sprites without rules, and a limit on the number of ticks.

@@ -35,7 +35,7 @@ use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-/// How faults are handled.
+/// The handling of faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Policy {
     /// Strict mode: faults are errors.

@@ -26,9 +26,9 @@ use std::fmt;
 pub struct Guide {
     /// The functions of the keys: one sentence for each possible avatar type.
     pub controls: Vec<String>,
-    /// How to win, in order of priority.
+    /// The ways to win, in order of priority.
     pub winning: Vec<String>,
-    /// How to lose, in order of priority.
+    /// The ways to lose, in order of priority.
     pub losing: Vec<String>,
     /// The course of a tick: facts that apply to all interactions. Only facts that matter in this game
     /// are included.

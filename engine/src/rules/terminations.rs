@@ -13,7 +13,7 @@ pub(crate) struct Termination {
     pub(crate) decided_by: Decision,
 }
 
-/// How a termination decides between win and loss (`spec/01` §4.8, for one player).
+/// A termination's decision between win and loss (`spec/01` §4.8, for one player).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Decision {
     /// The line's `win` parameter decides.

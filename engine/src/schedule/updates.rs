@@ -41,7 +41,7 @@ pub(crate) struct Mover {
     threshold: i32,
 }
 
-/// How a type's updates start.
+/// The start of a type's updates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum UpdateKind {
     /// The update makes a random draw. If no sprite is created, only [`sprites::base`] follows.

@@ -41,7 +41,7 @@ impl SearchLimits {
 /// A search's result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Searched {
-    /// Whether the level can be won, as far as known.
+    /// The answer about the level's winnability, as far as known.
     pub answer: Answer,
     /// The cost of the search in forward-model calls.
     pub calls: u64,

@@ -29,7 +29,7 @@ pub enum Segment {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline(pub Vec<Segment>);
 
-/// How an outline is painted.
+/// An outline's paint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Paint {
     /// The outline is filled (non-zero winding rule).
@@ -43,7 +43,7 @@ pub enum Paint {
 pub struct Shape {
     /// The outline.
     pub outline: Outline,
-    /// How the outline is painted.
+    /// The outline's paint.
     pub paint: Paint,
     /// The colour.
     pub colour: Colour,

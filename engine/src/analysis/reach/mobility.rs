@@ -12,7 +12,7 @@ use crate::rules::effects::{EffectSummary, Summary};
 /// to reach any cell.
 const MAX_STRIDE: f64 = 4.0;
 
-/// How sprites of a type can move and be moved.
+/// The mobility of a type's sprites: moving and being moved.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mobility {
     /// The directions in which a sprite's own update can move it.

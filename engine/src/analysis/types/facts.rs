@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 /// The cell size in pixels on a board of the usual size.
 const USUAL_BLOCK: i32 = 40;
 
-/// How sprites of a type move by themselves.
+/// The way in which a type's sprites move by themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// The sprites do not move.
@@ -30,7 +30,7 @@ pub enum Motion {
     Steered,
 }
 
-/// How the player can move an avatar.
+/// The player's control over an avatar's movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Steering {
     /// The player moves the avatar up, left, down and right.
@@ -63,7 +63,7 @@ impl Steering {
 pub struct Avatar {
     /// The avatar's type.
     pub stype: SpriteType,
-    /// How the player moves the avatar.
+    /// The player's control over the avatar's movement.
     pub steering: Steering,
     /// The types created by the use key. The key creates the first type for which the avatar has ammunition.
     pub shots: Vec<SpriteType>,
@@ -92,7 +92,7 @@ pub struct Facts {
     /// The level characters that place the type, sorted by the number of sprites that they place, then by
     /// character code.
     pub symbols: Vec<u8>,
-    /// How sprites of the type move.
+    /// The motion of the type's sprites.
     pub motion: Motion,
     /// The initial speed in cells per tick, or 0 for types that do not move.
     pub pace: f64,

@@ -29,7 +29,7 @@ pub(crate) trait Arguments {
     fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]>;
 }
 
-/// How the reference handles an undeclared name (`spec/03` §2.2). In strict mode, such a name is an error.
+/// The reference's handling of an undeclared name (`spec/03` §2.2). In strict mode, such a name is an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Undeclared {
     /// The effect is dropped, and the rest of the file is not read.

@@ -98,7 +98,7 @@ pub(crate) enum Target {
     Tree(SpriteType),
 }
 
-/// How an effect removes sprites from their type.
+/// An effect's way of removing sprites from their type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
     /// The sprites are removed.

@@ -190,7 +190,7 @@ pub(crate) enum Turn {
     OfExit,
 }
 
-/// How a speed changes. The variants distinguish increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll.
+/// A change in speed. The variants distinguish increaseSpeedToAll, decreaseSpeedToAll and setSpeedForAll.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SpeedChange {
     Increase,
@@ -255,7 +255,7 @@ pub(crate) enum Provided {
     Always,
 }
 
-/// How an effect with no other consequence moves the first sprite back.
+/// An effect's way of moving the first sprite back, without any other consequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PutBack {
     ToLastPlace,
