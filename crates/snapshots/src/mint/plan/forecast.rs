@@ -8,9 +8,9 @@ use validators::{Criteria, Criterion, CriterionSet};
 
 /// The mean cost of a job per requested level, in seconds of one core: without gates or `skill`, with gates (as in
 /// `starter`), and with both (as in `medium` and `2026-12`). For inventions, the second cost is
-/// measured on three games, the third on 15 games, and the first is a guess.
+/// measured on five games, the third on 15 games, and the first is a guess.
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
-const INVENTED: [f64; 3] = [8.0, 25.0, 35.0];
+const INVENTED: [f64; 3] = [8.0, 18.0, 35.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
 /// The mean cost of a level without gates if a win search may take [`PLAIN_BUDGET`] calls (the default). Most of the
 /// cost comes from failed searches, whose cost is proportional to their call budget.
