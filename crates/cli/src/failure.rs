@@ -220,8 +220,7 @@ mod tests {
         check(
             &Failure::read(at, ErrorKind::NotFound.into()),
             MALFORMED,
-            "games/a: there is no such file; \
-            check the path",
+            "games/a: there is no such file; check the path",
         );
         check(
             &Failure::read(at, ErrorKind::PermissionDenied.into()),

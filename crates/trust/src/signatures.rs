@@ -282,8 +282,7 @@ impl Signatures {
                 let newest = self.newest(anchor, &mut problems);
                 let Some(keys) = statement.keys else {
                     problems.push(format!(
-                        "{file}: the statement does not specify a set of keys, so it may be \
-                                       outdated"
+                        "{file}: the statement does not specify a set of keys, so it may be outdated"
                     ));
                     return refuse(problems, Some(&newest));
                 };

@@ -93,10 +93,9 @@ impl<'a> Space<'a> {
             let span = given("values").map_or(line.name.span, Param::span);
             let message = format!("`{}` needs `values=min:step:max`, or `values=True:False`", line.name.text);
             let problem = Diagnostic::error("bad-parameter-values", span, message);
-            problems.push(problem.help(
-                "write three numbers with a step that leads from the first value \
-                                        to the last",
-            ));
+            problems.push(
+                problem.help("write three numbers with a step that leads from the first value to the last"),
+            );
             return Values::Int(1);
         };
         // The reference fails only if it draws from an empty range, which `value=` makes unnecessary.

@@ -124,10 +124,9 @@ fn inherit<'a>(
                     "a sprite has at most {MAX_PARAMETERS} parameters, including inherited parameters"
                 );
                 let problem = Diagnostic::error("too-large", param.key.span, message);
-                problems.push(problem.help(
-                    "no class has that many parameters: remove the unintended \
-                                            parameters",
-                ));
+                problems.push(
+                    problem.help("no class has that many parameters: remove the unintended parameters"),
+                );
                 break;
             }
             own_params.push(param);

@@ -71,10 +71,8 @@ pub fn convert(file: &str) -> Conversion {
     problems.extend(left);
     for &other in python.iter().flat_map(|python| &python.others) {
         let at = source.len();
-        let message = format!(
-            "the game that starts in line {other} is not converted, because only the \
-                               first game is"
-        );
+        let message =
+            format!("the game that starts in line {other} is not converted, because only the first game is");
         problems.push(Diagnostic::error("other-dialect", Span::new(at, at), message));
     }
     changes.sort_by_key(|change| change.line);

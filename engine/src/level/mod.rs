@@ -320,13 +320,9 @@ impl LevelReader<'_> {
                         "did you mean `{unused}`, which this level never uses? or is `{shown}` meant in the LevelMapping?"
                     ),
                 ),
-                (None, _, Some(near)) => (
-                    Some(near),
-                    format!(
-                        "did you mean `{near}`, like the cells \
-                    around it?"
-                    ),
-                ),
+                (None, _, Some(near)) => {
+                    (Some(near), format!("did you mean `{near}`, like the cells around it?"))
+                }
                 _ if self.unplaced(symbol).is_some() => {
                     let name = self.unplaced(symbol).unwrap_or_default();
                     (
@@ -339,16 +335,14 @@ impl LevelReader<'_> {
                 _ if symbol.is_ascii_graphic() && symbol != '#' => (
                     None,
                     format!(
-                        "add a line `{shown} > …` to the LevelMapping, or use a character from the \
-                             LevelMapping"
+                        "add a line `{shown} > …` to the LevelMapping, or use a character from the LevelMapping"
                     ),
                 ),
                 _ => (None, "use a character that is in the LevelMapping".to_owned()),
             };
             let message = match count {
                 _ if symbol == '#' => {
-                    "`#` is not in the LevelMapping, and cannot be added, because it starts a \
-                     comment"
+                    "`#` is not in the LevelMapping, and cannot be added, because it starts a comment"
                         .to_owned()
                 }
                 1 => format!("`{shown}` is not in the LevelMapping"),

@@ -133,10 +133,8 @@ impl<'a> Tree<'a> {
                 {
                     let problem =
                         Diagnostic::error("stray-line", node.line.span, "this line is not in any section");
-                    return Err(problem.help(
-                        "the reference engine crashes on such a line; indent it below \
-                        a section",
-                    ));
+                    return Err(problem
+                        .help("the reference engine crashes on such a line; indent it below a section"));
                 }
                 None => {}
             }

@@ -78,11 +78,9 @@ fn out_of_reach(Case { game, level, analysis, .. }: Case<'_>, reach: &Reach) -> 
                 (first.map(|(_, cell)| (cell % columns + 1, cell / columns + 1)), advice)
             }
             Cause::AtMost(_) => (None, "place more of the counted sprites, or lower the limit"),
-            Cause::Unpaid(_) => (
-                None,
-                "place more of the resource, or fewer of the sprites that must be \
-                                        removed",
-            ),
+            Cause::Unpaid(_) => {
+                (None, "place more of the resource, or fewer of the sprites that must be removed")
+            }
         };
         let rule = Some(Line::termination(game, analysis.goals()[impossible_goal.goal].line));
         Evidence { text: sentence.clone(), cell, rule, ..Evidence::default() }.advise(advice)

@@ -200,10 +200,9 @@ impl Explanation<'_> {
             }
             Missing::Inside => {
                 let text = format!("this {} never gets to the edge of the screen", self.name(*target));
-                self.links.push(Evidence { rule, ..Evidence::new(text) }.advise(
-                    "open a path to the edge \
-                    of the screen",
-                ));
+                self.links.push(
+                    Evidence { rule, ..Evidence::new(text) }.advise("open a path to the edge of the screen"),
+                );
             }
             Missing::Nowhere(first, second) => {
                 let second = second.map_or("the edge of the screen".to_owned(), |second| self.acting(second));

@@ -43,8 +43,7 @@ impl Judgement {
                 }
                 Criterion::EarlyDeath => {
                     format!(
-                        "no sequence of actions found that survives the first ticks, with {spent} \
-                             forward-model calls"
+                        "no sequence of actions found that survives the first ticks, with {spent} forward-model calls"
                     )
                 }
                 Criterion::Skill => "too few wins for a verdict".to_owned(),

@@ -59,10 +59,9 @@ impl GameValidator for ActorsMatter {
                     "level {}: no sprite that moves by itself comes near the player's path",
                     won.number
                 );
-                notes.push(Evidence::new(text).advise(
-                    "let the path of such a sprite cross the path to \
-                    the goal",
-                ));
+                notes.push(
+                    Evidence::new(text).advise("let the path of such a sprite cross the path to the goal"),
+                );
             }
         }
         if levels == 0 {

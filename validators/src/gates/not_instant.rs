@@ -69,10 +69,8 @@ impl GameValidator for NotInstant {
                  to {most} times required"
             );
             match factor < least || factor > most {
-                true => problems.push(Evidence::new(text).advise(
-                    "set the time limit in proportion to the \
-                    longest win",
-                )),
+                true => problems
+                    .push(Evidence::new(text).advise("set the time limit in proportion to the longest win")),
                 false => notes.push(Evidence::new(text)),
             }
         }

@@ -108,15 +108,8 @@ impl Gates {
             ("gates.needed_share", self.needed_share),
         ];
         let share = shares.into_iter().find(|(_, share)| !(0.0..=1.0).contains(share));
-        let share = share.map(|(key, share)| {
-            (
-                key,
-                format!(
-                    "is {share}; the value must be a fraction from \
-            0 to 1"
-                ),
-            )
-        });
+        let share =
+            share.map(|(key, share)| (key, format!("is {share}; the value must be a fraction from 0 to 1")));
         let factors = [
             ("gates.spawn_periods", self.spawn_periods),
             ("gates.time_limit", self.time_limit.0),
@@ -132,15 +125,8 @@ impl Gates {
             ("gates.needed_calls", self.needed_calls, 1_000_000_000),
         ];
         let count = counts.into_iter().find(|(_, count, most)| *count == 0 || count > most);
-        let count = count.map(|(key, count, most)| {
-            (
-                key,
-                format!(
-                    "is {count}; the value must be from 1 to \
-            {most}"
-                ),
-            )
-        });
+        let count =
+            count.map(|(key, count, most)| (key, format!("is {count}; the value must be from 1 to {most}")));
         let pairs = [("gates.time_limit", self.time_limit), ("gates.spare", self.spare)];
         let pair = pairs.into_iter().find(|(_, (least, most))| least > most);
         let pair = pair.map(|(key, (least, most))| (key, format!("has {least} above {most}")));

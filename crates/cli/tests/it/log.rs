@@ -174,8 +174,7 @@ fn a_sealed_month_waits_for_its_beacon() {
         folder,
         &[&witness[..], &["--seen", "seen-2"]].concat(),
         2,
-        "pass the checkpoint that the \
-                                    witness signed last",
+        "pass the checkpoint that the witness signed last",
     );
     run(folder, &witness, 0);
     check(&["--witness", "w.example=w.pub", "--seen", "seen-2", "--save", "witnessed"], 0, "sound");

@@ -146,8 +146,7 @@ fn key(
     let wanted = |variable: &str| {
         let key = Key::read(variable, environment)?;
         let problem = format!(
-            "{} requires a key, but {variable} is not set; export the key under that \
-                               name",
+            "{} requires a key, but {variable} is not set; export the key under that name",
             spec.server.host
         );
         key.map(Some).ok_or(EvaluationError::Malformed(problem))

@@ -151,9 +151,9 @@ impl Remote {
             (401 | 403, Some(key)) => {
                 format!("; check that the key in {} is valid for {host}", key.variable)
             }
-            (401 | 403, None) => "; if the server requires a key, pass the key's variable with \
-                                  --key-variable"
-                .to_owned(),
+            (401 | 403, None) => {
+                "; if the server requires a key, pass the key's variable with --key-variable".to_owned()
+            }
             (404, _) if self.spec.server.own => format!("; check the model name `{model}`"),
             (404, _) => {
                 format!("; check the model name `{model}` and the end of the base URL (usually `/v1`)")

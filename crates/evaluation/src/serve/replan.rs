@@ -79,12 +79,8 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
             .to_owned());
     };
     let (description, _) = parse(vgdl);
-    let game = Game::compile(&description).map_err(|problems| {
-        format!(
-            "the VGDL in the prompt does not compile: \
-            {problems}"
-        )
-    })?;
+    let game = Game::compile(&description)
+        .map_err(|problems| format!("the VGDL in the prompt does not compile: {problems}"))?;
     is_shown(&Analysis::of(&game), shown)?;
     let Position { game, level } = Position::of(description, shown)?;
     let facing = shown.you.and_then(|you| you.facing).and_then(direction);

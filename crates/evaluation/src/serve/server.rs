@@ -115,8 +115,7 @@ fn router(player: PromptPlayer, bounds: Bounds) -> Router {
         refusal(
             StatusCode::NOT_FOUND,
             "unknown_url",
-            "unknown endpoint; use POST /v1/chat/completions or \
-                                        GET /v1/models",
+            "unknown endpoint; use POST /v1/chat/completions or GET /v1/models",
         )
     };
     let no_method = || async {

@@ -66,8 +66,7 @@ impl<'a> Shown<'a> {
     pub(super) fn of(messages: &'a [ChatMessage]) -> Result<Shown<'a>, Unanswerable> {
         let missing = |what: &str| {
             Unanswerable(format!(
-                "the prompt has no {what}; `arcade docs prompts` describes the layout of \
-                                  prompts"
+                "the prompt has no {what}; `arcade docs prompts` describes the layout of prompts"
             ))
         };
         let first = messages.first().ok_or_else(|| missing("messages"))?;

@@ -208,10 +208,8 @@ impl Checking<'_> {
                     let told = (level_card.witness_ticks, level_card.witness_score);
                     let fits = (episode.actions.len(), episode.score) == told;
                     if !fits {
-                        let what = format!(
-                            "the ticks and score differ from those of the episode that \
-                                            wins {file}"
-                        );
+                        let what =
+                            format!("the ticks and score differ from those of the episode that wins {file}");
                         wrong("card.json", what);
                     }
                     // Duplicates and mismatches have already been reported, so they are not replayed.

@@ -174,11 +174,7 @@ mod tests {
         check_ladder(&Ladder { ease: Some(0.9), ..ladder.clone() }, &["the difficulty is `medium`"]);
         check_ladder(
             &Ladder { ease: Some(1e300), ..ladder.clone() },
-            &[
-                "the ease is outside",
-                "the \
-            difficulty",
-            ],
+            &["the ease is outside", "the difficulty"],
         );
         check_ladder(&Ladder { difficulty: Difficulty::Unbeaten, ..ladder.clone() }, &["some player wins"]);
         check_ladder(&Ladder { rungs: vec![result(0)], ..ladder.clone() }, &["no player wins"]);

@@ -119,11 +119,9 @@ pub(crate) fn problem(episode: &Episode, game: &Game, level: &Level) -> Option<S
     match replay(episode, game, level, &Meter::new(Bounds::RELEASE.of(1))) {
         Replayed::Won => None,
         Replayed::Wrong(what) => Some(what),
-        Replayed::OutOfWork => Some(
-            "replaying the episode takes more work than a release may \
-                                     require"
-                .to_owned(),
-        ),
+        Replayed::OutOfWork => {
+            Some("replaying the episode takes more work than a release may require".to_owned())
+        }
     }
 }
 

@@ -65,10 +65,7 @@ impl Holdings {
     /// Returns an error if a card, a game or a level is malformed or cannot be read.
     pub(crate) fn read(contents: &Contents, manifest: &Manifest) -> Result<Holdings, AncestryError> {
         let damaged = |path: &str| {
-            AncestryError::Damaged(format!(
-                "{path}: not the content that a release has at \
-                this path"
-            ))
+            AncestryError::Damaged(format!("{path}: not the content that a release has at this path"))
         };
         let read = |path: &str| -> Result<String, AncestryError> {
             String::from_utf8(contents.read(path)?).map_err(|_| damaged(path))

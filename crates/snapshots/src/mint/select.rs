@@ -273,8 +273,7 @@ impl Fit {
                 () if contender.is_known(plan) => "in an earlier release",
                 () if repeats => "duplicate level",
                 () if of_new(&|other| contender.form.is_near(&other.form)) => {
-                    "too similar to another \
-                    candidate"
+                    "too similar to another candidate"
                 }
                 () if of_new(&|other| share_idea(&contender.patterns, &other.patterns)) => {
                     "two mechanics shared with another candidate"

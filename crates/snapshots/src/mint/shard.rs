@@ -296,13 +296,8 @@ impl Shards {
                 let place = self.jobs.get(&path(name)).map(|(folder, item)| folder.join(&item.path));
                 MergeError::Unsound { path: place.unwrap_or_default(), what }
             };
-            let job = self.get(name)?.ok_or_else(|| {
-                place(
-                    "not a job of this plan: mint the job \
-                again"
-                        .into(),
-                )
-            })?;
+            let job =
+                self.get(name)?.ok_or_else(|| place("not a job of this plan: mint the job again".into()))?;
             let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, plan.recipe));
             wrong.map_or(Ok(()), |what| {
                 Err(place(format!("{what}; no mint gives this result: mint the job again")))

@@ -49,8 +49,7 @@ impl BeaconPart {
         match self.value {
             Some(_) => wrong(
                 "beacon.value",
-                "is filled in by `arcade release --beacon FILE`: remove the \
-                              value from the recipe",
+                "is filled in by `arcade release --beacon FILE`: remove the value from the recipe",
             ),
             None => Ok(()),
         }

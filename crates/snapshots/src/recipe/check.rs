@@ -154,8 +154,7 @@ impl Recipe {
                 return wrong(
                     key,
                     format!(
-                        "is [{least}, {most}]; the range needs two numbers from 5 to 100, the smaller \
-                             first"
+                        "is [{least}, {most}]; the range needs two numbers from 5 to 100, the smaller first"
                     ),
                 );
             }

@@ -102,9 +102,9 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     use SpriteClass as C;
     let game = analysis.game();
     if !game.description().parameters.is_empty() {
-        return Err("the rules have parameters (a GameSpace): replace the parameters with their \
-                    values"
-            .to_owned());
+        return Err(
+            "the rules have parameters (a GameSpace): replace the parameters with their values".to_owned()
+        );
     }
     for stype in game.sprite_types().filter(|&stype| analysis.facts(stype).possible) {
         let Some(class) = game.class(stype) else { continue };

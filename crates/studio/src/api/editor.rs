@@ -21,10 +21,7 @@ fn bounded(source: &str, levels: &[String]) -> Result<(), Refusal> {
     let too_large = |what: &str, limit: usize| {
         Refusal::new(
             StatusCode::PAYLOAD_TOO_LARGE,
-            format_args!(
-                "{what} is larger than the limit of \
-            {limit} bytes"
-            ),
+            format_args!("{what} is larger than the limit of {limit} bytes"),
         )
     };
     match () {

@@ -92,12 +92,8 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     let verification = verify(root).map_err(Refusal::failed)?;
     let mut problems = verification.problems.clone();
     if verification.root != released.manifest.root {
-        problems.insert(
-            0,
-            "The release changed after the studio opened it: open the release \
-                            again."
-                .to_owned(),
-        );
+        problems
+            .insert(0, "The release changed after the studio opened it: open the release again.".to_owned());
     }
     let is_sound = problems.is_empty();
     let mut said = if is_sound { words(&verification) } else { Vec::new() };

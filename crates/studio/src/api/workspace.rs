@@ -224,10 +224,8 @@ fn add(
 ) -> Result<Value, Refusal> {
     let name = folder_name(&title);
     if name.is_empty() {
-        return Err(Refusal::bad("the title contains no letters or digits").help(
-            "use letters from a to z \
-                                 or digits from 0 to 9",
-        ));
+        return Err(Refusal::bad("the title contains no letters or digits")
+            .help("use letters from a to z or digits from 0 to 9"));
     }
     let failed = |name: &str, error: io::Error| {
         Refusal::failed(format_args!("cannot write the folder {name}: {}", error.kind()))

@@ -67,10 +67,7 @@ pub(super) fn play(
     }
     Some(Play {
         episode,
-        note: Some(
-            "A short search found \
-                                     no win here, so a planner plays as well as it can.",
-        ),
+        note: Some("A short search found no win here, so a planner plays as well as it can."),
     })
 }
 

@@ -109,8 +109,7 @@ impl History {
         }
         if self.roots.contains_key(release) {
             problems.push(format!(
-                "the commitment for `{release}` comes too late: the root of the release \
-                                   is already in the log"
+                "the commitment for `{release}` comes too late: the root of the release is already in the log"
             ));
         }
         if let Some(Err(fault)) = new.beacon.as_ref().map(|round| check_source(&round.source)) {
@@ -163,8 +162,7 @@ impl History {
         match (commitment, self.commitments.get(release)) {
             (None, None) => {}
             (None, Some(_)) => problems.push(format!(
-                "the log has a commitment for `{release}`, but the release itself \
-                                       has no commitment"
+                "the log has a commitment for `{release}`, but the release itself has no commitment"
             )),
             (Some(_), None) => {
                 problems.push(format!("`{release}` is sealed, but no commitment came before its root"))
@@ -270,8 +268,7 @@ pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
              be frozen; get the log from a different source"
         )),
         None => Some(format!(
-            "the log has no monthly release, but {month} was expected; get the log from a \
-                          different source"
+            "the log has no monthly release, but {month} was expected; get the log from a different source"
         )),
     }
 }

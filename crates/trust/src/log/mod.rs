@@ -62,8 +62,7 @@ impl Log {
                 false => TrustError::document(
                     place.in_message().to_string(),
                     format!(
-                        "is missing: the log was truncated, because its checkpoint states {} \
-                             entries",
+                        "is missing: the log was truncated, because its checkpoint states {} entries",
                         checkpoint.size
                     ),
                 ),

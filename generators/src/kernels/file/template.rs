@@ -104,12 +104,11 @@ fn number(inside: &str, numbers: &mut Numbers) -> Result<Part, String> {
         }
     };
     let known = |number: &Number| number.name.as_deref() == Some(name.trim());
-    let at = numbers.0.iter().position(known).ok_or_else(|| {
-        format!(
-            "`{{{inside}}}` is not defined before its \
-            use"
-        )
-    })?;
+    let at = numbers
+        .0
+        .iter()
+        .position(known)
+        .ok_or_else(|| format!("`{{{inside}}}` is not defined before its use"))?;
     Ok(Part::Number(at, added))
 }
 

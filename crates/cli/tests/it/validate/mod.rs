@@ -403,10 +403,7 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
     let headline = "not shown to pass winnable: no win found with ";
     assert!(said.contains(headline), "{said}");
     assert!(
-        said.contains(
-            "the level can be won without `duckling wall > stepBack`: a search wins it \
-                           in"
-        ),
+        said.contains("the level can be won without `duckling wall > stepBack`: a search wins it in"),
         "{said}"
     );
 }

@@ -207,10 +207,7 @@ impl EpisodeFolder {
                 if other != address {
                     self.set_aside(
                         &name,
-                        &format!(
-                            "the file answers {other}, but the open prompt is \
-                        {address}"
-                        ),
+                        &format!("the file answers {other}, but the open prompt is {address}"),
                     )?;
                 }
             }

@@ -75,8 +75,7 @@ fn note(pool: &[Difficulty], expressible: &[Difficulty]) -> String {
     let labels = if labels.is_empty() { "none".to_owned() } else { labels.join(", ") };
     let pool = pool.len();
     format!(
-        "{note} Labels that the game can express (at least 5% of an unconstrained pool of {pool}): \
-             {labels}."
+        "{note} Labels that the game can express (at least 5% of an unconstrained pool of {pool}): {labels}."
     )
 }
 

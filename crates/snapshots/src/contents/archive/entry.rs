@@ -82,10 +82,9 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
     match (listed, passed) {
         (false, _) => here(Flaw::Extra),
         (true, true) => here(Flaw::NotAsPacked("the entry occurs twice in the archive".into())),
-        (true, false) => here(Flaw::NotAsPacked(format!(
-            "the entry is out of order: `{due}` was expected \
-            here"
-        ))),
+        (true, false) => {
+            here(Flaw::NotAsPacked(format!("the entry is out of order: `{due}` was expected here")))
+        }
     }
 }
 

@@ -252,12 +252,8 @@ fn unreadable(error: io::Error) -> Unreadable {
 /// [`FrameWriter::begin`].
 fn stated_size(head: &[u8]) -> Result<u64, String> {
     let cut_off = || "the archive is truncated in its header".to_owned();
-    let odd = |what: &str| {
-        Err(format!(
-            "the header of the compressed data differs from the packed form: \
-                                        {what}"
-        ))
-    };
+    let odd =
+        |what: &str| Err(format!("the header of the compressed data differs from the packed form: {what}"));
     let descriptor = *head.get(MAGIC.len()).ok_or_else(cut_off)?;
     let (size_flag, one_segment) = (descriptor >> 6, descriptor & 0b10_0000 != 0);
     match descriptor & 0b1_1111 {

@@ -25,18 +25,10 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
     }
     match (manifest.kind, manifest.commitment) {
         (ReleaseKind::Sealed, None) => {
-            return Err(unsound(
-                "the manifest is sealed, but has no \
-            commitment"
-                    .into(),
-            ));
+            return Err(unsound("the manifest is sealed, but has no commitment".into()));
         }
         (ReleaseKind::Open, Some(_)) => {
-            return Err(unsound(
-                "the manifest is open, but has a \
-            commitment"
-                    .into(),
-            ));
+            return Err(unsound("the manifest is open, but has a commitment".into()));
         }
         _ => {}
     }

@@ -32,8 +32,7 @@ pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
         .replace(SEALED, "sealed and revealed: the seed and the winning episodes are now public")
         .replace(
             UNCHECKED,
-            "- Only minting the release again proves that the games come from the \
-                             committed seed.\n",
+            "- Only minting the release again proves that the games come from the committed seed.\n",
         )
 }
 

@@ -29,12 +29,8 @@ impl SecretGame {
         let game = Game::from_source(source).map_err(|problems| format!("not a game: {problems}"))?;
         let level = |(number, text): (usize, &String)| {
             let level = game.level(text);
-            let level = level.map_err(|problems| {
-                format!(
-                    "lvl{number}.txt is not a level of this game: \
-                {problems}"
-                )
-            });
+            let level =
+                level.map_err(|problems| format!("lvl{number}.txt is not a level of this game: {problems}"));
             Ok((text.clone(), level?))
         };
         let levels = levels.iter().enumerate().map(level).collect::<Result<_, String>>()?;
@@ -189,10 +185,9 @@ mod tests {
             assert_eq!(flaw(root, published, withheld), None);
             assert!(flaw(root, withheld, published).unwrap().contains("the coin publishes this"));
         }
-        assert!(flaw(Seed::from_text("x"), &one, &of(&[Up])).unwrap().contains(
-            "begins like the published \
-                                      win"
-        ));
+        assert!(
+            flaw(Seed::from_text("x"), &one, &of(&[Up])).unwrap().contains("begins like the published win")
+        );
         assert_eq!(pair_flaw(None, &other, None), None);
     }
 }

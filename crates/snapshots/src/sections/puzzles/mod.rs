@@ -241,8 +241,7 @@ mod tests {
         check(&locks.replace("games = 2", "games = 2\nthings = 4"), "`locks.things` is for `[puzzles]` only");
         check(
             &format!("{puzzles}things = 6\n[tiers]\n4 = 1.0"),
-            "`puzzles.things` is 6; the value must \
-                        be from 3 to 5",
+            "`puzzles.things` is 6; the value must be from 3 to 5",
         );
         check(&locks.replace("= 2", "= 5"), "`locks.games` is 5; the value must be from 1 to 3");
         check(

@@ -34,8 +34,7 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
             match spec.name() {
                 "random" | "random-with-nil" | "do-nothing" => Ok(()),
                 _ => refuse(
-                    "the player plans with the rules and the state, whatever prompts show; leave \
-                            out --track",
+                    "the player plans with the rules and the state, whatever prompts show; leave out --track",
                 ),
             }
         }
