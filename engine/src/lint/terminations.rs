@@ -216,7 +216,7 @@ impl Linter<'_> {
             let reason = "no termination has `win=False`".to_owned();
             let help = match self.deadly_rule() {
                 Some((avatar, rule)) => format!(
-                    "`{rule}` removes the player's `{avatar}`, but the game goes on: add \
+                    "`{rule}` removes the player's `{avatar}`, but the game continues: add \
                      `SpriteCounter stype={avatar} win=False`"
                 ),
                 None => "add a Timeout, or another termination with `win=False`".to_owned(),

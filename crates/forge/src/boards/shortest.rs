@@ -7,6 +7,8 @@ use std::mem;
 
 /// The minimum number of states in a narrowed layer.
 const LEAST_WIDTH: u64 = 40;
+/// The maximum number of spare states, some tens of megabytes.
+const MAX_SPARE: usize = 4096;
 
 /// The limits of a search.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +60,7 @@ pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -
             search.found.is_proved = is_whole && is_certain && search.found.win.is_some();
             return search.found;
         };
-        search.spare.extend(layer.into_iter().map(|(_, state)| state));
+        search.recycle(layer.into_iter().map(|(_, state)| state));
         layer = next;
         if layer.is_empty() {
             break;
@@ -120,6 +122,12 @@ impl Search<'_> {
         Some(next)
     }
 
+    /// Keeps a bounded number of states whose buffers can be used again.
+    fn recycle(&mut self, states: impl Iterator<Item = State>) {
+        let room = MAX_SPARE.saturating_sub(self.spare.len());
+        self.spare.extend(states.take(room));
+    }
+
     fn missing(&self, state: &State) -> u32 {
         self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(u32::MAX)
     }
@@ -148,7 +156,7 @@ impl Search<'_> {
         let mut keep = vec![false; layer.len()];
         ranked.iter().take(width).for_each(|&(_, at)| keep[at] = true);
         let (kept, left): (Vec<_>, Vec<_>) = layer.into_iter().zip(keep).partition(|(_, keep)| *keep);
-        self.spare.extend(left.into_iter().map(|((_, state), _)| state));
+        self.recycle(left.into_iter().map(|((_, state), _)| state));
         kept.into_iter().map(|(state, _)| state).collect()
     }
 

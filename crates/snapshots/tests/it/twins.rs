@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use validators::GameForm;
 
-/// A corpus game with witnesses. Of its first levels, only those that are won quickly are included.
+/// A corpus game with witnesses. Only its quickly won first levels are included.
 struct Sample {
     name: String,
     source: String,

@@ -47,7 +47,7 @@ impl Demand {
     /// Measures a level with a win. Returns `None` if the episode does not win. `shortest` means that the win is proved
     /// to be the shortest.
     ///
-    /// Cost: at most 2.2 million forward-model calls for commitments, 1 million for dead ends, and the ticks of a few
+    /// Cost: at most 2.1 million forward-model calls for commitments, 1 million for dead ends, and the ticks of a few
     /// episodes. The typical cost is a tenth of the maximum.
     pub fn of(
         analysis: &Analysis,

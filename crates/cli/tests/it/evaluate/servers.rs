@@ -113,7 +113,7 @@ fn useless_answers_stop_the_evaluation() {
     assert!(told.contains("warning: 16 of 48 decisions have no usable answer (16 invalid)"), "{told}");
 }
 
-/// Server failures are not the model's fault: the episode stays open, no step is lost, and --resume goes on.
+/// Server failures are not the model's fault: the episode stays open, no step is lost, and --resume continues the episode.
 #[test]
 fn failing_servers_leave_episodes_open() {
     let bad: [fn() -> Response; 5] = [

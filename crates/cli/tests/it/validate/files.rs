@@ -265,9 +265,9 @@ fn warnings_about_files_follow_the_verdict() {
         assert!(place("game.vgdl does not pass") < place("no-lose") && place("no-lose") < criteria, "{said}");
         assert!(place("ragged-level") < criteria, "{said}");
         place(
-            "removes the player's `avatar`, but the game goes on: add `SpriteCounter stype=avatar win=False`",
+            "removes the player's `avatar`, but the game continues: add `SpriteCounter stype=avatar win=False`",
         );
-        // What is asked stands where the answer is not yes.
+        // The requirement stands beside each verdict that is not a pass.
         place("asks: ");
     }
 }

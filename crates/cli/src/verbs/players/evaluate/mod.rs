@@ -6,6 +6,7 @@ mod mailbox;
 mod model;
 mod player;
 mod progress;
+mod prompt_args;
 pub(crate) mod subjects;
 mod track;
 
