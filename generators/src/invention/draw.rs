@@ -154,11 +154,11 @@ fn rarity(name: &str) -> u64 {
     all.get(name).copied().unwrap_or(USUAL)
 }
 
-/// Returns `true` if two games, given by their patterns, share two mechanics. To players, they would seem to be the
-/// same game.
+/// Returns `true` if two games, given by their patterns, share two mechanics, or one mechanic and the ending. To
+/// players, they would seem to be the same game.
 pub fn share_idea(one: &[String], two: &[String]) -> bool {
-    let shared = one.iter().filter(|pattern| pattern.starts_with("mechanic/") && two.contains(pattern));
-    shared.count() > 1
+    let is_part = |pattern: &str| pattern.starts_with("mechanic/") || pattern.starts_with("ending/");
+    one.iter().filter(|pattern| is_part(pattern) && two.contains(pattern)).count() > 1
 }
 
 impl Invention {

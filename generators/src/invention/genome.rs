@@ -2,9 +2,9 @@
 
 use super::emit;
 use super::fiction::Fiction;
-use super::mechanic::{Mechanic, Port};
-use super::merge::{Merged, PortId, merged, ports};
-use super::soundness::{self, Unsound, is_opposed};
+use super::mechanic::Mechanic;
+use super::merge::{Merged, merged, ports};
+use super::soundness::{self, Unsound};
 use crate::GenerateError;
 use crate::boards::Idiom;
 use crate::games::{GeneratedGame, Kind};
@@ -33,23 +33,14 @@ pub struct Invention {
 pub struct Invented {
     /// The game, with its texts.
     pub game: GeneratedGame,
-    /// The types with opposed uses.
-    pub joint: Vec<JointType>,
+    /// For each mechanic except the ending, its interactions, by their indices in the rules. The list is empty if the
+    /// mechanic only describes a motion or a class.
+    pub mechanics: Vec<Vec<usize>>,
     /// The idiom of each placeable type, by name.
     pub idioms: Vec<(String, Idiom)>,
     /// For each mechanic except the ending, the types used by no other mechanic. Without these types, the game lacks
     /// the mechanic.
     pub own_types: Vec<Vec<String>>,
-}
-
-/// A type that fills ports of several mechanics.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct JointType {
-    /// The type's name.
-    pub name: String,
-    /// For each mechanic that does more than harm, its interactions that involve the type, by their indices in the
-    /// rules.
-    pub uses: Vec<Vec<usize>>,
 }
 
 /// The maximum number of rules that follow from bodies and never apply. Games with more such rules are rejected.
@@ -156,12 +147,7 @@ impl Invention {
         let names = mechanics.iter().map(|mechanic| format!("mechanic/{}", mechanic.name));
         let ending = ending.iter().map(|ending| format!("ending/{}", ending.name));
         let couplings = self.couplings().into_iter().map(|pair| format!("coupling/{pair}"));
-        let joint = types.iter().enumerate().filter(|(_, merged)| merged.is_joint() && is_opposed(merged));
-        let joint = joint.map(|(class, merged)| JointType {
-            name: fiction.name(&emit::name(class)).to_owned(),
-            uses: uses(merged, &written),
-        });
-        let joint = joint.collect();
+        let own_lines = (0..mechanics.len()).map(|at| interactions(at, &written)).collect();
         let own_types = (0..mechanics.len()).map(|at| {
             let own = types
                 .iter()
@@ -183,7 +169,7 @@ impl Invention {
             patterns: names.chain(ending).chain(couplings).collect(),
             rules,
         };
-        Ok(Invented { game, joint, idioms, own_types })
+        Ok(Invented { game, mechanics: own_lines, idioms, own_types })
     }
 
     /// Returns the digest of the rules without their texts. Inventions with the same key have the same rules.
@@ -193,18 +179,14 @@ impl Invention {
     }
 }
 
-/// Returns, for each mechanic whose port the type fills, the mechanic's interactions, except those that kill the
-/// player. Mechanics without other interactions are omitted, because they are only threats.
-fn uses(merged: &Merged, written: &emit::Written) -> Vec<Vec<usize>> {
-    let of_mechanic = |((mechanic, _), _): &(PortId, &Port)| -> Vec<usize> {
-        let lines = written.description.interactions.iter().zip(&written.owners).enumerate();
-        let own = lines.filter(|(_, (line, owner))| {
-            let kills = line.first.text == "hero" && line.effect.text.starts_with("kill");
-            **owner == Some(*mechanic) && !kills
-        });
-        own.map(|(at, _)| at).collect()
-    };
-    merged.ports.iter().map(of_mechanic).filter(|lines| !lines.is_empty()).collect()
+/// Returns a mechanic's interactions, except those that only remove a sprite that was created in a wall.
+fn interactions(mechanic: usize, written: &emit::Written) -> Vec<usize> {
+    let lines = written.description.interactions.iter().zip(&written.owners).enumerate();
+    let own = lines.filter(|(_, (line, owner))| {
+        let clears_walls = matches!(&line.second[..], [second] if second.text == "wall");
+        **owner == Some(mechanic) && !(clears_walls && line.effect.text == "killSprite")
+    });
+    own.map(|(at, _)| at).collect()
 }
 
 /// Numbers a partition's classes in the order of their first ports.

@@ -19,7 +19,7 @@ mod tests;
 mod variation;
 
 pub use draw::{Census, InventionConfig, share_idea};
-pub use genome::{Invented, Invention, JointType};
+pub use genome::{Invented, Invention};
 pub use profile::{Profile, Verb};
 pub use supply::InventionSupply;
 pub use variation::InventionVariation;

@@ -364,9 +364,12 @@ fn bad_recipes_are_named() {
         let output = run(folder.path(), &["release", "mine.toml"], 2);
         assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
     }
-    fs::write(folder.path().join("mine.toml"), good).unwrap();
+    let more = "[invented]\ngames = 2\nlevels = 4\n[corpus]\ngames = 3\n";
+    fs::write(folder.path().join("mine.toml"), format!("{good}{more}")).unwrap();
     let output = run(folder.path(), &["release", "mine.toml", "--dry-run"], 0);
-    assert!(text(&output.stdout).contains("would mint 1 new game of"), "{}", text(&output.stdout));
+    for part in ["would mint 2 invented games of 4 levels\n", "and 1 new game of", "for each of 3 corpus games"] {
+        assert!(text(&output.stdout).contains(part), "{}", text(&output.stdout));
+    }
     assert!(!folder.path().join("releases").exists());
 }
 

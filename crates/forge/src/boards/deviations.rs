@@ -2,10 +2,65 @@
 
 use super::shortest::{Limits, shortest_win};
 use base::Seed;
-use engine::{Action, Analysis, Level, Outcome};
+use engine::{Action, Analysis, Game, Level, Outcome, State};
 
 /// The minimum and maximum number of key presses per deviation.
 const KEYS: (usize, usize) = (3, 5);
+
+/// A deviation from a win: from a tick of the win, the player presses a different key a few times.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Deviation {
+    tick: usize,
+    key: Action,
+    presses: usize,
+}
+
+impl Deviation {
+    /// Draws up to `count` deviations from a win, at evenly spaced ticks. Costs one replay of the win.
+    pub(super) fn draw(
+        game: &Game,
+        level: &Level,
+        win: &[Action],
+        seed: Seed,
+        count: usize,
+    ) -> Vec<Deviation> {
+        let mut sampler = seed.child("deviations", 0).sampler();
+        let mut state = game.start(level, seed);
+        let mut played = 0;
+        let draw = |at: usize| {
+            let tick = at * win.len() / count.max(1);
+            while played < tick {
+                game.step(&mut state, win[played]);
+                played += 1;
+            }
+            let actions = game.actions(&state).iter().copied();
+            let others: Vec<Action> = actions.filter(|&action| action != win[tick]).collect();
+            let key = (!others.is_empty()).then(|| *sampler.choose(&others))?;
+            Some(Deviation { tick, key, presses: sampler.between(KEYS.0, KEYS.1) })
+        };
+        (0..count).filter_map(draw).collect()
+    }
+
+    /// Plays a win up to the deviation, and then the deviation. Returns the last state and its outcome. Costs a replay
+    /// of a part of the win.
+    pub(super) fn play(&self, game: &Game, level: &Level, win: &[Action], seed: Seed) -> (State, Outcome) {
+        let mut state = game.start(level, seed);
+        let keys = win[..self.tick].iter().copied().chain([self.key; KEYS.1].into_iter().take(self.presses));
+        let mut outcome = Outcome::Ongoing;
+        for key in keys {
+            outcome = game.step(&mut state, key);
+            if outcome != Outcome::Ongoing {
+                break;
+            }
+        }
+        (state, outcome)
+    }
+
+    /// Returns `true` if the player loses during the deviation.
+    pub(super) fn kills(&self, game: &Game, level: &Level, win: &[Action], seed: Seed) -> bool {
+        !matches!(self.play(game, level, win, seed).1, Outcome::Ongoing | Outcome::Won)
+    }
+}
 
 /// The consequences of deviations from a win.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,51 +73,31 @@ pub(super) struct Costs {
     pub(super) calls: u64,
 }
 
-/// Deviates from a win at `deviations` evenly spaced ticks, and then searches for a win within the limits. Each
-/// deviation presses one different key a few times.
-pub(super) fn deviate(
+/// Measures the consequences of deviations: after each, a search looks for a win within the limits.
+pub(super) fn costs(
+    deviations: &[Deviation],
     analysis: &Analysis,
     level: &Level,
     win: &[Action],
     seed: Seed,
-    deviations: usize,
     limits: Limits,
 ) -> Costs {
-    let game = analysis.game();
-    let mut sampler = seed.child("deviations", 0).sampler();
-    let mut state = game.start(level, seed);
     let mut costs = Costs::default();
-    let (mut tried, mut trapped, mut dead) = (0, 0, 0);
-    let mut played = 0;
-    for at in 0..deviations {
-        let tick = at * win.len() / deviations.max(1);
-        while played < tick {
-            game.step(&mut state, win[played]);
-            played += 1;
-        }
-        let others: Vec<Action> =
-            game.actions(&state).iter().copied().filter(|&action| action != win[tick]).collect();
-        if others.is_empty() {
-            continue;
-        }
-        let (key, presses) = (*sampler.choose(&others), sampler.between(KEYS.0, KEYS.1));
-        let mut other = state.clone();
-        let outcome =
-            (0..presses).map(|_| game.step(&mut other, key)).find(|&outcome| outcome != Outcome::Ongoing);
-        tried += 1;
-        match outcome {
-            Some(Outcome::Won) => {}
-            Some(_) => {
-                dead += 1;
-                trapped += 1;
-            }
-            None => {
-                let found = shortest_win(analysis, &other, limits);
+    let (mut trapped, mut dead) = (0, 0);
+    for deviation in deviations {
+        match deviation.play(analysis.game(), level, win, seed) {
+            (_, Outcome::Won) => {}
+            (state, Outcome::Ongoing) => {
+                let found = shortest_win(analysis, &state, limits);
                 costs.calls += found.calls;
                 trapped += usize::from(found.win.is_none());
             }
+            _ => {
+                dead += 1;
+                trapped += 1;
+            }
         }
     }
-    let share = |count: usize| count as f64 / tried.max(1) as f64;
+    let share = |count: usize| count as f64 / deviations.len().max(1) as f64;
     Costs { traps: share(trapped), deaths: share(dead), ..costs }
 }

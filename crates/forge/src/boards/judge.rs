@@ -1,6 +1,6 @@
 //! The judge in a board search. Checks constraints, from cheapest to most expensive, and then measures the quality.
 
-use super::deviations::deviate;
+use super::deviations::{Deviation, costs};
 use super::likeness::are_one_board;
 use super::necessity::Ablations;
 use super::order::{BoardBudget, BoardMeasures, BoardOrder};
@@ -39,7 +39,7 @@ const EMPTY: f64 = 0.25;
 /// The maximum fraction of a win that may pass without an event.
 const DEAD: f64 = 0.4;
 /// The weight of deviations in the quality.
-const TRAPS_WEIGHT: f64 = 0.24;
+const TRAPS_WEIGHT: f64 = 0.28;
 /// The distance from the best quality beyond which a board is not examined closely.
 const MARGIN: f64 = 0.05;
 /// The number of alternative random futures in which a win is replayed.
@@ -49,9 +49,9 @@ const SEARCHED: f64 = 3.0;
 /// The fraction of its quality that a board loses if it fails every gate.
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
-const CONSTRAINTS: f64 = 9.0;
-/// The minimum fraction of the requested uses that a win must need.
-const LEAST_USES: f64 = 0.6;
+const CONSTRAINTS: f64 = 10.0;
+/// The fraction of supplies that a win may leave where they were. One spare supply is always allowed.
+const SPARE: f64 = 0.25;
 
 /// The judge in a board search.
 pub(super) struct Judge<'a> {
@@ -125,25 +125,31 @@ impl Judge<'_> {
             return Judged::failed(6.0, 0.0, calls);
         }
         let events = events(self.analysis, level, &win);
-        if !self.order.uses.is_empty() && events.handled < 1.0 {
+        if !self.order.mechanics.is_empty() && events.handled < 1.0 {
             return Judged::failed(7.0, events.handled, calls);
         }
-        // The uses matter most, so the other interactions are tried only after the uses.
-        let ordered: BTreeSet<usize> = self.order.uses.concat().into_iter().collect();
+        let most_spare = (events.supplies as f64 * SPARE).max(1.0);
+        if !self.order.mechanics.is_empty() && events.spare as f64 > most_spare {
+            return Judged::failed(8.0, most_spare / events.spare as f64, calls);
+        }
+        // The mechanics matter most, so the other interactions are tried only after the mechanics.
+        let ordered: BTreeSet<usize> = self.order.mechanics.iter().flatten().copied().collect();
         // Guards leave no events in a win, so only a search without them can show whether they are needed.
         let is_tried = |line: &usize| events.firsts.contains(line) || is_guard(self.analysis, *line);
         let tried = ordered.iter().copied().filter(is_tried);
         let (mut needed, spent) = self.ablations.needed(tried, level, &win, self.budget.small_calls);
         calls += spent;
-        let uses = self.needed_uses(&needed);
-        if uses < LEAST_USES {
-            return Judged::failed(8.0, uses, calls);
+        let (mechanics, spent) =
+            self.ablations.matter(self.analysis, &needed, level, &win, self.budget.small_calls);
+        calls += spent;
+        if mechanics < 1.0 {
+            return Judged::failed(9.0, mechanics, calls);
         }
         let others = events.firsts.iter().copied().filter(|line| !ordered.contains(line));
         let (others, spent) = self.ablations.needed(others, level, &win, self.budget.small_calls);
         needed.extend(others);
         calls += spent;
-        let known = BoardMeasures { is_shortest, needed, uses, ..BoardMeasures::default() };
+        let known = BoardMeasures { is_shortest, needed, ..BoardMeasures::default() };
         let measures = self.measure(level, &win, (known, events), best, &mut calls);
         let evaluation = Evaluation { feasibility: 1.0, objective: measures.quality, measures: Vec::new() };
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
@@ -260,7 +266,9 @@ impl Judge<'_> {
             return measures;
         }
         let limits = Limits { calls: self.budget.small_calls, ticks: self.order.ticks.1 + BEYOND };
-        let costs = deviate(self.analysis, level, &win.actions, self.seed, self.budget.deviations, limits);
+        let game = self.analysis.game();
+        let deviations = Deviation::draw(game, level, &win.actions, self.seed, self.budget.deviations);
+        let costs = costs(&deviations, self.analysis, level, &win.actions, self.seed, limits);
         *calls += costs.calls;
         (measures.traps, measures.deaths) = (costs.traps, costs.deaths);
         measures.gates = self.gates(level, win);
@@ -270,15 +278,6 @@ impl Judge<'_> {
 }
 
 impl Judge<'_> {
-    /// Returns the fraction of the requested uses that the win needs.
-    fn needed_uses(&self, needed: &[usize]) -> f64 {
-        let is_needed = |lines: &&Vec<usize>| lines.iter().any(|line| needed.contains(line));
-        match self.order.uses.len() {
-            0 => 1.0,
-            ordered => self.order.uses.iter().filter(is_needed).count() as f64 / ordered as f64,
-        }
-    }
-
     /// Returns the fraction of the single-board gates that the board meets.
     fn gates(&self, level: &Level, win: &Episode) -> f64 {
         let Some(panel) = &self.panel else { return 1.0 };
@@ -317,15 +316,14 @@ fn quality(measures: &BoardMeasures) -> f64 {
     let lively = if measures.dead <= DEAD { 1.0 } else { (1.0 - measures.dead) / (1.0 - DEAD) };
     let sweep = measures.sweep.map_or(1.0, |sweep| (sweep / SWEEP).min(1.0));
     let form = 1.0 - ((measures.emptiness - EMPTY) / EMPTY).clamp(0.0, 1.0);
-    let own = 0.16 * measures.necessity()
-        + 0.16 * measures.uses
-        + 0.06 * (measures.deaths / DEATHS).min(1.0)
+    let own = 0.20 * measures.necessity()
+        + 0.10 * (measures.deaths / DEATHS).min(1.0)
         + TRAPS_WEIGHT * traps
         + 0.08 * form
         + 0.10 * measures.used
-        + 0.06 * lively
-        + 0.05 * sweep
-        + 0.05 * f64::from(u8::from(measures.is_new))
+        + 0.08 * lively
+        + 0.06 * sweep
+        + 0.06 * f64::from(u8::from(measures.is_new))
         + 0.04 * f64::from(u8::from(measures.is_shortest));
     own * (1.0 - GATES_WEIGHT * (1.0 - measures.gates))
 }
@@ -333,7 +331,6 @@ fn quality(measures: &BoardMeasures) -> f64 {
 /// Returns `true` if the board has every property that the search requires.
 pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
-        && measures.uses >= 1.0
         && (TRAPS.0..=TRAPS.1).contains(&measures.traps)
         && measures.deaths >= DEATHS
         && measures.gates >= 1.0

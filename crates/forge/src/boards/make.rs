@@ -51,7 +51,7 @@ pub(crate) fn search_boards(
     budget: &BoardBudget,
 ) -> BoardSearch {
     let Ok(variation) = BoardVariation::new(analysis, &order.brief) else { return BoardSearch::default() };
-    let ablations = Ablations::of(analysis);
+    let ablations = Ablations::of(analysis, &order.mechanics);
     let panel = order.gates.as_ref().map(|criteria| Panel::new(criteria.only(ALONE), Effort::Sequential));
     let seed_of_game = seed.child("game", 0);
     let judge =
@@ -235,17 +235,20 @@ mod tests {
         assert!(calls(2) < calls(24));
     }
 
-    /// Every win takes the plum. No win needs the dog to kill the avatar, because the same actions win without that
-    /// rule.
+    /// Every win takes the plum. The point for a bead changes no win.
     #[test]
-    fn wins_need_the_ordered_uses() {
-        let game = Game::from_source(GAME).unwrap();
+    fn ordered_mechanics_matter() {
+        let text = GAME
+            .replace("    gate > Immovable\n", "    gate > Immovable\n    bead > Immovable\n")
+            .replace("    G > gate\n", "    G > gate\n    b > bead\n")
+            .replace("    plum avatar", "    bead avatar > killSprite scoreChange=1\n    plum avatar");
+        let game = Game::from_source(&text).unwrap();
         let analysis = Analysis::of(&game);
         let budget =
             BoardBudget { compositions: 8, evaluations: 24, calls: 20_000, ..BoardBudget::default() };
-        let search = |uses: Vec<Vec<usize>>| {
-            let order = BoardOrder { uses, ..BoardOrder::of(BoardBrief::of_demand(0)) };
-            search_boards(&analysis, &order, Seed::from_text("ordered uses"), &budget)
+        let search = |mechanics: Vec<Vec<usize>>| {
+            let order = BoardOrder { mechanics, ..BoardOrder::of(BoardBrief::of_demand(0)) };
+            search_boards(&analysis, &order, Seed::from_text("ordered mechanics"), &budget)
         };
         let lines = &game.description().interactions;
         let kills = |first: &str| {
@@ -254,8 +257,8 @@ mod tests {
         };
         let plum = kills("plum");
         let made = search(vec![vec![plum]]).made.expect("every win takes the plum");
-        assert!(made.measures.needed.contains(&plum) && made.measures.uses == 1.0);
-        let found = search(vec![vec![kills("avatar")]]);
+        assert!(made.measures.needed.contains(&plum));
+        let found = search(vec![vec![kills("bead")]]);
         assert!(found.made.is_none() && found.feasibility < 1.0, "{}", found.feasibility);
     }
 }

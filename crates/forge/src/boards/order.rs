@@ -12,9 +12,10 @@ const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (4
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The type uses that a win must need. Each use is a set of interactions, as indices into
-    /// [`Description::interactions`](engine::Description). A win needs a use if it needs one of the use's interactions.
-    pub uses: Vec<Vec<usize>>,
+    /// The mechanics that must all matter. Each mechanic is a list of interactions, as indices into
+    /// [`Description::interactions`](engine::Description). A mechanic matters if the win needs one of its interactions,
+    /// if wrong choices are fatal because of the mechanic, or if a clearly shorter win exists without the mechanic.
+    pub mechanics: Vec<Vec<usize>>,
     /// Earlier boards that the new board must not resemble.
     pub unlike: Vec<Level>,
     /// For each earlier win, the order of its first executions of interactions; see [`BoardMeasures::firsts`].
@@ -29,7 +30,7 @@ impl BoardOrder {
     /// Creates an order with the default contents and length for the brief's slot.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
-        BoardOrder { brief, uses: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
+        BoardOrder { brief, mechanics: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
     }
 }
 
@@ -89,8 +90,6 @@ pub struct BoardMeasures {
     pub steady: f64,
     /// The interactions without which every win is clearly longer or does not exist.
     pub needed: Vec<usize>,
-    /// The fraction of the requested uses that the win needs; 1.0 if no uses were requested.
-    pub uses: f64,
     /// The fraction of deviations from the win after which the player is dead or no win is found.
     pub traps: f64,
     /// The fraction of deviations after which the player is dead.

@@ -1,7 +1,7 @@
 //! The events of a win: executed interactions, participating types, stretches without events, and swept cells.
 
 use engine::analysis::{EffectSummary, Motion, Role};
-use engine::{Analysis, Episode, Game, Level, Meeting, SpriteType, Watch};
+use engine::{Analysis, Episode, Game, Level, Meeting, SpriteType, State, Watch};
 use generators::boards::Idiom;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,6 +14,10 @@ pub(super) struct Events {
     pub(super) used: f64,
     /// The fraction of placed types with an idiom in [`HANDLED`] that took part.
     pub(super) handled: f64,
+    /// The number of supplies that the win leaves where they were: pushed sprites, and resources that can be held.
+    pub(super) spare: usize,
+    /// The number of supplies at the start.
+    pub(super) supplies: usize,
     /// The longest stretch without an interaction of `firsts`, as a fraction of the win's ticks.
     pub(super) dead: f64,
     /// The mean number of cells swept by self-moving sprites.
@@ -46,6 +50,11 @@ pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Event
     let movers: Vec<SpriteType> = game.sprite_types().filter(|&stype| moves(analysis, stype)).collect();
     let mut swept: BTreeMap<SpriteType, (usize, BTreeSet<(i32, i32)>)> = BTreeMap::new();
     let (mut since, mut longest) = (0, 0);
+    let supplies = |state: &State| -> BTreeSet<(SpriteType, (i32, i32))> {
+        let types = game.sprite_types().filter(|&stype| is_supply(analysis, stype));
+        types.flat_map(|stype| state.places(stype).map(move |place| (stype, place))).collect()
+    };
+    let at_start = supplies(&state);
     for (tick, &action) in win.actions.iter().enumerate() {
         for &mover in &movers {
             let (most, cells) = swept.entry(mover).or_default();
@@ -76,6 +85,8 @@ pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Event
     Events {
         used: took_part(&|_| true),
         handled: took_part(&is_handled),
+        spare: at_start.intersection(&supplies(&state)).count(),
+        supplies: at_start.len(),
         dead: longest as f64 / win.actions.len().max(1) as f64,
         sweep: (!swept.is_empty()).then(|| swept.iter().sum::<f64>() / swept.len() as f64),
         firsts: log.firsts,
@@ -90,6 +101,12 @@ fn placed(game: &Game, analysis: &Analysis, level: &Level) -> BTreeSet<SpriteTyp
             && analysis.facts(*stype).possible
     };
     types.filter(plays).collect()
+}
+
+/// Returns `true` if the player needs the type's sprites only for what can be done with them: by pushing or holding them.
+fn is_supply(analysis: &Analysis, stype: SpriteType) -> bool {
+    let is_held = analysis.resources().iter().any(|resource| resource.stype == stype);
+    (is_held || analysis.role(stype) == Role::Pushable) && !analysis.aims().protect.contains(&stype)
 }
 
 fn moves(analysis: &Analysis, stype: SpriteType) -> bool {

@@ -9,14 +9,14 @@ use engine::{Analysis, Game, SpriteType};
 use generators::GenerateError;
 use generators::boards::{BoardBrief, Idiom};
 use generators::games::GeneratedGame;
-use generators::invention::{Invented, Invention, JointType};
+use generators::invention::{Invented, Invention};
 use validators::CheckedCriteria;
 
 /// The demand on a board at difficulty 1.
 const DEMANDS: u8 = 4;
 
-/// The minimum demand at which a board's win must need both uses of a type.
-const OPPOSED: u8 = 2;
+/// The minimum demand at which every mechanic must matter on a board.
+const JOINT: u8 = 2;
 
 /// The demand on a quick look's boards.
 const LOOK_DEMAND: u8 = 1;
@@ -27,10 +27,10 @@ const LOOKS: usize = 24;
 const HOPELESS: usize = 12;
 /// The total number of forward-model calls for a quick look's boards.
 const LOOK_CALLS: u64 = 1_500_000;
-/// The number of forward-model calls in the search for a board whose win needs the opposed uses.
-const USES_CALLS: u64 = 2_000_000;
-/// The reason for rejecting a game without a board whose win needs the opposed uses.
-pub(super) const USELESS: &str = "no win needs the opposed uses";
+/// The number of forward-model calls in the search for a board on which every mechanic matters.
+const JOINT_CALLS: u64 = 2_000_000;
+/// The reason for rejecting a game without a board on which every mechanic matters.
+pub(super) const USELESS: &str = "a mechanic does not matter";
 /// The minimum fraction of necessary interactions on a quick look's best board.
 const LEAST_NECESSITY: f64 = 0.4;
 /// The minimum fraction of costly wrong choices, on a quick look's best board.
@@ -42,8 +42,8 @@ impl Rules for Invention {
     type Boards = InventedBoards;
 
     fn build(&self) -> Option<(GeneratedGame, InventedBoards)> {
-        let Invented { game, joint, idioms, own_types } = Invention::build(self).ok()?;
-        Some((game, InventedBoards { joint, idioms, own_types }))
+        let Invented { game, mechanics, idioms, own_types } = Invention::build(self).ok()?;
+        Some((game, InventedBoards { mechanics, idioms, own_types }))
     }
 
     fn has_clock(&self) -> bool {
@@ -57,7 +57,8 @@ impl Rules for Invention {
 
 /// The boards of an invented game.
 pub(crate) struct InventedBoards {
-    joint: Vec<JointType>,
+    /// The interactions of each mechanic.
+    mechanics: Vec<Vec<usize>>,
     idioms: Vec<(String, Idiom)>,
     own_types: Vec<Vec<String>>,
 }
@@ -75,11 +76,11 @@ impl BoardSource for InventedBoards {
         if let Some(obstacle) = self.look_quickly(game, seed).obstacle() {
             return Err(obstacle);
         }
-        if self.can_need_uses(game, seed.child("uses", 0)) { Ok(()) } else { Err(USELESS) }
+        if self.can_all_matter(game, seed.child("joint use", 0)) { Ok(()) } else { Err(USELESS) }
     }
 
-    fn joint_types(&self) -> &[JointType] {
-        &self.joint
+    fn mechanics(&self) -> &[Vec<usize>] {
+        &self.mechanics
     }
 
     fn is_ordered(&self) -> bool {
@@ -160,18 +161,13 @@ impl InventedBoards {
         BoardBrief { idioms, counts, ..BoardBrief::of_demand(demand) }
     }
 
-    /// Returns `true` if a short search finds a board whose win needs the opposed uses of types.
-    fn can_need_uses(&self, game: &Game, seed: Seed) -> bool {
+    /// Returns `true` if a short search finds a board on which every mechanic matters.
+    fn can_all_matter(&self, game: &Game, seed: Seed) -> bool {
         let analysis = Analysis::of(game);
-        let order = BoardOrder::of(self.brief(&analysis, OPPOSED));
-        let order = BoardOrder { uses: self.uses(), ..order };
-        let budget = BoardBudget { total: USES_CALLS, patience: 1, scrutiny: 1, ..BoardBudget::default() };
+        let order = BoardOrder::of(self.brief(&analysis, JOINT));
+        let order = BoardOrder { mechanics: self.mechanics.clone(), ..order };
+        let budget = BoardBudget { total: JOINT_CALLS, patience: 1, scrutiny: 1, ..BoardBudget::default() };
         make_board(&analysis, &order, seed, &budget).is_some()
-    }
-
-    /// Returns the uses of all types whose uses are opposed.
-    fn uses(&self) -> Vec<Vec<usize>> {
-        self.joint.iter().flat_map(|stype| stype.uses.clone()).collect()
     }
 
     /// Composes a few boards for a game and measures the best one.
@@ -221,11 +217,11 @@ impl PlaceBoards<'_> {
     fn order(&self, candidate: &SeedPath) -> BoardOrder {
         let without = self.left_out(candidate);
         let brief = BoardBrief { without, ..self.source.brief(&self.analysis, self.demand) };
-        let uses = if self.demand < OPPOSED { Vec::new() } else { self.source.uses() };
+        let mechanics = if self.demand < JOINT { Vec::new() } else { self.source.mechanics.clone() };
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
         let order = BoardOrder::of(brief);
         BoardOrder {
-            uses,
+            mechanics,
             unlike,
             known: self.known(),
             ticks: self.ticks(order.ticks),

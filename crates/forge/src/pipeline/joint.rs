@@ -1,4 +1,4 @@
-//! The stage that requires a game's wins to need merged types in two roles.
+//! The stage that requires every mechanic of an invented game to matter.
 
 use super::game::Trial;
 use super::stage::{Passage, Stage};
@@ -7,54 +7,42 @@ use crate::tally::Tally;
 use engine::Analysis;
 use std::collections::BTreeSet;
 
-/// The reason for rejecting a game in which a type has opposed uses, but too few wins need two of its uses.
+/// The reason for rejecting a game in which too few wins are shaped by all mechanics.
 const JOINT: &str = "joint use";
 
-/// The minimum number of levels whose wins need a merged type in two roles. For a game with one or two levels,
-/// the minimum is one.
+/// The minimum number of levels on which every mechanic must matter. For a game with one or two levels, the minimum is
+/// one.
 const LEVELS: usize = 2;
 
-/// The number of a type's roles that a win must need, if the type has that many. Some roles are interchangeable.
-const ROLES: usize = 2;
-
-/// The number of forward-model calls in the search for a win without an interaction.
+/// The number of forward-model calls in the search for a win without an interaction or a mechanic.
 const CALLS: u64 = 40_000;
 
 impl Trial<'_> {
     pub(super) const JOINT: Stage<Self> = Stage {
         name: JOINT,
-        purpose: "for an invented game, requires for every type with opposed uses that on at least two \
-                  levels one win needs two uses, or the only use that is not a threat: without a use, \
-                  there is no win or only a clearly longer win",
+        purpose: "for an invented game, requires two levels on which every mechanic matters: without the mechanic, \
+                  there is no win, only a clearly longer win, or (for a threat) a clearly shorter win or fewer \
+                  fatal choices",
         cost: "a second",
         reasons: &[JOINT],
         ..Stage::once(Self::ask_for_joint_use)
     };
 
     fn ask_for_joint_use(&mut self, _: &mut Tally) -> Passage {
-        let joint = self.levels.source.joint_types();
-        if joint.is_empty() {
+        let mechanics = self.levels.source.mechanics();
+        if mechanics.is_empty() {
             return Ok(());
         }
-        let ablations = Ablations::of(&Analysis::of(&self.candidate.game));
-        let lines: BTreeSet<usize> = joint.iter().flat_map(|stype| stype.uses.concat()).collect();
-        let needed: Vec<Vec<usize>> = self
-            .found
-            .iter()
-            .filter_map(|found| {
-                let win = found.report.witness.as_ref()?;
-                Some(ablations.needed(lines.iter().copied(), &found.level, win, CALLS).0)
+        let analysis = Analysis::of(&self.candidate.game);
+        let ablations = Ablations::of(&analysis, mechanics);
+        let lines: BTreeSet<usize> = mechanics.iter().flatten().copied().collect();
+        let least = LEVELS.min(self.found.len().saturating_sub(1)).max(1);
+        let all_matter = self.found.iter().filter(|found| {
+            found.report.witness.as_ref().is_some_and(|win| {
+                let (needed, _) = ablations.needed(lines.iter().copied(), &found.level, win, CALLS);
+                ablations.matter(&analysis, &needed, &found.level, win, CALLS).0 >= 1.0
             })
-            .collect();
-        let least = LEVELS.min(needed.len().saturating_sub(1)).max(1);
-        let is_met = |lines: &Vec<usize>, needed: &[usize]| lines.iter().any(|line| needed.contains(line));
-        let enough = joint.iter().all(|stype| {
-            let enough = |needed: &&Vec<usize>| {
-                let met = stype.uses.iter().filter(|lines| is_met(lines, needed)).count();
-                met >= stype.uses.len().min(ROLES)
-            };
-            needed.iter().filter(enough).count() >= least
         });
-        if enough { Ok(()) } else { Err(JOINT.into()) }
+        if all_matter.count() >= least { Ok(()) } else { Err(JOINT.into()) }
     }
 }

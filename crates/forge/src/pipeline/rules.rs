@@ -43,7 +43,7 @@ impl Trial<'_> {
     pub(super) const QUICK_LOOK: Stage<Self> = Stage {
         name: "quick look",
         purpose: "for an invented game, composes a few boards, and requires one win with costly choices \
-                  and one win that needs the opposed uses",
+                  and one board on which every mechanic matters",
         cost: "up to 3.5 million forward-model calls",
         reasons: &[
             "no board was won",

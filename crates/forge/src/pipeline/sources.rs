@@ -8,7 +8,6 @@ use agents::systematic_seed;
 use base::{Seed, SeedPath};
 use engine::{Action, Game, Level};
 use generators::games::GeneratedGame;
-use generators::invention::JointType;
 use generators::kernels::{Course, CourseLevel, KernelGame, KernelGenome, Slot};
 use generators::levels::{ConstructiveLevels, LevelConfig};
 use generators::{GenerateError, Generator};
@@ -66,8 +65,8 @@ pub trait BoardSource: Sync {
         Ok(())
     }
 
-    /// Returns the types with opposed uses, if the source knows them.
-    fn joint_types(&self) -> &[JointType] {
+    /// Returns the interactions of each mechanic that should matter, if the source knows them.
+    fn mechanics(&self) -> &[Vec<usize>] {
         &[]
     }
 

@@ -54,7 +54,7 @@ pub struct WellMonth {
     pub near: u64,
     /// The number of candidates near another candidate in the month.
     pub near_in_month: u64,
-    /// The number of candidates that share two mechanics with another candidate in the month.
+    /// The number of candidates that share two mechanics, or one mechanic and the ending, with another candidate in the month.
     pub same_idea: u64,
     /// The number of candidates that share the title or cast of another candidate in the month.
     pub same_words: u64,

@@ -37,12 +37,13 @@ pub const VERSIONS: &[Version] = &[
     superseded("0.13.0", 13, 3, "eb6380330268e994b1fdfb26e2f4c5f76c16dc27"),
     superseded("0.14.0", 14, 3, "3d33844090f34abc1df37461ae2226a4ed14e99a"),
     superseded("0.15.0", 15, 3, "a7ccd546bdd5e807b4c9c252324dab106f5896fb"),
+    superseded("0.16.0", 16, 3, "79f11a8c4dcda95feb068efa3fefb2c54fe6e486"),
     CURRENT,
 ];
 
 /// The suite's current version.
 pub const CURRENT: Version = Version {
-    number: "0.16.0",
+    number: "0.17.0",
     generation: generators::GENERATION,
     semantics: engine::SEMANTICS,
     commit: None,

@@ -258,7 +258,7 @@ struct Fit {
 
 impl Fit {
     /// Excludes contenders that occur in a previous release or contain a duplicate level. Also excludes contenders
-    /// near an earlier new contender, or sharing two mechanics, the title or the cast with it.
+    /// near an earlier new contender, or sharing the idea, the title or the cast with it.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<Part, BTreeMap<String, u64>> = BTreeMap::new();
@@ -276,7 +276,7 @@ impl Fit {
                     "too similar to another candidate"
                 }
                 () if of_new(&|other| share_idea(&contender.patterns, &other.patterns)) => {
-                    "two mechanics shared with another candidate"
+                    "an idea shared with another candidate"
                 }
                 () if of_new(&|other| contender.titles.iter().any(|title| other.titles.contains(title))) => {
                     "duplicate title"

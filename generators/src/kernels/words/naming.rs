@@ -22,8 +22,8 @@ const VAGUE: &[&str] = &[
 /// Last words that denote an amount of a material. Authors name the material instead.
 const AMOUNTS: &[&str] = &["bale", "bunch", "bundle", "heap", "lump", "pile", "puff", "sheaf"];
 
-/// The maximum length of a state's full name. For example, a lit chandelier is simply called `lit`.
-const LONGEST: usize = 12;
+/// The maximum length of a state's full name. The name of a state with a longer name is the adjective alone.
+const LONGEST: usize = 20;
 
 /// Draws the names of a game's types, by their names in the kernel. `wall` and types without a noun keep their names.
 pub(crate) fn names<'a>(
@@ -144,7 +144,7 @@ mod tests {
             ("lever", "cord"),
             ("other", "polarBear2"),
             ("litLamp", "litLamp"),
-            ("litGlobe", "lit"),
+            ("litGlobe", "litChandelier"),
             ("openExit", "exit"),
             ("wokenBear", "wokenBear"),
         ];

@@ -69,7 +69,7 @@ impl Company {
         }
         let origin = &made.card.origin;
         if self.patterns.iter().any(|other| share_idea(other, origin.patterns())) {
-            return Err("two mechanics of another game");
+            return Err("the idea of another game");
         }
         origin.kernel().into_iter().for_each(|kernel| self.families.count(kernel));
         self.titles.insert(made.card.title.clone());

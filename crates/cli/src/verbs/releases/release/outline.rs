@@ -33,30 +33,19 @@ pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, c
         "slowness": slowness, "out_is_taken": taken.is_some(), "caveats": recipe.caveats(),
     }))?;
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
-    if new.games > 0 {
-        console.say(format_args!(
-            "would mint {} of {}",
-            count(new.games as usize, "new game"),
-            count(new.levels as usize, "level")
-        ));
-    }
-    let part = |kind: PuzzleKind| Some((recipe.puzzles_of(kind)?, kind.noun()));
-    let puzzles: Vec<_> = PuzzleKind::ALL.into_iter().filter_map(part).collect();
-    for (at, (part, what)) in puzzles.iter().enumerate() {
-        let would = if new.games > 0 || at > 0 { "and" } else { "would mint" };
-        console.say(format_args!(
-            "{would} {} of {}",
-            count(part.games as usize, what),
-            count(part.levels as usize, "level")
-        ));
-    }
-    if old.games > 0 {
-        let would = if new.games > 0 || !puzzles.is_empty() { "and" } else { "would mint" };
-        console.say(format_args!(
-            "{would} {} for each of {}",
-            count(old.levels as usize, "new level"),
-            count(old.games as usize, "corpus game")
-        ));
+    let invented = recipe.invented.as_ref().map(|part| (part.games, part.levels, "invented game"));
+    let puzzle = |kind: PuzzleKind| recipe.puzzles_of(kind).map(|part| (part.games, part.levels, kind.noun()));
+    let made = invented.into_iter().chain([(new.games, new.levels, "new game")]);
+    let made = made.chain(PuzzleKind::ALL.into_iter().filter_map(puzzle)).filter(|(games, ..)| *games > 0);
+    let made = made.map(|(games, levels, noun)| {
+        format!("{} of {}", count(games as usize, noun), count(levels as usize, "level"))
+    });
+    let more = (old.games > 0).then(|| {
+        let [levels, games] = [(old.levels, "new level"), (old.games, "corpus game")];
+        format!("{} for each of {}", count(levels.0 as usize, levels.1), count(games.0 as usize, games.1))
+    });
+    for (at, part) in made.chain(more).enumerate() {
+        console.say(format_args!("{} {part}", if at == 0 { "would mint" } else { "and" }));
     }
     if !recipe.difficulty.is_empty() {
         let shares = plan.histogram().into_iter().map(|(label, levels)| format!("{label} {levels}"));
