@@ -228,6 +228,19 @@ fn captions_tell_what_is_left() {
 }
 
 #[test]
+fn captions_do_not_call_a_loss_a_win() {
+    let to_win = |source: &str| {
+        let game = Game::from_source(source).unwrap();
+        let analysis = Analysis::of(&game);
+        let looks = Looks::of(&analysis);
+        let state = game.start(&game.level(LEVEL).unwrap(), Seed::from_text("loss"));
+        render::text(&looks, &Symbols::of(&analysis, &looks), &state).contains("to win: hatch")
+    };
+    let lose = "    TerminationSet\n        SpriteCounter stype=hatch limit=0 win=False\n";
+    assert!(to_win(GAME) && !to_win(&GAME.replace("    TerminationSet\n", lose)));
+}
+
+#[test]
 fn svg_is_well_formed_and_names_what_it_shows() {
     let (analysis, _, state) = board();
     let style = Style { cell: 24, caption: true, legend: true };
