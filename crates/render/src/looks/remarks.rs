@@ -5,6 +5,7 @@ use super::payments;
 use super::wins::{self, Terms, counted, is_in_vain};
 use engine::analysis::{EffectSummary, Encounter, Fate, Harm, Motion, Pushable, Role, Side, Sink};
 use engine::{Analysis, SpriteType};
+use std::collections::BTreeSet;
 
 /// The maximum number of names in a note.
 const NAMED: usize = 3;
@@ -90,26 +91,33 @@ pub(super) fn removers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType
     met.filter(|&other| !is_avatar(analysis, other)).collect()
 }
 
-/// Returns `true` if sprites of the type can come to another sprite: they move, are pushed or shot, or appear
-/// during play.
-fn comes(analysis: &Analysis, stype: SpriteType) -> bool {
-    let appears = |effect: &EffectSummary| match effect {
-        EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => *to == stype,
-        EffectSummary::BecomeAny(options) => options.contains(&stype),
-        _ => false,
-    };
-    let makes = |maker: SpriteType| analysis.facts(maker).makes.contains(&stype);
-    moves(analysis, stype)
-        || analysis.role(stype) == Role::Shot
-        || analysis.encounters().iter().any(|encounter| encounter.does(appears))
-        || analysis.game().sprite_types().any(makes)
+/// Returns the types whose sprites appear during play.
+fn appearing(analysis: &Analysis) -> BTreeSet<SpriteType> {
+    let types = analysis.game().sprite_types();
+    let mut found: BTreeSet<SpriteType> =
+        types.flat_map(|maker| analysis.facts(maker).makes.iter().copied()).collect();
+    for effect in analysis.encounters().iter().flat_map(|encounter| &encounter.effects) {
+        match effect {
+            EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => {
+                found.insert(*to);
+            }
+            EffectSummary::BecomeAny(options) => found.extend(options.iter()),
+            _ => {}
+        }
+    }
+    found
 }
 
 /// Returns the types from [`removers`] that can come to a sprite of `stype`, or to which that sprite can come.
+/// Such sprites move, are pushed or shot, or appear during play.
 pub(super) fn reachable_removers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
-    let own = comes(analysis, stype);
-    let meets = |partner: &SpriteType| own || comes(analysis, *partner);
-    removers(analysis, stype).into_iter().filter(meets).collect()
+    let appearing = appearing(analysis);
+    let comes = |stype: SpriteType| {
+        let is_sent = analysis.role(stype) == Role::Shot || appearing.contains(&stype);
+        is_sent || moves(analysis, stype)
+    };
+    let own = comes(stype);
+    removers(analysis, stype).into_iter().filter(|&partner| own || comes(partner)).collect()
 }
 
 /// Returns `true` if sprites of the type neither stop nor harm an avatar.
@@ -149,8 +157,9 @@ pub(super) fn swallowed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteTyp
 /// Returns the types that are removed or changed by contact with `stype`, except avatars.
 pub(super) fn spoilt_by(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let spoils = |other: SpriteType| {
-        let removers = removers(analysis, other);
-        other != stype && removers.into_iter().any(|remover| analysis.applies(remover, stype))
+        let first = analysis.between(other, stype).any(|encounter| encounter.ends(Side::First));
+        let is_spoilt = first || analysis.between(stype, other).any(|encounter| encounter.ends(Side::Second));
+        other != stype && is_spoilt
     };
     let things = analysis.game().sprite_types().filter(|&other| analysis.facts(other).possible);
     things.filter(|&other| !is_avatar(analysis, other) && spoils(other)).collect()
