@@ -1,7 +1,7 @@
 //! Tests the words of legends with small games, one for each kind of note.
 
 use engine::{Analysis, Game};
-use infinite_arcade_render::Looks;
+use infinite_arcade_render::{Glyph, Looks};
 
 /// Returns a game with these sprite lines, rules and terminations. A level character places the sprites of
 /// each line.
@@ -262,6 +262,12 @@ fn what_loses_is_not_the_way_to_win() {
     check(&game(&sprites, &[TAKE], &[WIN[0], lose]), &[("door", "the way to win")]);
     let early = "SpriteCounter stype=door limit=1 win=False";
     check(&game(&sprites, &[TAKE], &[WIN[0], early]), &[("door", "too few left, and you lose")]);
+
+    let glyph = |ends: &[&str]| {
+        let game = game(&sprites, &[TAKE], ends);
+        Looks::of(&Analysis::of(&game)).look(game.sprite_type("door").unwrap()).glyph
+    };
+    assert_eq!([glyph(&[lose, WIN[0]]), glyph(&[WIN[0], lose])], [Glyph::Ward, Glyph::Exit]);
 
     // The touch that wins also makes what loses.
     let sprites = ["door > Door", "alarm > Immovable"];

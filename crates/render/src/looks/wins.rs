@@ -1,7 +1,10 @@
-//! The parts of the rules that win or lose: terminations that can win, and meetings that lead to a win.
+//! The parts of the rules that win or lose: terminations that can win, and meetings that lead to a win. Only
+//! the first [`MAX_GOALS`] terminations count, which bounds the cost.
 
 use super::glyph::is_avatar;
-use engine::analysis::{Attainable, Condition, EffectSummary, Encounter, Goal, Precondition, Side};
+use engine::analysis::{
+    Attainable, Condition, EffectSummary, Encounter, Goal, MAX_GOALS, Precondition, Side,
+};
 use engine::{Analysis, SpriteType};
 
 /// The condition under which a touch leads to a win.
@@ -96,7 +99,8 @@ fn is_beaten(analysis: &Analysis, at: usize) -> bool {
     let within = |inner: &Condition, outer: &Condition| {
         !inner.types().is_empty() && inner.types().iter().all(|stype| outer.types().contains(stype))
     };
-    goals.iter().enumerate().filter(|(_, goal)| goal.win != wins && !goal.is_open()).any(|(index, goal)| {
+    let others = goals.iter().enumerate().take(MAX_GOALS);
+    others.filter(|(_, goal)| goal.win != wins && !goal.is_open()).any(|(index, goal)| {
         let Some(limit) = limit(&goal.condition) else { return false };
         let first = |is_sooner: bool| is_sooner || (limit == own_limit && index < at);
         match (wants_few(own), &goal.condition) {
@@ -121,21 +125,34 @@ pub(super) fn can_win(analysis: &Analysis, at: usize) -> bool {
     is_plain_win(analysis, at) && analysis.goals()[at].attainable == Attainable::InPlay
 }
 
-/// Returns the winning terminations that playing can fulfil.
-fn winning(analysis: &Analysis) -> impl Iterator<Item = &Goal> {
-    let goals = analysis.goals().iter().enumerate();
-    goals.filter(|(at, _)| can_win(analysis, *at)).map(|(_, goal)| goal)
+/// Returns the winning terminations that playing can fulfil and that count sprites of the type.
+fn winning(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = &Goal> {
+    let goals = analysis.goals().iter().enumerate().take(MAX_GOALS);
+    let counted = goals.filter(move |(_, goal)| goal.condition.types().contains(&stype));
+    counted.filter(|(at, _)| can_win(analysis, *at)).map(|(_, goal)| goal)
 }
 
 /// Returns `true` if a win requires that sprites of the type disappear.
 pub(super) fn is_to_go(analysis: &Analysis, stype: SpriteType) -> bool {
-    let is_counted = |goal: &Goal| wants_few(&goal.condition) && goal.condition.types().contains(&stype);
-    !is_avatar(analysis, stype) && winning(analysis).any(is_counted)
+    !is_avatar(analysis, stype) && winning(analysis, stype).any(|goal| wants_few(&goal.condition))
 }
 
 /// Returns `true` if a win requires that sprites of the type appear.
 pub(super) fn is_to_come(analysis: &Analysis, stype: SpriteType) -> bool {
-    winning(analysis).any(|goal| !wants_few(&goal.condition) && goal.condition.types().contains(&stype))
+    winning(analysis, stype).any(|goal| !wants_few(&goal.condition))
+}
+
+/// Returns `true` if the type, or what its touch brings, counts towards a termination that wins, or may win,
+/// and that no loss always precedes.
+pub(super) fn may_win(analysis: &Analysis, stype: SpriteType) -> bool {
+    let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    let brought: Vec<SpriteType> =
+        touches.flat_map(|touch| touch.makes.iter().chain(&touch.changes).copied()).collect();
+    analysis.goals().iter().enumerate().take(MAX_GOALS).any(|(at, goal)| {
+        let types = goal.condition.types();
+        let is_counted = types.contains(&stype) || brought.iter().any(|made| types.contains(made));
+        is_counted && (goal.is_open() || is_plain_win(analysis, at))
+    })
 }
 
 /// Returns `true` if the type's sprites count towards a termination that wins or loses depending on the
@@ -156,7 +173,7 @@ pub(super) fn is_to_keep(analysis: &Analysis, stype: SpriteType) -> bool {
             && goal.condition.types().contains(&stype)
             && !is_beaten(analysis, at)
     };
-    !is_avatar(analysis, stype) && analysis.goals().iter().enumerate().any(loses)
+    !is_avatar(analysis, stype) && analysis.goals().iter().enumerate().take(MAX_GOALS).any(loses)
 }
 
 /// Returns `true` if the game is lost when no sprite of `stype` is left because all of them are removed, or
@@ -339,8 +356,7 @@ pub(super) fn is_one_of_several(analysis: &Analysis, stype: SpriteType) -> bool 
         let facts = analysis.facts(*other);
         *other != stype && facts.possible && facts.concrete
     };
-    let mut counted = winning(analysis)
-        .filter(|goal| wants_few(&goal.condition) && goal.condition.types().contains(&stype));
+    let mut counted = winning(analysis, stype).filter(|goal| wants_few(&goal.condition));
     let is_shared = |goal: &Goal| goal.condition.types().iter().any(is_other);
     let first = counted.next();
     first.is_some_and(is_shared) && counted.all(is_shared)
