@@ -1,7 +1,7 @@
 //! Tests the words of legends with small games, one for each kind of note.
 
 use engine::{Analysis, Game};
-use infinite_arcade_render::Looks;
+use infinite_arcade_render::{Glyph, Looks};
 
 /// Returns a game with these sprite lines, rules and terminations. A level character places the sprites of
 /// each line.
@@ -177,4 +177,237 @@ fn thieves_and_brittle_ground_name_what_changes() {
     let ends = [WIN[0], "SpriteCounter stype=egg limit=0 win=False"];
     let expected = [("thief", "chases egg, takes egg"), ("plank", "becomes gap when touched")];
     check(&game(&sprites, &rules, &ends), &expected);
+}
+
+const TAKE: &str = "door hero > killSprite";
+
+#[test]
+fn what_a_resource_is_spent_on_does_not_need_it() {
+    let sprites =
+        ["gong > Immovable", "key > Resource limit=9", "rung > Immovable", "bear > PathChaser stype=hero"];
+    let rules = [
+        "hero gong > spawnIfHasMore resource=key limit=1 spend=1 stype=bear",
+        "gong hero > transformTo stype=rung",
+        "key hero > collectResource",
+        "hero bear > killSprite",
+    ];
+    let ends = ["SpriteCounter stype=gong limit=0 win=True"];
+    let gong = game(&sprites, &rules, &ends);
+    check(&gong, &[("gong", "take it to win"), ("key", "spent at gong: makes bear")]);
+
+    // A toll takes something, and gives nothing.
+    let sprites = ["toll > Immovable", "coin > Resource limit=9", "door > Door"];
+    let rules = ["coin hero > collectResource", "hero toll > changeResource resource=coin value=-1", TAKE];
+    check(&game(&sprites, &rules, WIN), &[("coin", "spent at toll"), ("toll", "takes your coin")]);
+
+    // A wall that takes something and gives something else.
+    let sprites = ["oven > Immovable", "straw > Resource limit=9", "bun > Resource limit=9", "door > Door"];
+    let rules = [
+        "hero oven > spawnIfHasMore resource=straw limit=1 spend=1 stype=bun",
+        "hero oven > stepBack",
+        "straw hero > collectResource",
+        "bun hero > collectResource",
+        "door hero > killIfOtherHasMore resource=bun limit=2",
+    ];
+    let oven = game(&sprites, &rules, WIN);
+    let expected = [
+        ("straw", "spent at oven: makes bun"),
+        ("oven", "straw here makes bun, solid"),
+        ("bun", "needed for door"),
+        ("door", "the way to win, needs 2 bun"),
+    ];
+    check(&oven, &expected);
+}
+
+#[test]
+fn a_key_is_needed_only_if_it_is_the_only_means() {
+    let sprites = ["gate > Immovable", "key > Resource limit=1", "door > Door", "goat > RandomNPC"];
+    let rules = [
+        "gate hero > killIfOtherHasMore resource=key limit=1",
+        "hero gate > stepBack",
+        "key hero > collectResource",
+        TAKE,
+        "gate goat > killSprite",
+    ];
+    check(&game(&sprites, &rules[..4], WIN), &[("key", "needed for gate"), ("gate", "needs key")]);
+    check(&game(&sprites, &rules, WIN), &[("key", "opens gate")]);
+    // A chest that bars nothing and wins nothing.
+    let chest = [rules[0], rules[2], TAKE];
+    check(&game(&sprites, &chest, WIN), &[("key", "removes gate")]);
+    // The loss of what the key removes loses the game.
+    let ends = [WIN[0], "SpriteCounter stype=gate limit=0 win=False"];
+    check(&game(&sprites, &rules[..4], &ends), &[("key", "opens gate")]);
+}
+
+#[test]
+fn resources_that_protect_or_weigh_say_so() {
+    let sprites = ["ice > Immovable", "sack > Resource limit=9", "door > Door"];
+    let collect = "sack hero > collectResource";
+    let rules = [collect, "hero ice > killIfHasMore resource=sack limit=2", TAKE];
+    let ice = game(&sprites, &rules, WIN);
+    check(&ice, &[("ice", "deadly with 2 sack"), ("sack", "2 are deadly at ice")]);
+    let rules = [collect, "hero ice > killIfHasLess resource=sack limit=1", TAKE];
+    let ice = game(&sprites, &rules, WIN);
+    check(&ice, &[("ice", "deadly without 2 sack"), ("sack", "protects from ice")]);
+    // A second rule kills in any case.
+    let rules = [rules[0], rules[1], rules[2], "hero ice > killSprite"];
+    check(&game(&sprites, &rules, WIN), &[("ice", "deadly")]);
+}
+
+#[test]
+fn what_loses_is_not_the_way_to_win() {
+    let sprites = ["door > Door"];
+    let lose = "SpriteCounter stype=door limit=0 win=False";
+    check(&game(&sprites, &[TAKE], &[lose, WIN[0]]), &[("door", "too few left, and you lose")]);
+    check(&game(&sprites, &[TAKE], &[WIN[0], lose]), &[("door", "the way to win")]);
+    let early = "SpriteCounter stype=door limit=1 win=False";
+    check(&game(&sprites, &[TAKE], &[WIN[0], early]), &[("door", "too few left, and you lose")]);
+
+    let glyph = |ends: &[&str]| {
+        let game = game(&sprites, &[TAKE], ends);
+        Looks::of(&Analysis::of(&game)).look(game.sprite_type("door").unwrap()).glyph
+    };
+    assert_eq!([glyph(&[lose, WIN[0]]), glyph(&[WIN[0], lose])], [Glyph::Ward, Glyph::Exit]);
+
+    // The touch that wins also makes what loses.
+    let sprites = ["door > Door", "alarm > Immovable"];
+    let rules = ["door hero > spawn stype=alarm", TAKE];
+    let ends = ["SpriteCounterMore stype=alarm limit=1 win=False", WIN[0]];
+    check(&game(&sprites, &rules, &ends), &[("door", "must go for the win"), ("alarm", "one, and you lose")]);
+
+    // A touch that kills the player is no way to win.
+    let sprites = ["door > Door"];
+    check(&game(&sprites, &["door hero > killBoth"], WIN), &[("door", "must go for the win, deadly")]);
+
+    // Some wins and more loses.
+    let sprites = ["egg > Immovable", "nest > Immovable"];
+    let rules = ["egg hero > transformTo stype=nest"];
+    let ends =
+        ["SpriteCounterMore stype=nest limit=2 win=True", "SpriteCounterMore stype=nest limit=5 win=False"];
+    check(&game(&sprites, &rules, &ends), &[("nest", "2 win; 5, and you lose")]);
+    let ends =
+        ["SpriteCounterMore stype=nest limit=5 win=True", "SpriteCounterMore stype=nest limit=2 win=False"];
+    check(&game(&sprites, &rules, &ends), &[("nest", "2, and you lose")]);
+}
+
+#[test]
+fn the_score_may_decide_between_winning_and_losing() {
+    let ends = ["SpriteCounter stype=door limit=0 win=True count_score=True"];
+    check(&game(&["door > Door"], &[TAKE], &ends), &[("door", "may win or lose the game")]);
+}
+
+#[test]
+fn conditions_of_winning_touches_are_told() {
+    let sprites = ["cave > Immovable", "vine > Immovable", "open > Immovable"];
+    let cave = |count: &str| format!("cave hero > transformIfCount stypeCount=vine {count} stype=open");
+    let ends = ["SpriteCounter stype=cave limit=0 win=True"];
+    let vine = "vine hero > killSprite";
+    let check_with = |count: &str, expected: &str| {
+        check(&game(&sprites, &[&cave(count), vine], &ends), &[("cave", expected)]);
+    };
+    check_with("leq=0", "take it to win, once no vine is left");
+    check_with("leq=2", "take it to win, with at most 2 vine left");
+    check_with("geq=2", "take it to win, needs 2 vine");
+    check_with("geq=0 leq=0", "take it to win, once no vine is left");
+    check_with("geq=1 leq=2", "take it to win, but not always");
+
+    // The touch loses the game unless the condition holds.
+    let sprites = ["cave > Immovable", "vine > Immovable", "open > Immovable", "shut > Immovable"];
+    let cave = "cave hero > transformIfCount stypeCount=vine leq=0 stype=open estype=shut";
+    let lose = "SpriteCounterMore stype=shut limit=1 win=False";
+    let expected = "take it to win, once no vine is left, or lose";
+    check(&game(&sprites, &[cave, vine], &[lose, ends[0]]), &[("cave", expected)]);
+
+    // Two resources open the same door.
+    let sprites = ["axe > Resource limit=1", "key > Resource limit=1", "door > Door"];
+    let rules = [
+        "axe hero > collectResource",
+        "key hero > collectResource",
+        "door hero > killIfOtherHasMore resource=axe limit=1",
+        "door hero > killIfOtherHasMore resource=key limit=1",
+        "hero door > stepBack",
+    ];
+    let either = [("door", "the way to win, needs axe or key"), ("axe", "opens door"), ("key", "opens door")];
+    check(&game(&sprites, &rules, WIN), &either);
+
+    let sprites = ["door > Door", "latch > Door"];
+    let rules = ["door hero > killSprite", "latch hero > killSprite"];
+    let ends = ["MultiSpriteCounter stype1=door stype2=latch limit=0 win=True"];
+    check(&game(&sprites, &rules, &ends), &[("door", "part of the win"), ("latch", "part of the win")]);
+}
+
+#[test]
+fn others_are_brought_only_where_they_win() {
+    let rules = ["hen coop > spawn stype=lost", "hen coop > killSprite", "hen hero > killSprite"];
+    let sprites = ["hen > PathChaser stype=hero", "coop > Immovable", "lost > Immovable"];
+    let ends = ["SpriteCounterMore stype=lost limit=1 win=False", "SpriteCounter stype=hen limit=0 win=True"];
+    check(&game(&sprites, &rules, &ends), &[("coop", "keep hen away")]);
+
+    let push = "tub hero > bounceForward";
+    let sprites = ["drain > Immovable", "tub > Passive", "door > Door"];
+    let drain = game(&sprites, &[push, "tub drain > killSprite", TAKE], WIN);
+    check(&drain, &[("drain", "swallows tub"), ("tub", "can be pushed, lost at drain")]);
+    let ends = [WIN[0], "SpriteCounter stype=tub limit=0 win=False"];
+    let drain = game(&sprites, &[push, "drain tub > killBoth", TAKE], &ends);
+    check(&drain, &[("drain", "swallows tub"), ("tub", "can be pushed, lost at drain")]);
+}
+
+#[test]
+fn what_must_be_kept_is_not_to_be_taken() {
+    let sprites = ["egg > Immovable", "door > Door"];
+    let ends = [WIN[0], "SpriteCounter stype=egg limit=0 win=False"];
+    let rules = ["egg hero > killSprite", TAKE];
+    check(&game(&sprites, &rules, &ends), &[("egg", "too few left, and you lose")]);
+}
+
+#[test]
+fn obstacles_that_something_removes_do_not_block_for_good() {
+    let sprites =
+        ["vine > Immovable", "bell > Immovable", "goat > RandomNPC", "door > Door", "hedge > Immovable"];
+    let stop = "hero vine hedge > stepBack";
+    let rung = game(&sprites, &[stop, "bell goat > killAll stype=vine", TAKE], WIN);
+    check(&rung, &[("vine", "opened by bell"), ("bell", "goat here removes vine")]);
+    let grown = game(&sprites, &[stop, "bell goat > transformToAll stype=vine stypeTo=hedge", TAKE], WIN);
+    check(&grown, &[("vine", "changed by bell")]);
+    let grown = game(&sprites, &[stop, "vine goat > transformTo stype=hedge", TAKE], WIN);
+    check(&grown, &[("vine", "solid, changed by goat")]);
+    let timed = game(&sprites, &[stop, "vine TIME > killSprite timer=9", TAKE], WIN);
+    check(&timed, &[("vine", "solid"), ("wall", "blocks the way for good")]);
+    // Nothing brings the bell to the vine.
+    let apart = game(&sprites, &[stop, "vine bell > killSprite", TAKE], WIN);
+    check(&apart, &[("vine", "solid")]);
+}
+
+#[test]
+fn health_is_about_the_player() {
+    let sprites = ["pond > Immovable", "goat > RandomNPC", "door > Door"];
+    let goat = game(&sprites, &["goat pond > addHealthPoints value=1", TAKE], WIN);
+    check(&goat, &[("pond", "harmless")]);
+    let hero = game(&sprites, &["hero pond > addHealthPoints value=1", TAKE], WIN);
+    check(&hero, &[("pond", "heals you")]);
+}
+
+#[test]
+fn movers_that_take_something_are_not_harmless() {
+    let sprites = ["goat > RandomNPC", "key > Resource limit=1", "door > Door"];
+    let unlock = "door hero > killIfOtherHasMore resource=key limit=1";
+    let rules = ["key hero > collectResource", unlock, "key goat > killSprite"];
+    check(&game(&sprites, &rules, WIN), &[("goat", "wanders, takes key")]);
+    let rules = [rules[0], unlock, "hero goat > changeResource resource=key value=-1"];
+    check(&game(&sprites, &rules, WIN), &[("goat", "wanders, takes your key")]);
+    let rules = [rules[0], unlock, "goat hero > killSprite scoreChange=1"];
+    check(&game(&sprites, &rules, WIN), &[("goat", "wanders, take it for points")]);
+    let sprites = ["goat > RandomNPC", "tub > Passive", "door > Door"];
+    let rules = ["tub hero > bounceForward", "tub goat > killSprite", TAKE];
+    check(&game(&sprites, &rules, WIN), &[("goat", "wanders, takes tub")]);
+}
+
+#[test]
+fn prey_that_no_known_way_removes_is_not_to_be_caught() {
+    let sprites = ["moth > RandomNPC", "lamp > Immovable"];
+    let ends = ["SpriteCounter stype=moth limit=0 win=True"];
+    let lit = game(&sprites, &["lamp hero > killAll stype=moth"], &ends);
+    check(&lit, &[("moth", "touch lamp to win, wanders"), ("lamp", "touch it to change moth")]);
+    let timed = game(&sprites, &["moth EOS > killSprite"], &ends);
+    check(&timed, &[("moth", "must go for the win, wanders")]);
 }

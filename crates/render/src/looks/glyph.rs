@@ -3,6 +3,7 @@
 use super::art::Art;
 use super::colour;
 use super::colour::Colour;
+use super::wins;
 use crate::looks::art::{creatures, ground, passages, shots, things};
 use engine::analysis::{EffectSummary, Harm, Key, Motion, Role, Steering};
 use engine::{Analysis, SpriteClass, SpriteType};
@@ -96,8 +97,25 @@ glyphs! {
 }
 
 impl Glyph {
-    /// Chooses a sprite type's glyph: by its role first, then by its movement and its purpose.
+    /// Chooses a sprite type's glyph: by its role first, then by its movement and its purpose. A type has no
+    /// star if the game is always lost before the type can win it.
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Glyph {
+        let glyph = Glyph::by_role(analysis, stype);
+        let plain = match glyph {
+            Glyph::Exit | Glyph::Treasure => Glyph::Gem,
+            Glyph::Prey => Glyph::Friend,
+            Glyph::Target => Glyph::Neutral,
+            Glyph::Peril => Glyph::Hazard,
+            _ => return glyph,
+        };
+        match wins::may_win(analysis, stype) {
+            true => glyph,
+            false if plain != Glyph::Hazard && wins::is_to_keep(analysis, stype) => Glyph::Ward,
+            false => plain,
+        }
+    }
+
+    fn by_role(analysis: &Analysis, stype: SpriteType) -> Glyph {
         let facts = analysis.facts(stype);
         let wanted = analysis.aims().remove.contains(&stype);
         let still = facts.motion == Motion::Still;

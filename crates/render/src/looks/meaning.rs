@@ -2,9 +2,14 @@
 
 use super::figure::Form;
 use super::glyph::{Glyph, changes_speed, is_avatar, is_spoilt};
-use super::remarks;
-use engine::analysis::{Condition, EffectSummary, Encounter, Goal, Harm, Key, Motion, Role};
-use engine::{Analysis, SpriteType};
+use super::{payments, remarks, wins};
+use engine::analysis::{
+    Attainable, Condition, EffectSummary, Encounter, Harm, Key, Motion, Precondition, Role, Side,
+};
+use engine::{Analysis, Direction, SpriteType};
+
+/// The note for a type that does nothing to the avatar.
+const HARMLESS: &str = "harmless";
 
 /// Returns the types that a type's sprites open, and the types that use up the resource that the type is or
 /// gives.
@@ -19,7 +24,8 @@ fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
 /// Returns the types whose sprites all disappear or change when the avatar touches `stype`.
 fn opened(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let avatars = analysis.avatars().iter();
-    avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied()).collect()
+    let opened = avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied());
+    opened.filter(|opened| analysis.facts(*opened).possible && *opened != stype).collect()
 }
 
 /// Returns the types from [`opened`], the types that `stype` opens or pays for, and the type whose speed it
@@ -29,31 +35,41 @@ fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     opened.chain(uses(analysis, stype)).chain(changes_speed(analysis, stype)).collect()
 }
 
-/// Returns a description of how a certain number of the type's sprites ends the game, if this is possible:
-/// `2 win`, `one, and you lose`.
+/// Returns a description of how a certain number of the type's sprites ends the game, if this is possible: `2
+/// win`, `one, and you lose`. If one number wins and another loses, both are told.
 fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
-    let mut goals: Vec<&Goal> = analysis.goals().iter().collect();
-    goals.sort_by_key(|goal| !goal.win);
-    goals.into_iter().find_map(|goal| {
+    let mut endings: Vec<(bool, String)> = Vec::new();
+    for (at, goal) in analysis.goals().iter().enumerate() {
         let (degree, types, limit) = match &goal.condition {
             Condition::AtLeast(types, limit) => ("", types, limit),
             Condition::Exactly(types, limit) if !goal.win && analysis.only_falls(types) => {
                 ("only ", types, limit)
             }
             Condition::Exactly(types, limit) => ("exactly ", types, limit),
-            Condition::AtMost(..) | Condition::Tick(_) => return None,
+            Condition::AtMost(..) | Condition::Tick(_) => continue,
         };
-        if *limit <= 0 || !types.contains(&stype) {
-            return None;
+        let is_real = if goal.win && !goal.is_open() {
+            wins::can_win(analysis, at)
+        } else {
+            goal.attainable != Attainable::Never
+        };
+        if *limit <= 0 || !types.contains(&stype) || !is_real {
+            continue;
         }
         let count = format!("{degree}{limit}{}", if types.len() > 1 { " in all" } else { "" });
-        Some(match (goal.win, count.as_str()) {
+        let text = match (goal.win, count.as_str()) {
+            _ if goal.is_open() => format!("{count} may win or lose"),
             (true, "1") => "one wins".to_owned(),
             (true, count) => format!("{count} win"),
             (false, "1") => "one, and you lose".to_owned(),
             (false, count) => format!("{count}, and you lose"),
-        })
-    })
+        };
+        endings.push((!goal.win, text));
+    }
+    endings.sort_by_key(|(loses, _)| *loses);
+    endings.dedup_by_key(|(loses, _)| *loses);
+    let texts: Vec<String> = endings.into_iter().map(|(_, text)| text).collect();
+    (!texts.is_empty()).then(|| texts.join("; "))
 }
 
 /// Returns the resource that the avatar receives from a type.
@@ -70,42 +86,128 @@ fn becomes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     Some(format!("makes you {}", analysis.game().name(becomes)))
 }
 
-/// Returns a description for a type that changes the health of sprites that touch it, or `None`.
+/// Returns a description for a type whose touch gives the avatar health, or `None`.
 fn health(analysis: &Analysis, stype: SpriteType) -> Option<String> {
-    let heals = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
-    let is_met = |second: Option<SpriteType>| second.is_some_and(|second| analysis.applies(second, stype));
-    let mut encounters = analysis.encounters().iter();
-    let changes = encounters.any(|encounter| is_met(encounter.second) && encounter.does(heals));
-    changes.then(|| "changes your health".to_owned())
+    let heals = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by > 0);
+    let mut avatars = analysis.avatars().iter();
+    let is_healed = avatars.any(|avatar| {
+        wins::met(analysis, avatar.stype, stype)
+            .any(|(encounter, own)| own == Side::First && encounter.does(heals))
+    });
+    is_healed.then(|| "heals you".to_owned())
 }
 
-/// Returns a description of the avatar's benefit from an item that no rule requires.
+/// Returns a description of the change of a sprite that the avatar touches: `becomes gap when touched`, or
+/// `may become gap when touched` if the change depends on something.
+fn changes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
+    let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    let to = touches.find_map(|touch| touch.changes)?;
+    let certain = analysis.avatars().iter().all(|avatar| {
+        let becomes = |effect: &EffectSummary| *effect == EffectSummary::Become(to);
+        let mut met = wins::met(analysis, avatar.stype, stype);
+        met.any(|(encounter, own)| {
+            own == Side::Second && encounter.does(becomes) && encounter.precondition == Precondition::Always
+        })
+    });
+    let verb = if certain { "becomes" } else { "may become" };
+    Some(format!("{verb} {} when touched", analysis.game().name(to)))
+}
+
+/// Returns a description of the sprites that appear when the avatar touches a type.
+fn makes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
+    let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    let made: Vec<SpriteType> = touches.flat_map(|touch| touch.makes.iter().copied()).collect();
+    Some(format!("makes {} when touched", remarks::names(analysis, &made)?))
+}
+
+/// Returns a description of the effect on the avatar of an item that no rule requires.
 fn gain(analysis: &Analysis, stype: SpriteType) -> String {
-    if let Some(effect) = becomes(analysis, stype).or_else(|| health(analysis, stype)) {
-        return effect;
-    }
     let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
-    if let Some(to) = touches().find_map(|touch| touch.changes) {
-        return format!("becomes {} when touched", analysis.game().name(to));
-    }
-    match touches().map(|touch| touch.score).max() {
-        Some(score) if score > 0 => "take it for points".to_owned(),
-        _ => Glyph::Gem.meaning().to_owned(),
-    }
+    let points = || {
+        let best = touches().map(|touch| touch.score).max();
+        let taken = touches().any(|touch| touch.ends_other() || touch.opens.contains(&stype));
+        let worth = if taken { "take it for points" } else { "touch it for points" };
+        best.filter(|score| *score > 0).map(|_| worth.to_owned())
+    };
+    let locked = || {
+        let is_own = |lock: &&engine::analysis::Lock| lock.stype == stype;
+        analysis.locks().iter().find(is_own).and_then(|_| requirement(analysis, stype))
+    };
+    becomes(analysis, stype)
+        .or_else(|| health(analysis, stype))
+        .or_else(|| payments::paid_here(analysis, stype))
+        .or_else(|| changes(analysis, stype))
+        .or_else(|| makes(analysis, stype))
+        .or_else(locked)
+        .or_else(|| {
+            Some(format!("touch it to change {}", remarks::names(analysis, &opened(analysis, stype))?))
+        })
+        .or_else(|| {
+            Some(format!("gives {}", given(analysis, stype)?)).filter(|_| !is_resource(analysis, stype))
+        })
+        .or_else(points)
+        .unwrap_or_else(|| Glyph::Gem.meaning().to_owned())
 }
 
-/// Returns the types whose contact with any sprite changes all sprites of `stype`. Avatars are excluded,
-/// because an avatar moves to the contact itself. Types that turn into `stype` by themselves and back again
-/// are excluded, too.
+fn is_resource(analysis: &Analysis, stype: SpriteType) -> bool {
+    analysis.facts(stype).is_resource
+}
+
+/// Returns the types whose contact with any sprite removes or changes all sprites of `stype`. Avatars are
+/// excluded, because an avatar moves to the contact itself. Types that turn into `stype` by themselves and
+/// back again are excluded, too.
 fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
-    let opens =
-        |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
+    let is_place = |written: SpriteType| analysis.role(written) == Role::Floor;
     let thing = |encounter: &Encounter| match is_avatar(analysis, encounter.first) {
         true => encounter.second,
+        false if is_place(encounter.first) => encounter.second.filter(|second| !is_avatar(analysis, *second)),
         false => Some(encounter.first),
     };
-    let things = analysis.encounters().iter().filter(|encounter| encounter.does(opens)).filter_map(thing);
-    things.filter(|&opener| !alternates(analysis, opener, stype)).collect()
+    let can_be = |written: SpriteType| {
+        let mut types = analysis.game().sprite_types().filter(|stype| analysis.applies(written, *stype));
+        types.any(|stype| analysis.facts(stype).possible)
+    };
+    let is_possible =
+        |encounter: &&Encounter| can_be(encounter.first) && encounter.second.is_some_and(can_be);
+    let changing = analysis.encounters().iter().filter(|encounter| changes_all(encounter, stype));
+    let things = changing.filter(is_possible).filter_map(thing);
+    things.filter(|&opener| opener != stype && !alternates(analysis, opener, stype)).collect()
+}
+
+/// Returns `true` if an encounter removes or changes all sprites of a type.
+fn changes_all(encounter: &Encounter, stype: SpriteType) -> bool {
+    encounter.does(|effect| match effect {
+        EffectSummary::KillAll(of) | EffectSummary::BecomeAll(of, _) => *of == stype,
+        _ => false,
+    })
+}
+
+/// Returns `opened` if every change of all sprites of a type lets the avatar pass, and otherwise `changed`.
+fn opening_verb(analysis: &Analysis, stype: SpriteType) -> &'static str {
+    let bars = |effect: &EffectSummary| match effect {
+        EffectSummary::BecomeAll(from, to) => *from == stype && !remarks::is_passable(analysis, *to),
+        _ => false,
+    };
+    let bars = analysis.encounters().iter().any(|encounter| encounter.does(bars));
+    if bars { "changed" } else { "opened" }
+}
+
+/// Returns `true` if a rule that the passing of time triggers names the type or one of its groups.
+fn is_timed(analysis: &Analysis, stype: SpriteType) -> bool {
+    let game = analysis.game();
+    let concerns = |text: &str| {
+        let mut names = text.split(',').filter_map(|name| game.sprite_type(name.trim()));
+        names.any(|named| analysis.applies(named, stype))
+    };
+    let is_clock = |name: &str| name == "TIME";
+    game.description().interactions.iter().any(|line| {
+        let timed = is_clock(&line.first.text)
+            || line.second.iter().any(|second| is_clock(&second.text))
+            || line.effect.text == "addTimer";
+        let named = concerns(&line.first.text) && line.effect.text != "addTimer";
+        let params = line.params.iter().any(|param| concerns(&param.value.text));
+        timed && (named || params)
+    })
 }
 
 /// Returns `true` if a switch turns into the type that it opens, like a portal that is closed for some
@@ -114,14 +216,14 @@ fn alternates(analysis: &Analysis, switch: SpriteType, stype: SpriteType) -> boo
     analysis.turns(switch).iter().any(|(becomes, _)| *becomes == stype)
 }
 
-/// Returns `true` if some encounter changes all sprites of a type together.
+/// Returns `true` if some encounter turns all sprites of a type into another type together.
 fn changes_as_a_whole(analysis: &Analysis, stype: SpriteType) -> bool {
     let changes =
         |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
     analysis.encounters().iter().any(|encounter| encounter.does(changes))
 }
 
-/// Returns the type of which `stype` is a later state.
+/// Returns the type of which `stype` is a later state. A type that levels place is not only a later state.
 fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     let possible = |from: SpriteType| analysis.facts(from).possible && !is_avatar(analysis, from);
     let change = |encounter: &Encounter| {
@@ -131,15 +233,21 @@ fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
             _ => None,
         })
     };
-    analysis.encounters().iter().filter_map(change).find(|&from| possible(from))
+    let is_placed = !analysis.facts(stype).symbols.is_empty();
+    analysis.encounters().iter().filter_map(change).find(|&from| possible(from) && !is_placed)
 }
 
 /// Returns a description of how a motionless type affects other sprites that reach it. The type removes
 /// sprites that must disappear for the win, or changes all sprites of a type. Rules about sprites that
 /// neither move nor are shot are omitted, because such sprites cannot reach the type.
 fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
-    let (game, wanted) = (analysis.game(), &analysis.aims().remove);
-    if let Some(taken) = remarks::swallowed(analysis, stype).iter().find(|taken| wanted.contains(taken)) {
+    let game = analysis.game();
+    let brought = |taken: &&SpriteType| {
+        wins::is_to_go(analysis, **taken)
+            && !wins::is_to_keep(analysis, **taken)
+            && !wins::is_in_vain(analysis, **taken, stype)
+    };
+    if let Some(taken) = remarks::swallowed(analysis, stype).iter().find(brought) {
         return Some(format!("bring {} here to win", game.name(*taken)));
     }
     let comes = |other: &SpriteType| {
@@ -147,11 +255,17 @@ fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
         is_shot || remarks::moves(analysis, *other)
     };
     game.sprite_types().filter(comes).find_map(|other| {
-        let mut effects = analysis.between(stype, other).flat_map(|encounter| &encounter.effects);
-        let changed = effects.find_map(|effect| {
-            if let EffectSummary::BecomeAll(from, _) = effect { Some(*from) } else { None }
+        let met = analysis.between(stype, other).chain(analysis.between(other, stype));
+        let (verb, changed) = met.flat_map(|encounter| &encounter.effects).find_map(|effect| {
+            let (verb, of) = match effect {
+                EffectSummary::BecomeAll(from, _) => ("changes", *from),
+                EffectSummary::KillAll(of) => ("removes", *of),
+                _ => return None,
+            };
+            let is_thing = analysis.facts(of).possible && !is_avatar(analysis, of);
+            is_thing.then_some((verb, of))
         })?;
-        Some(format!("{} here changes {}", game.name(other), game.name(changed)))
+        Some(format!("{} here {verb} {}", game.name(other), game.name(changed)))
     })
 }
 
@@ -211,15 +325,21 @@ fn requirement(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let game = analysis.game();
     let lock = analysis.locks().iter().find(|lock| lock.stype == stype)?;
     Some(match lock.key {
-        Key::Resource { resource, amount: 1, .. } => format!("needs {}", game.name(resource)),
-        Key::Resource { resource, amount, .. } => format!("needs {amount} {}", game.name(resource)),
+        Key::Resource { resource, amount, .. } => {
+            let keys = payments::keys(analysis, stype);
+            let keys = if keys.is_empty() { vec![(resource, amount)] } else { keys };
+            format!("needs {}", wins::alternatives(analysis, &keys))
+        }
         Key::Avatar(avatar) => format!("only as {}", game.name(avatar)),
         Key::Switch(switch, _) if alternates(analysis, switch, stype) => "solid for a while".to_owned(),
         Key::Switch(switch, None) if analysis.role(switch) == Role::Floor => "solid as it is".to_owned(),
         Key::Switch(switch, Some(pushed)) => {
-            format!("opened by {} on {}", game.name(pushed), game.name(switch))
+            let verb = opening_verb(analysis, stype);
+            format!("{verb} by {} on {}", game.name(pushed), game.name(switch))
         }
-        Key::Switch(switch, None) => format!("opened by {}", game.name(switch)),
+        Key::Switch(switch, None) => {
+            format!("{} by {}", opening_verb(analysis, stype), game.name(switch))
+        }
     })
 }
 
@@ -234,78 +354,130 @@ fn solid(analysis: &Analysis, stype: SpriteType) -> String {
     if let Some(names) = remarks::names(analysis, &own) {
         return format!("touch it to change {names}");
     }
+    let cleared = remarks::names(analysis, &remarks::clearers(analysis, stype));
+    if let Some(paid) = payments::paid_here(analysis, stype) {
+        return match cleared {
+            Some(clearers) => format!("{paid}, cleared by {clearers}"),
+            None => format!("{paid}, solid"),
+        };
+    }
+    if let Some(use_of) = use_of_others(analysis, stype) {
+        return format!("solid, {use_of}");
+    }
     let things = opening_things(analysis, stype);
     if let Some(things) = remarks::names(analysis, &things) {
-        return format!("opened by {things}");
+        return format!("{} by {things}", opening_verb(analysis, stype));
     }
     if changes_as_a_whole(analysis, stype) {
         let passing = openers(analysis, stype).is_empty();
         return if passing { "solid for a while" } else { "solid as it is" }.to_owned();
     }
-    if let Some(removers) = remarks::names(analysis, &remarks::removers(analysis, stype)) {
-        return format!("solid, cleared by {removers}");
+    if let Some(clearers) = cleared {
+        return format!("solid, cleared by {clearers}");
     }
+    if let Some(made) = makes(analysis, stype) {
+        return format!("{made}, solid");
+    }
+    let changers = remarks::names(analysis, &remarks::reachable_removers(analysis, stype));
+    let ends = |encounter: &Encounter| {
+        changes_all(encounter, stype)
+            || (analysis.applies(encounter.first, stype) && encounter.ends(Side::First))
+            || (encounter.second.is_some_and(|second| analysis.applies(second, stype))
+                && encounter.ends(Side::Second))
+    };
     match earlier(analysis, stype) {
+        _ if changers.is_some() => format!("solid, changed by {}", changers.unwrap_or_default()),
         _ if !analysis.turns(stype).is_empty() => "solid as it is".to_owned(),
         Some(from) => format!("was {}, solid", analysis.game().name(from)),
+        None if analysis.encounters().iter().any(ends) || is_timed(analysis, stype) => "solid".to_owned(),
         None => Glyph::Wall.meaning().to_owned(),
     }
 }
 
-/// Returns the meaning of a type that must be touched for the win.
+/// Returns the meaning of a type that must be touched for the win, with the condition under which the touch
+/// counts.
 fn goal(analysis: &Analysis, stype: SpriteType, meaning: &str) -> String {
-    let touches =
-        || analysis.avatars().iter().map(|avatar| (avatar.stype, analysis.touch(avatar.stype, stype)));
-    if let Some(Key::Resource { .. } | Key::Avatar(_)) =
-        analysis.locks().iter().find(|lock| lock.stype == stype).map(|lock| &lock.key)
-        && touches().all(|(_, touch)| touch.changes.is_none())
-        && let Some(requirement) = requirement(analysis, stype)
-    {
-        return format!("{meaning}, {requirement}");
+    let Some((able, terms)) = wins::able(analysis, stype) else {
+        return remarks::win_by_removing(analysis, stype).unwrap_or_else(|| unwon(analysis, stype));
+    };
+    let some = able.len() < analysis.avatars().len();
+    let only = remarks::names(analysis, &able).filter(|_| some);
+    let only = only.map_or(String::new(), |names| format!(", only as {names}"));
+    let is_part = wins::is_one_of_several(analysis, stype) && meaning == Glyph::Exit.meaning();
+    let meaning = if is_part { "part of the win" } else { meaning };
+    format!("{meaning}{only}{}", terms.note(analysis))
+}
+
+/// Returns the meaning of a type that looks like a goal, but to which no known way of winning leads.
+fn unwon(analysis: &Analysis, stype: SpriteType) -> String {
+    if wins::is_to_go(analysis, stype) {
+        return Glyph::Target.meaning().to_owned();
     }
-    let able = touches().filter(|(_, touch)| {
-        touch.ends_other() || touch.makes.iter().any(|made| analysis.aims().create.contains(made))
-    });
-    let able: Vec<SpriteType> = able.map(|(avatar, _)| avatar).collect();
-    match remarks::names(analysis, &able) {
-        Some(names) if able.len() < analysis.avatars().len() => format!("{meaning}, only as {names}"),
-        _ => meaning.to_owned(),
+    if wins::is_open(analysis, stype) {
+        return "may win or lose the game".to_owned();
     }
+    if wins::is_to_keep(analysis, stype) {
+        return "too few left, and you lose".to_owned();
+    }
+    let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    let taken = touches().any(|touch| touch.ends_other() || touch.gives.iter().any(|(_, by)| *by > 0));
+    match requirement(analysis, stype) {
+        Some(requirement) => requirement,
+        None if taken => gain(analysis, stype),
+        None => neutral(analysis, stype),
+    }
+}
+
+/// Returns the types that bring something forbidden when they reach sprites of `stype`.
+fn spoilers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+    let brings = |effect: &EffectSummary| match effect {
+        EffectSummary::Make(to) | EffectSummary::Become(to) => analysis.aims().prevent.contains(to),
+        _ => false,
+    };
+    let spoils = |other: &SpriteType| {
+        let facts = analysis.facts(*other);
+        let mut met = analysis.between(*other, stype);
+        facts.possible && facts.concrete && met.any(|encounter| encounter.does(brings))
+    };
+    analysis.game().sprite_types().filter(spoils).collect()
 }
 
 /// Returns the meaning of a type whose loss loses the game.
 fn ward(analysis: &Analysis, stype: SpriteType) -> String {
-    let protected = analysis.aims().protect.contains(&stype);
+    let protected = wins::is_to_keep(analysis, stype);
     // A type that is a state of a different type is counted together with that type.
     if let Some(from) = earlier(analysis, stype).filter(|from| !analysis.aims().protect.contains(from)) {
         return format!("was {}", analysis.game().name(from));
     }
-    let taken = analysis.avatars().iter().any(|avatar| {
-        let touch = analysis.touch(avatar.stype, stype);
-        touch.ends_other() || touch.gives.iter().any(|(_, by)| *by > 0)
-    });
-    let made = analysis.turns(stype).iter().any(|(to, _)| analysis.aims().create.contains(to));
-    match (protected, remarks::names(analysis, &uses(analysis, stype))) {
-        (true, Some(names)) => format!("needed for {names}, too few and you lose"),
-        (true, None) if taken && made => "take it to win, too few and you lose".to_owned(),
-        (true, None) if taken => "take it, too few and you lose".to_owned(),
-        (true, None) => "too few left, and you lose".to_owned(),
-        (false, _) => "others can spoil it".to_owned(),
+    if !protected {
+        return match remarks::names(analysis, &spoilers(analysis, stype)) {
+            Some(spoilers) => format!("keep {spoilers} away"),
+            None => unwon(analysis, stype),
+        };
+    }
+    let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
+    let kept = |to: SpriteType| wins::are_kept_together(analysis, stype, to);
+    let taken = touches().any(|touch| touch.changes.is_some_and(kept))
+        && touches().all(|touch| touch.removal == engine::analysis::Removal::Never);
+    let wins = wins::able(analysis, stype).is_some();
+    let use_of = match payments::purposes(analysis, stype) {
+        _ if wins => Some("take it to win".to_owned()),
+        Some(purpose) => Some(purpose),
+        None => taken.then(|| "take it".to_owned()),
+    };
+    match use_of {
+        Some(use_of) => format!("{use_of}, too few and you lose"),
+        None => "too few left, and you lose".to_owned(),
     }
 }
 
-/// Returns the meaning of a resource that the avatar holds.
+/// Returns the meaning of a resource that the avatar holds, or of a type that gives a key.
 fn held(analysis: &Analysis, stype: SpriteType, meaning: &str) -> String {
-    let mut needed = uses(analysis, stype);
-    if needed.is_empty() {
-        needed = remarks::requirers(analysis, stype);
-    }
-    let ammunition = remarks::names(analysis, &remarks::ammunition_for(analysis, stype));
-    remarks::names(analysis, &needed)
-        .map(|names| format!("needed for {names}"))
-        .or_else(|| Some(format!("ammunition for {}", ammunition?)))
+    let is_held = is_resource(analysis, stype) && given(analysis, stype).is_some();
+    payments::purposes(analysis, stype)
         .or_else(|| becomes(analysis, stype))
-        .unwrap_or_else(|| meaning.to_owned())
+        .or_else(|| is_held.then(|| Glyph::Token.meaning().to_owned()).filter(|token| token == meaning))
+        .unwrap_or_else(|| gain(analysis, stype))
 }
 
 /// Returns the meaning of a motionless type without another role.
@@ -319,14 +491,73 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
     };
     let swallowed =
         || Some(format!("swallows {}", remarks::names(analysis, &remarks::swallowed(analysis, stype))?));
-    use_of_others(analysis, stype)
+    let switch =
+        || Some(format!("touch it to change {}", remarks::names(analysis, &opened(analysis, stype))?));
+    let turned = || {
+        let all = |effect: &EffectSummary| match effect {
+            EffectSummary::BecomeAll(from, to) if *from == stype => Some(*to),
+            _ => None,
+        };
+        let all = analysis.encounters().iter().flat_map(|encounter| encounter.effects.iter().filter_map(all));
+        let turns = analysis.turns(stype).into_iter().map(|(to, _)| to).chain(all);
+        let turns: Vec<SpriteType> = turns.filter(|to| analysis.facts(*to).possible).collect();
+        Some(format!("may become {}", remarks::names(analysis, &turns)?))
+    };
+    ending(analysis, stype)
+        .or_else(|| use_of_others(analysis, stype))
+        .or_else(|| payments::paid_here(analysis, stype))
         .or_else(|| becomes(analysis, stype))
         .or_else(|| health(analysis, stype))
         .or_else(swallowed)
+        .or_else(switch)
+        .or_else(|| makes(analysis, stype))
         .or_else(changed)
         .or_else(state)
         .or_else(|| blocks(analysis, stype).then(|| "solid".to_owned()))
-        .unwrap_or_else(|| "harmless".to_owned())
+        .or_else(turned)
+        .unwrap_or_else(|| HARMLESS.to_owned())
+}
+
+/// Returns a description of the harm, other than by touch, that a moving type does: to things that matter, or
+/// with the sprites that it makes. An enemy may also take things whose use is not known.
+fn mischief(analysis: &Analysis, stype: SpriteType, is_enemy: bool) -> Option<String> {
+    let spoilt = remarks::spoilt_by(analysis, stype);
+    let matters = |other: &SpriteType| {
+        let role = analysis.role(*other);
+        wins::is_to_keep(analysis, *other)
+            || matches!(role, Role::Key | Role::Collectable | Role::Ward | Role::Pushable)
+    };
+    let is_object = |other: SpriteType| {
+        use Role as R;
+        !matches!(analysis.role(other), R::Shot | R::Wall | R::Breakable | R::Cover | R::Floor | R::Enemy)
+    };
+    let matters: Vec<SpriteType> = spoilt.iter().copied().filter(matters).collect();
+    let takes = |types: &[SpriteType]| Some(format!("takes {}", remarks::names(analysis, types)?));
+    let makes = || {
+        let made = remarks::names(analysis, &analysis.facts(stype).makes);
+        made.filter(|_| analysis.makes_harm(stype)).map(|made| format!("makes {made}"))
+    };
+    let spoils = || {
+        let makes_bad = |encounter: &&Encounter| {
+            let is_there = analysis.applies(encounter.first, stype)
+                || encounter.second.is_some_and(|second| analysis.applies(second, stype));
+            is_there
+                && encounter.does(|effect| match effect {
+                    EffectSummary::Make(to) | EffectSummary::Become(to) => {
+                        analysis.aims().prevent.contains(to)
+                    }
+                    _ => false,
+                })
+        };
+        analysis.encounters().iter().find(makes_bad).map(|_| "can lose you the game".to_owned())
+    };
+    let others: Vec<SpriteType> =
+        spoilt.iter().copied().filter(|other| is_enemy && is_object(*other)).collect();
+    payments::theft(analysis, stype)
+        .or_else(|| takes(&matters))
+        .or_else(|| takes(&others))
+        .or_else(makes)
+        .or_else(spoils)
 }
 
 /// Returns the meaning of a type that moves by itself.
@@ -334,18 +565,62 @@ fn mover(analysis: &Analysis, stype: SpriteType, glyph: Glyph, motion: &str) -> 
     let harm = remarks::harm(analysis, stype).unwrap_or_else(|| {
         // An enemy that is harmless on contact does harm with the sprites that it makes, or to things that
         // must be kept.
-        let is_enemy = matches!(glyph, Glyph::Enemy | Glyph::Charger);
-        let kept = remarks::names(analysis, &remarks::spoilt_by(analysis, stype)).filter(|_| is_enemy);
-        match kept {
+        let is_enemy = matches!(glyph, Glyph::Enemy | Glyph::Charger | Glyph::HostileShot);
+        let taken = analysis.role(stype) == Role::Collectable;
+        match mischief(analysis, stype, is_enemy) {
             _ if is_spoilt(analysis, stype) => "keep it safe".to_owned(),
-            Some(kept) => format!("takes {kept}"),
-            None if is_enemy => "harms".to_owned(),
-            None => "harmless".to_owned(),
+            Some(mischief) => mischief,
+            None if taken => gain(analysis, stype),
+            None => HARMLESS.to_owned(),
         }
     });
-    let wanted = analysis.aims().remove.contains(&stype);
-    let win = wanted.then(|| remarks::win_by_removing(analysis, stype)).flatten();
+    let win = remarks::win_by_removing(analysis, stype);
     [Some(format!("{motion}, {harm}")), win].into_iter().flatten().collect::<Vec<_>>().join("; ")
+}
+
+/// Returns the meaning of a type that makes others.
+fn maker(analysis: &Analysis, stype: SpriteType) -> String {
+    let Some(made) = remarks::names(analysis, &analysis.facts(stype).makes) else {
+        return unwon(analysis, stype);
+    };
+    let switch = remarks::names(analysis, &opened(analysis, stype));
+    let parts = [
+        Some(format!("makes {made}")),
+        switch.map(|names| format!("touch it to change {names}")),
+        blocks(analysis, stype).then(|| "solid".to_owned()),
+        remarks::win_by_removing(analysis, stype),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+/// Returns the meaning of something that the avatar puts on the board, and that stays in its cell.
+fn laid(analysis: &Analysis, stype: SpriteType, plain: &str) -> String {
+    let made = remarks::names(analysis, &analysis.facts(stype).makes);
+    let strikes = !remarks::spoilt_by(analysis, stype).is_empty();
+    match made {
+        Some(made) => format!("what you lay, makes {made}"),
+        None if strikes || plain != Glyph::Blade.meaning() => plain.to_owned(),
+        None => "what you lay".to_owned(),
+    }
+}
+
+/// Returns the meaning of a type that shots meet.
+fn cover(analysis: &Analysis, stype: SpriteType) -> String {
+    let stops = |shot: &SpriteType| {
+        let dies = |side: Side| move |effect: &EffectSummary| *effect == EffectSummary::Kill(side);
+        let is_shot =
+            matches!(analysis.facts(*shot).motion, Motion::Straight(_)) || analysis.role(*shot) == Role::Shot;
+        is_shot
+            && (analysis.between(*shot, stype).any(|encounter| encounter.does(dies(Side::First)))
+                || analysis.between(stype, *shot).any(|encounter| encounter.does(dies(Side::Second))))
+    };
+    if analysis.game().sprite_types().any(|shot| stops(&shot)) {
+        return Glyph::Cover.meaning().to_owned();
+    }
+    match remarks::names(analysis, &remarks::removers(analysis, stype)) {
+        Some(removers) => format!("removed by {removers}"),
+        None => neutral(analysis, stype),
+    }
 }
 
 /// Returns a type's meaning in legends: its glyph's meaning, and the effects of the rules.
@@ -363,7 +638,8 @@ pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> Str
         let swallowed = remarks::swallowed(analysis, stype);
         remarks.extend(remarks::names(analysis, &swallowed).map(|names| format!("swallows {names}")));
     }
-    [own].into_iter().chain(remarks).collect::<Vec<_>>().join(", ")
+    let own = Some(own).filter(|own| remarks.is_empty() || own != HARMLESS);
+    own.into_iter().chain(remarks).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns `true` if a resource or the avatar's current type protects the avatar from a harmful type.
@@ -376,44 +652,50 @@ fn is_guarded(analysis: &Analysis, stype: SpriteType) -> bool {
 /// Returns a type's meaning, excluding the harm caused by motionless types.
 fn own_meaning(analysis: &Analysis, stype: SpriteType, form: Form, glyph: Glyph) -> String {
     let plain = || glyph.meaning().to_owned();
-    let named = |verb: &str, types: &[SpriteType]| {
-        remarks::names(analysis, types).map_or_else(plain, |names| format!("{verb} {names}"))
-    };
     let motion = motion(analysis, stype);
     let fleeting = analysis.facts(stype).fleeting;
+    let is_prevented = analysis.aims().prevent.contains(&stype);
+    if let Some(ending) = ending(analysis, stype).filter(|_| is_prevented) {
+        let win = remarks::win_by_removing(analysis, stype);
+        return [Some(ending), win].into_iter().flatten().collect::<Vec<_>>().join("; ");
+    }
     match glyph {
-        _ if analysis.aims().prevent.contains(&stype) => ending(analysis, stype).unwrap_or_else(plain),
         Glyph::Neutral if form == Form::Glyph(Glyph::Floor) => "ground".to_owned(),
+        Glyph::Floor if !is_inert(analysis, stype) => "ground".to_owned(),
         Glyph::Enemy | Glyph::Charger | Glyph::Friend | Glyph::Raft if !motion.is_empty() => {
             mover(analysis, stype, glyph, &motion)
         }
+        Glyph::HostileShot if analysis.harm(stype) == Harm::None => mover(analysis, stype, glyph, &motion),
+        Glyph::Boulder if !falls(analysis, stype) => format!("{motion}, blocks"),
+        Glyph::Portal if analysis.role(stype) != Role::Portal => neutral(analysis, stype),
+        Glyph::Blade | Glyph::Bomb => laid(analysis, stype, glyph.meaning()),
+        Glyph::Cover => cover(analysis, stype),
         Glyph::Prey => {
-            let win = remarks::win_by_removing(analysis, stype).unwrap_or_else(plain);
+            let win = remarks::win_by_removing(analysis, stype).unwrap_or_else(|| unwon(analysis, stype));
             if motion.is_empty() { win } else { format!("{win}, {motion}") }
         }
         Glyph::Target | Glyph::Peril => {
-            remarks::win_by_removing(analysis, stype).unwrap_or_else(|| Glyph::Target.meaning().to_owned())
+            remarks::win_by_removing(analysis, stype).unwrap_or_else(|| unwon(analysis, stype))
         }
         Glyph::Neutral => neutral(analysis, stype),
-        Glyph::Maker | Glyph::Nest => {
-            let solid = if blocks(analysis, stype) { ", solid" } else { "" };
-            format!("{}{solid}", named("makes", &analysis.facts(stype).makes))
-        }
+        Glyph::Maker | Glyph::Nest => maker(analysis, stype),
         Glyph::Wall if fleeting => "solid for a while".to_owned(),
         Glyph::Wall | Glyph::Breakable => solid(analysis, stype),
         Glyph::Ward if fleeting => "soon gone".to_owned(),
         Glyph::Ward => ward(analysis, stype),
-        Glyph::Switch => named("touch it to change", &changed(analysis, stype)),
+        Glyph::Switch => remarks::names(analysis, &changed(analysis, stype))
+            .map_or_else(|| unwon(analysis, stype), |names| format!("touch it to change {names}")),
         Glyph::Key | Glyph::Token => held(analysis, stype, glyph.meaning()),
         Glyph::Gem if blocks(analysis, stype) && !analysis.turns(stype).is_empty() => {
             "solid as it is".to_owned()
         }
         Glyph::Gem => gain(analysis, stype),
+        Glyph::Spring if given(analysis, stype).is_none() => unwon(analysis, stype),
         Glyph::Spring if blocks(analysis, stype) => {
             given(analysis, stype).map_or_else(plain, |name| format!("gives {name}"))
         }
-        Glyph::Socket => remarks::socket(analysis, stype).unwrap_or_else(plain),
-        Glyph::Crate => named("push it onto", &remarks::destinations(analysis, stype)),
+        Glyph::Socket => remarks::socket(analysis, stype).unwrap_or_else(|| unwon(analysis, stype)),
+        Glyph::Crate => remarks::destinations(analysis, stype).unwrap_or_else(plain),
         Glyph::Exit | Glyph::Treasure => goal(analysis, stype, glyph.meaning()),
         Glyph::Gate => match requirement(analysis, stype) {
             // The description of the harm includes the protection against it.
@@ -423,14 +705,28 @@ fn own_meaning(analysis: &Analysis, stype: SpriteType, form: Form, glyph: Glyph)
         },
         Glyph::Hazard => {
             let harm = remarks::harm(analysis, stype).unwrap_or_else(plain);
-            match remarks::names(analysis, &remarks::removers(analysis, stype)) {
-                Some(removers) => format!("{harm}, cleared by {removers}"),
+            match remarks::names(analysis, &remarks::clearers(analysis, stype)) {
+                Some(clearers) => format!("{harm}, cleared by {clearers}"),
                 None => harm,
             }
         }
-        Glyph::Mire => {
-            remarks::harm(analysis, stype).or_else(|| requirement(analysis, stype)).unwrap_or_else(plain)
-        }
+        Glyph::Mire => remarks::harm(analysis, stype)
+            .or_else(|| requirement(analysis, stype))
+            .unwrap_or_else(|| neutral(analysis, stype)),
         _ => plain(),
     }
+}
+
+/// Returns `true` if sprites of the type fall, so that they can crush what is below.
+fn falls(analysis: &Analysis, stype: SpriteType) -> bool {
+    matches!(analysis.facts(stype).motion, Motion::Straight(direction) if direction == Direction::DOWN)
+}
+
+/// Returns `true` if no interaction and no termination concerns the type.
+fn is_inert(analysis: &Analysis, stype: SpriteType) -> bool {
+    let meets = analysis.encounters().iter().any(|encounter| {
+        analysis.applies(encounter.first, stype)
+            || encounter.second.is_some_and(|second| analysis.applies(second, stype))
+    });
+    !meets && !analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype))
 }

@@ -7,6 +7,8 @@ pub(crate) mod glyph;
 pub(crate) mod letters;
 pub(crate) mod look;
 pub(crate) mod meaning;
+mod payments;
 pub(crate) mod prospects;
 mod remarks;
 pub(crate) mod shape;
+mod wins;

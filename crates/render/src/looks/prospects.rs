@@ -1,6 +1,7 @@
 //! Facts that players may know from the rules: the remaining time, the remaining requirements for a win, and
 //! countdowns.
 
+use super::wins;
 use engine::analysis::{Condition, Goal};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
@@ -21,9 +22,11 @@ impl Prospects {
         let (game, aims) = (analysis.game(), analysis.aims());
         let lost = aims.deadline.map(|tick| (tick, false));
         let deadline = lost.into_iter().chain(aims.survive.map(|tick| (tick, true))).min();
-        let counted = |goal: &&Goal| goal.win && !goal.condition.types().is_empty();
-        let goals = analysis.goals().iter().filter(counted);
-        let goals = goals.map(|goal| (names(game, goal), goal.clone())).collect();
+        let counted = |(at, goal): &(usize, &Goal)| {
+            wins::is_plain_win(analysis, *at) && !goal.condition.types().is_empty()
+        };
+        let goals = analysis.goals().iter().enumerate().filter(counted);
+        let goals = goals.map(|(_, goal)| (names(game, goal), goal.clone())).collect();
         let several = analysis.resources().iter().filter(|resource| resource.needed > 1);
         let needed = several.map(|resource| (resource.stype, resource.needed)).collect();
         let counts = |stype: SpriteType| {

@@ -1,8 +1,11 @@
 //! Notes for legends: a type's harm, what removes its sprites, and what its sprites are needed for.
 
 use super::glyph::is_avatar;
-use engine::analysis::{EffectSummary, Encounter, Harm, Motion, Precondition, Removal, Role, Side};
+use super::payments;
+use super::wins::{self, Terms, counted, is_in_vain};
+use engine::analysis::{EffectSummary, Encounter, Fate, Harm, Motion, Pushable, Role, Side, Sink};
 use engine::{Analysis, SpriteType};
+use std::collections::BTreeSet;
 
 /// The maximum number of names in a note.
 const NAMED: usize = 3;
@@ -19,6 +22,23 @@ pub(super) fn names(analysis: &Analysis, types: &[SpriteType]) -> Option<String>
     (!names.is_empty()).then(|| names.join(", "))
 }
 
+/// Returns the condition of the harm if it is the same for all avatars that the type can harm.
+fn harm_terms(analysis: &Analysis, stype: SpriteType) -> Option<Terms> {
+    let avatars = analysis.avatars().iter().map(|avatar| avatar.stype);
+    let hurt = avatars.filter(|avatar| analysis.touch(*avatar, stype).harm != Harm::None);
+    let mut found = hurt.map(|avatar| payments::deadly_terms(analysis, avatar, stype));
+    let first = found.next()??;
+    found.all(|terms| terms.as_ref() == Some(&first)).then_some(first)
+}
+
+/// Returns `true` if contact with the type only costs health points, so far as it does harm.
+fn only_wounds(analysis: &Analysis, stype: SpriteType) -> bool {
+    let costs = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by < 0);
+    let met = || analysis.avatars().iter().flat_map(|avatar| wins::met(analysis, avatar.stype, stype));
+    met().any(|(encounter, _)| encounter.does(costs))
+        && !met().any(|(encounter, own)| payments::is_deadly(analysis, encounter, own))
+}
+
 /// Returns the harm to a player who touches a type, including any protection against the harm: `deadly unless
 /// you are masked`.
 pub(super) fn harm(analysis: &Analysis, stype: SpriteType) -> Option<String> {
@@ -26,18 +46,27 @@ pub(super) fn harm(analysis: &Analysis, stype: SpriteType) -> Option<String> {
         Harm::None => return None,
         Harm::Kills => "deadly",
         Harm::Wounds => "wounds",
-        Harm::Conditional => "deadly at times",
+        Harm::Conditional if only_wounds(analysis, stype) => "harms",
+        Harm::Conditional => "deadly",
+    };
+    let terms = harm_terms(analysis, stype).filter(|_| analysis.harm(stype) == Harm::Conditional);
+    let word = match terms {
+        Some(Terms::HoldsAtMost(resource, most)) => {
+            format!("{word} without {}", counted(analysis, resource, most.saturating_add(1)))
+        }
+        Some(Terms::Holds(resource, amount)) => {
+            format!("{word} with {}", counted(analysis, resource, amount))
+        }
+        _ if analysis.harm(stype) == Harm::Conditional => format!("{word} at times"),
+        _ => word.to_owned(),
     };
     let touches =
         || analysis.avatars().iter().map(|avatar| (avatar.stype, analysis.touch(avatar.stype, stype)));
     let safe: Vec<SpriteType> =
         touches().filter(|(_, touch)| touch.harm == Harm::None).map(|(stype, _)| stype).collect();
-    let with = touches().find_map(|(_, touch)| touch.safe_with);
-    let hurt = touches().filter(|(_, touch)| touch.harm != Harm::None).count();
-    Some(match (names(analysis, &safe), with) {
-        (Some(safe), _) if word != "wounds" && hurt > 0 => format!("deadly unless you are {safe}"),
-        (_, Some((resource, _))) => format!("deadly without {}", analysis.game().name(resource)),
-        _ => word.to_owned(),
+    Some(match names(analysis, &safe) {
+        Some(safe) => format!("{word} unless you are {safe}"),
+        None => word,
     })
 }
 
@@ -53,11 +82,65 @@ pub(super) fn removers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType
             None
         }
     };
-    let partners = analysis.encounters().iter().filter_map(partner);
-    partners
-        .filter(|&partner| analysis.facts(partner).possible || !analysis.facts(partner).concrete)
-        .filter(|&partner| !is_avatar(analysis, partner))
-        .collect()
+    let written: Vec<SpriteType> = analysis.encounters().iter().filter_map(partner).collect();
+    let is_met = |other: &SpriteType| {
+        let facts = analysis.facts(*other);
+        facts.possible && facts.concrete && written.iter().any(|&written| analysis.applies(written, *other))
+    };
+    let met = analysis.game().sprite_types().filter(is_met);
+    met.filter(|&other| !is_avatar(analysis, other)).collect()
+}
+
+/// Returns the types whose sprites appear during play.
+fn appearing(analysis: &Analysis) -> BTreeSet<SpriteType> {
+    let types = analysis.game().sprite_types();
+    let mut found: BTreeSet<SpriteType> =
+        types.flat_map(|maker| analysis.facts(maker).makes.iter().copied()).collect();
+    for effect in analysis.encounters().iter().flat_map(|encounter| &encounter.effects) {
+        match effect {
+            EffectSummary::Make(to) | EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) => {
+                found.insert(*to);
+            }
+            EffectSummary::BecomeAny(options) => found.extend(options.iter()),
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Returns the types from [`removers`] that can come to a sprite of `stype`, or to which that sprite can come.
+/// Such sprites move, are pushed or shot, or appear during play.
+pub(super) fn reachable_removers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+    let appearing = appearing(analysis);
+    let comes = |stype: SpriteType| {
+        let is_sent = analysis.role(stype) == Role::Shot || appearing.contains(&stype);
+        is_sent || moves(analysis, stype)
+    };
+    let own = comes(stype);
+    removers(analysis, stype).into_iter().filter(|&partner| own || comes(partner)).collect()
+}
+
+/// Returns `true` if sprites of the type neither stop nor harm an avatar.
+pub(super) fn is_passable(analysis: &Analysis, stype: SpriteType) -> bool {
+    analysis.avatars().iter().all(|avatar| analysis.touch(avatar.stype, stype).lets_pass())
+}
+
+/// Returns the types that clear sprites of `stype` out of the avatar's way on contact: they remove the sprite,
+/// or turn it into something that the avatar can pass.
+pub(super) fn clearers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+    let clears = |encounter: &Encounter, own: Side| {
+        encounter.does(|effect| match effect {
+            EffectSummary::Kill(side) => *side == own,
+            EffectSummary::Health { of: None, by, .. } => *by < 0 && own == Side::First,
+            EffectSummary::Become(to) => own == Side::First && is_passable(analysis, *to),
+            _ => false,
+        })
+    };
+    let is_clearer = |partner: &SpriteType| {
+        let first = analysis.between(stype, *partner).any(|encounter| clears(encounter, Side::First));
+        first || analysis.between(*partner, stype).any(|encounter| clears(encounter, Side::Second))
+    };
+    reachable_removers(analysis, stype).into_iter().filter(is_clearer).collect()
 }
 
 /// Returns the moving or pushed types that are removed by contact with `stype`.
@@ -74,8 +157,9 @@ pub(super) fn swallowed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteTyp
 /// Returns the types that are removed or changed by contact with `stype`, except avatars.
 pub(super) fn spoilt_by(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let spoils = |other: SpriteType| {
-        let removers = removers(analysis, other);
-        other != stype && removers.into_iter().any(|remover| analysis.applies(remover, stype))
+        let first = analysis.between(other, stype).any(|encounter| encounter.ends(Side::First));
+        let is_spoilt = first || analysis.between(stype, other).any(|encounter| encounter.ends(Side::Second));
+        other != stype && is_spoilt
     };
     let things = analysis.game().sprite_types().filter(|&other| analysis.facts(other).possible);
     things.filter(|&other| !is_avatar(analysis, other) && spoils(other)).collect()
@@ -90,39 +174,43 @@ pub(super) fn moves(analysis: &Analysis, stype: SpriteType) -> bool {
         && (facts.motion != Motion::Still || analysis.role(stype) == Role::Pushable)
 }
 
-/// Returns `true` if a collision of the two types loses the game, or leaves a type that must also disappear
-/// for a win.
-fn is_in_vain(analysis: &Analysis, stype: SpriteType, partner: SpriteType) -> bool {
-    let aims = analysis.aims();
-    let bad = |effect: &EffectSummary| match effect {
-        EffectSummary::Become(to) => aims.prevent.contains(to) || aims.remove.contains(to),
-        EffectSummary::Make(to) => aims.prevent.contains(to),
+/// Returns the types whose touch by the avatar removes or changes all sprites of `stype`.
+fn switches(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
+    let opens = |other: &SpriteType| {
+        let mut avatars = analysis.avatars().iter();
+        analysis.facts(*other).possible
+            && *other != stype
+            && avatars.any(|avatar| {
+                analysis.touch(avatar.stype, *other).opens.contains(&stype)
+                    && !is_in_vain(analysis, *other, avatar.stype)
+            })
+    };
+    let turns = |effect: &EffectSummary| match effect {
+        EffectSummary::BecomeAll(from, to) => *from == stype && !wins::goes(analysis, *to),
         _ => false,
     };
-    let both = analysis.between(stype, partner).chain(analysis.between(partner, stype));
-    both.into_iter().any(|encounter| encounter.does(bad))
+    let kept = analysis.encounters().iter().any(|encounter| encounter.does(turns));
+    if kept { Vec::new() } else { analysis.game().sprite_types().filter(opens).collect() }
 }
 
 /// Returns a description of how the player can remove a type that must disappear for the win: `catch it to
 /// win`, `lead it to nest to win`.
 pub(super) fn win_by_removing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
+    if !wins::is_to_go(analysis, stype) {
+        return None;
+    }
     let moving = analysis.facts(stype).motion != Motion::Still;
-    let aims = analysis.aims();
-    let goes = |to: SpriteType| !aims.remove.contains(&to) && !aims.prevent.contains(&to);
-    let removes = |avatar: &SpriteType| {
-        let touch = analysis.touch(*avatar, stype);
-        touch.removal != Removal::Never || touch.changes.is_some_and(goes)
-    };
-    let avatars: Vec<SpriteType> = analysis.avatars().iter().map(|avatar| avatar.stype).collect();
-    let able: Vec<SpriteType> = avatars.iter().copied().filter(removes).collect();
     let catch = if moving { "catch it" } else { "take it" };
-    let catch = match names(analysis, &able) {
-        Some(names) if able.len() < avatars.len() => Some(format!("{catch} as {names}")),
-        Some(_) => Some(catch.to_owned()),
-        None => None,
-    };
-    let mut partners = removers(analysis, stype);
+    let catch = wins::able(analysis, stype).and_then(|(able, terms)| {
+        let all = able.len() == analysis.avatars().len();
+        let only = if all { String::new() } else { format!(" as {}", names(analysis, &able)?) };
+        Some(format!("{catch}{only}{}", terms.phrase(analysis)))
+    });
+    let mut partners = reachable_removers(analysis, stype);
     partners.retain(|&partner| !is_in_vain(analysis, stype, partner));
+    if wins::is_to_keep(analysis, stype) {
+        partners.clear();
+    }
     let (shots, others): (Vec<_>, Vec<_>) =
         partners.into_iter().partition(|&partner| analysis.role(partner) == Role::Shot);
     let (movers, rest): (Vec<_>, Vec<_>) = others.into_iter().partition(|&partner| moves(analysis, partner));
@@ -135,21 +223,9 @@ pub(super) fn win_by_removing(analysis: &Analysis, stype: SpriteType) -> Option<
         false if movers.is_empty() => (None, told(&rest, "let ", " reach it")),
         false => (told(&movers, "bring ", " here"), None),
     };
-    let ways: Vec<String> = [catch, hit, led, left].into_iter().flatten().take(WAYS).collect();
+    let switched = told(&switches(analysis, stype), "touch ", "");
+    let ways: Vec<String> = [catch, hit, led, left, switched].into_iter().flatten().take(WAYS).collect();
     (!ways.is_empty()).then(|| format!("{} to win", ways.join(" or ")))
-}
-
-/// Returns the partners of encounters that require a resource.
-pub(super) fn requirers(analysis: &Analysis, resource: SpriteType) -> Vec<SpriteType> {
-    let partner = |encounter: &Encounter| match encounter.precondition {
-        Precondition::Holds(side, needed, amount) if needed == resource && amount > 0 => match side {
-            Side::First => encounter.second,
-            Side::Second => Some(encounter.first),
-        },
-        _ => None,
-    };
-    let partners = analysis.encounters().iter().filter_map(partner);
-    partners.filter(|&partner| !is_avatar(analysis, partner)).collect()
 }
 
 /// Returns the shots that cost a resource.
@@ -158,32 +234,79 @@ pub(super) fn ammunition_for(analysis: &Analysis, resource: SpriteType) -> Vec<S
     shots.filter(|(ammo, _)| **ammo == resource).map(|(_, shot)| *shot).collect()
 }
 
-/// Returns the motionless types that a pushed sprite changes, fills or opens, or that remove the pushed
-/// sprite.
-pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
-    let pushables = analysis.pushables().iter().filter(|pushable| pushable.stype == stype);
-    let partners = pushables.flat_map(|pushable| &pushable.sinks).map(|sink| sink.partner);
-    let stays = |partner: &SpriteType| {
-        let facts = analysis.facts(*partner);
+/// Returns the collisions of a type's pushed sprites with motionless sprites that stay.
+fn sinks(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = &Sink> {
+    let stays = |sink: &&Sink| {
+        let facts = analysis.facts(sink.partner);
         facts.motion == Motion::Still && !facts.fleeting
     };
-    partners.filter(stays).collect()
+    let pushables = analysis.pushables().iter().filter(move |pushable| pushable.stype == stype);
+    pushables.flat_map(|pushable| &pushable.sinks).filter(stays)
 }
 
-/// Returns a description of where to push sprites that change or fill a type, and whether a win requires the
-/// push.
+/// Returns `true` if pushing a sprite of `stype` into the sink brings a win closer.
+fn wins_by_push(analysis: &Analysis, stype: SpriteType, sink: &Sink) -> bool {
+    let comes = |of: SpriteType, by: SpriteType| {
+        let mut turns = analysis.turns(of).into_iter();
+        turns.any(|(to, partner)| analysis.applies(partner, by) && wins::is_to_come(analysis, to))
+    };
+    let goes = |of: SpriteType| wins::is_to_go(analysis, of) && !wins::is_to_keep(analysis, of);
+    let own = match sink.fate {
+        Fate::Stays => false,
+        Fate::Goes => goes(stype),
+        Fate::Becomes(to) => goes(stype) && wins::goes(analysis, to),
+    };
+    let helps = own
+        || (sink.fills && goes(sink.partner))
+        || sink.opens.iter().any(|opened| goes(*opened))
+        || comes(stype, sink.partner)
+        || comes(sink.partner, stype);
+    helps && !is_in_vain(analysis, stype, sink.partner) && !is_in_vain(analysis, sink.partner, stype)
+}
+
+/// Returns `true` if the sink only uses up a pushed sprite, or loses the game.
+fn is_lost(analysis: &Analysis, stype: SpriteType, sink: &Sink) -> bool {
+    let is_prevented = |to: SpriteType| analysis.aims().prevent.contains(&to);
+    let is_spoilt = matches!(sink.fate, Fate::Becomes(to) if is_prevented(to));
+    let is_gone = sink.fate == Fate::Goes && wins::is_to_keep(analysis, stype);
+    let is_useless = sink.fate == Fate::Goes && !sink.fills && sink.opens.is_empty();
+    let wins = wins_by_push(analysis, stype, sink);
+    !wins && (is_spoilt || is_gone || is_useless || is_in_vain(analysis, sink.partner, stype))
+}
+
+/// Returns a description of the motionless types that a pushed sprite changes, fills or opens, or that merely
+/// use it up: `push it onto drain`, `can be pushed, lost at hole`.
+pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Option<String> {
+    let (lost, good): (Vec<&Sink>, Vec<&Sink>) =
+        sinks(analysis, stype).partition(|sink| is_lost(analysis, stype, sink));
+    let places = |sinks: &[&Sink]| {
+        names(analysis, &sinks.iter().map(|sink| sink.partner).collect::<Vec<SpriteType>>())
+    };
+    match (places(&good), places(&lost)) {
+        (Some(good), _) => Some(format!("push it onto {good}")),
+        (None, Some(lost)) => Some(format!("can be pushed, lost at {lost}")),
+        (None, None) => None,
+    }
+}
+
+/// Returns a description of where to push sprites that change or fill a type, and whether the push brings a
+/// win closer.
 pub(super) fn socket(analysis: &Analysis, stype: SpriteType) -> Option<String> {
-    let sunk =
-        |pushable: &&engine::analysis::Pushable| pushable.sinks.iter().any(|sink| sink.partner == stype);
-    let pushed: Vec<SpriteType> =
-        analysis.pushables().iter().filter(sunk).map(|pushable| pushable.stype).collect();
-    let aims = analysis.aims();
-    let becomes = |to: &(SpriteType, SpriteType)| aims.create.contains(&to.0);
-    let wanted = aims.remove.contains(&stype)
-        || pushed.iter().any(|pushed| aims.remove.contains(pushed))
-        || analysis.turns(stype).iter().any(becomes)
-        || pushed.iter().any(|&pushed| analysis.turns(pushed).iter().any(becomes));
-    let verb = if wanted { " to win" } else { "" };
-    let pushed = names(analysis, &pushed)?;
-    Some(format!("push {pushed} here{verb}"))
+    if analysis.facts(stype).fleeting {
+        return Some("soon gone".to_owned());
+    }
+    let pushed = |wanted: &dyn Fn(&Pushable, &Sink) -> bool| -> Vec<SpriteType> {
+        let sunk = |pushable: &&Pushable| {
+            pushable.sinks.iter().any(|sink| sink.partner == stype && wanted(pushable, sink))
+        };
+        analysis.pushables().iter().filter(sunk).map(|pushable| pushable.stype).collect()
+    };
+    let wins = pushed(&|pushable, sink| wins_by_push(analysis, pushable.stype, sink));
+    let good = pushed(&|pushable, sink| !is_lost(analysis, pushable.stype, sink));
+    let lost = pushed(&|pushable, sink| is_lost(analysis, pushable.stype, sink));
+    if let Some(wins) = names(analysis, &wins) {
+        return Some(format!("push {wins} here to win"));
+    }
+    let good = names(analysis, &good).map(|good| format!("push {good} here"));
+    good.or_else(|| Some(format!("swallows {}", names(analysis, &lost)?)))
 }
