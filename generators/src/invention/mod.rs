@@ -7,6 +7,8 @@
 
 mod draw;
 mod emit;
+#[cfg(test)]
+mod ending_tests;
 mod fiction;
 mod genome;
 mod mechanic;

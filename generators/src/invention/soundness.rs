@@ -1,6 +1,6 @@
 //! Static conditions on merged ports. Unsound partitions are rejected before rules are written.
 
-use super::mechanic::{Body, Mechanic, Tag};
+use super::mechanic::{Body, Mechanic, Port, Tag};
 use super::merge::Merged;
 
 /// The maximum number of types that a player encounters.
@@ -105,7 +105,13 @@ fn has_honest_goal(merged: &Merged) -> bool {
     if merged.has(Tag::Goal) && merged.has(Tag::Made) && !merged.has(Tag::Tool) {
         return false;
     }
-    [Tag::Removed, Tag::Tool, Tag::Spent].iter().any(|tag| merged.has(*tag)) || !merged.has(Tag::Goal)
+    let is_only_counted = |port: &Port| {
+        port.tags.contains(&Tag::Goal)
+            && ![Tag::Removed, Tag::Tool, Tag::Spent].iter().any(|tag| port.tags.contains(tag))
+    };
+    !merged.ports.iter().any(|(_, port)| is_only_counted(port))
+        || merged.has(Tag::Removed)
+        || merged.has(Tag::Spent)
 }
 
 /// Returns `true` if different ports of a type place opposed demands on the player, at a price.

@@ -11,13 +11,13 @@ use base::Seed;
 use engine::syntax;
 use std::collections::BTreeSet;
 
-fn mechanics(names: &[&str]) -> Vec<&'static Mechanic> {
+pub(super) fn mechanics(names: &[&str]) -> Vec<&'static Mechanic> {
     let named = |name: &&str| Mechanic::all().iter().find(|mechanic| mechanic.name == **name).unwrap();
     names.iter().map(named).collect()
 }
 
 /// Returns the partition that merges the given pairs of ports, such as `("feed.food", "lock.key")`.
-fn partition(mechanics: &[&'static Mechanic], merges: &[(&str, &str)]) -> Vec<u8> {
+pub(super) fn partition(mechanics: &[&'static Mechanic], merges: &[(&str, &str)]) -> Vec<u8> {
     let names: Vec<String> = ports(mechanics)
         .iter()
         .map(|((mechanic, _), port)| format!("{}.{}", mechanics[*mechanic].name, port.name))
@@ -101,6 +101,11 @@ fn what_is_not_sound_is_refused_by_its_reason() {
     check(&["lock", "hunt", "exit"], &[], Unsound::Unconnected);
     check(&["feed", "hunt", "gather"], &[("feed.food", "hunt.hunter")], Unsound::Body);
     check(&["armour", "disguise", "exit"], &[], Unsound::Avatar);
+    check(
+        &["mow", "last-candle", "use-up"],
+        &[("mow.blade", "use-up.burden"), ("last-candle.candle", "mow.blade")],
+        Unsound::Goal,
+    );
 }
 
 #[test]

@@ -99,13 +99,21 @@ pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[Inter
     let meets = |line: &InteractionLine, first: &str, second: &str| {
         line.first.text == first && line.second.iter().any(|word| word.text == second)
     };
+    // Sprites that were killed in the same tick are not harmless, except to `killIfAlive`.
+    let taken_from = |harm: &str| match harm {
+        "killSprite" => &["killSprite", "transformTo", "transformIfCount", "killIfOtherHasMore"][..],
+        "killIfAlive" => &["killSprite", "transformTo"],
+        _ => &[],
+    };
     (0..types.len()).map(name).any(|stype| {
-        let harms = rules.iter().any(|line| {
-            meets(line, "hero", &stype) && ["killSprite", "killIfAlive"].contains(&line.effect.text.as_str())
-        });
-        let is_taken =
-            rules.iter().any(|line| meets(line, &stype, "hero") && line.effect.text == "killSprite");
-        harms && (is_taken || bodies.with(Body::Item).any(|item| item == stype))
+        let mut harms = rules.iter().filter(|line| meets(line, "hero", &stype));
+        harms.any(|line| {
+            let taken = taken_from(&line.effect.text);
+            let is_taken = rules
+                .iter()
+                .any(|line| meets(line, &stype, "hero") && taken.contains(&line.effect.text.as_str()));
+            is_taken || (!taken.is_empty() && bodies.with(Body::Item).any(|item| item == stype))
+        })
     })
 }
 

@@ -73,6 +73,18 @@ pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut T
     line.params.splice(0..0, counted);
 }
 
+/// Returns `true` if an ending's rules count a type that also has lasting states, or that a mechanic produces. The
+/// rules would miss the states, and the sprites that are not yet produced.
+pub(super) fn misses_states(invention: &Invention, types: &[Merged], ending: &Clauses) -> bool {
+    let counts = |stype: &str| {
+        let params = ending.before.iter().chain(&ending.rules).flat_map(|line| &line.params);
+        params.into_iter().any(|param| param.key.text == "stypeCount" && param.value.text == stype)
+    };
+    (0..types.len())
+        .filter(|class| counts(&name(*class)))
+        .any(|class| types[class].has(Tag::Made) || !lasting_states(invention, types, class).is_empty())
+}
+
 /// Makes every rule that removes an object leave a marker. Returns `true` if there is such a rule.
 fn mark_losses(lines: &mut Vec<InteractionLine>, thing: &str, lost: &str) -> bool {
     let mut marked = Vec::new();

@@ -15,7 +15,7 @@ use bodies::{Bodies, collect_instead, is_contradictory};
 use clauses::{Clauses, clauses, extend_to_states};
 use engine::syntax::{self, InteractionLine, MappingLine, Param, SpriteLine, TerminationLine, Word};
 use engine::{Description, Diagnostic, Game};
-use losses::{count_states, is_deadly, lose_with_goals};
+use losses::{count_states, is_deadly, lose_with_goals, misses_states};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// An invention's rules, with internal names.
@@ -80,6 +80,9 @@ pub(in crate::invention) fn write(invention: &Invention, types: &[Merged]) -> Re
     let mut clauses: Vec<Clauses> =
         (0..invention.mechanics.len()).map(|at| clauses(invention, types, at)).collect::<Result<_, _>>()?;
     extend_to_states(invention, types, &mut clauses);
+    if clauses.last().is_some_and(|ending| misses_states(invention, types, ending)) {
+        return Err(GenerateError::Unlucky("the ending misses a state of what it counts".to_owned()));
+    }
     let losses = lose_with_goals(invention, types, &mut clauses);
     let mut bodies = Bodies::of(invention, types);
     let mut description = syntax::parse("BasicGame\n").0;
@@ -117,7 +120,7 @@ pub(in crate::invention) fn write(invention: &Invention, types: &[Merged]) -> Re
         lines.into_iter().zip(owners).collect::<Vec<_>>()
     };
     let all: Vec<(InteractionLine, Option<usize>)> = of_bodies(bodies.pushes(&before))
-        .chain(owned(before.clone(), |own| own.before.len()))
+        .chain(touched_first(owned(before.clone(), |own| own.before.len()), &bodies))
         .chain(of_bodies(bodies.stops(&before)))
         .chain(of_bodies(bodies.picks_up(&taken)))
         .chain(owned(rules, |own| own.rules.len()))
@@ -141,6 +144,25 @@ pub(in crate::invention) fn write(invention: &Invention, types: &[Merged]) -> Re
         description.terminations.push(termination("Timeout", &[("limit", &time), ("win", "False")]));
     }
     Ok(Written { description, owners })
+}
+
+/// Moves the rules that act on a solid type when the player touches it before the rules that act on the player. The
+/// latter run together with the rule that stops the player, after which the player no longer touches the type.
+fn touched_first(
+    mut lines: Vec<(InteractionLine, Option<usize>)>,
+    bodies: &Bodies,
+) -> Vec<(InteractionLine, Option<usize>)> {
+    let meets = |line: &InteractionLine, first: &str, second: &str| {
+        line.first.text == first && line.second.iter().any(|word| word.text == second)
+    };
+    for stype in bodies.with(Body::Solid) {
+        let Some(at) = lines.iter().position(|(line, _)| meets(line, "hero", stype)) else { continue };
+        let (touched, others): (Vec<_>, Vec<_>) =
+            lines.split_off(at).into_iter().partition(|(line, _)| meets(line, stype, "hero"));
+        lines.extend(touched);
+        lines.extend(others);
+    }
+    lines
 }
 
 fn is_hero(origin: &Origin) -> bool {

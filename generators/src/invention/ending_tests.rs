@@ -1,0 +1,160 @@
+//! Plays of small boards: what wins and what loses by each ending.
+
+use super::emit;
+use super::genome::{Invention, normal};
+use super::tests::{mechanics, partition};
+use base::Seed;
+use engine::{Action, Game, Outcome, syntax};
+
+/// Plays a game with the given mechanics, which need not be sound. The rows of the board are separated by spaces. The
+/// characters `a`, `b` and so on place the types in the order of their first ports. Returns the outcome, and the number
+/// of actions that were played.
+fn play(names: &[&str], merges: &[(&str, &str)], board: &str, keys: &str) -> (Outcome, usize) {
+    let mechanics = mechanics(names);
+    let seed = Seed::from_text("play");
+    let partition = normal(&partition(&mechanics, merges));
+    let values = mechanics.iter().map(|mechanic| mechanic.numbers.draw(&mut seed.sampler())).collect();
+    let invention = Invention { mechanics, partition, values, fiction: seed, time: Some(99) };
+    let types = invention.types().unwrap();
+    let mut description = emit::write(&invention, &types).unwrap().description;
+    for (line, symbol) in description.mapping.iter_mut().zip(".wAabcdefgh".chars()) {
+        line.symbol = symbol;
+    }
+    let game = Game::from_source(&syntax::print(&description)).unwrap();
+    let level = game.level(&board.replace(' ', "\n")).unwrap();
+    let mut state = game.start(&level, seed);
+    for (at, key) in keys.chars().enumerate() {
+        let action = match key {
+            'l' => Action::Left,
+            'r' => Action::Right,
+            'u' => Action::Up,
+            'd' => Action::Down,
+            _ => Action::Nil,
+        };
+        let outcome = game.step(&mut state, action);
+        if outcome != Outcome::Ongoing {
+            return (outcome, at + 1);
+        }
+    }
+    (Outcome::Ongoing, keys.len())
+}
+
+#[track_caller]
+fn check(names: &[&str], merges: &[(&str, &str)], board: &str, keys: &str, expect: Outcome) {
+    let (outcome, played) = play(names, merges, board, keys);
+    assert_eq!((outcome, played), (expect, keys.len()));
+}
+
+const FRIEND: &[(&str, &str)] = &[("last-out.friend", "herd.sheep")];
+const SHEEP: &[(&str, &str)] = &[("lure-over.beast", "herd.sheep")];
+
+#[test]
+fn plates_are_weighed_down_by_a_load_and_the_player() {
+    check(&["hunt", "all-down"], &[], "wwwwwwww wAbc.c.w w......w wwwwwwww", "rdrrru", Outcome::Won);
+}
+
+#[test]
+fn tiles_turn_over_and_back_when_the_player_steps_off() {
+    for (keys, outcome) in [("rrrr", Outcome::Won), ("rnrnrr", Outcome::Won), ("rrlrrr", Outcome::Ongoing)] {
+        check(&["hunt", "turn-over"], &[], "wwwwwwww wAbbb..w wwwwwwww", keys, outcome);
+    }
+}
+
+#[test]
+fn the_last_to_leave_is_the_player() {
+    check(&["hunt", "herd", "last-out"], FRIEND, "wwwwwww wAb.c.w wwwwwww", "rrr", Outcome::Won);
+    check(&["hunt", "herd", "last-out"], FRIEND, "wwwwwww wb.Ac.w wwwwwww", "r", Outcome::Lost);
+}
+
+#[test]
+fn two_kinds_are_never_held_at_the_same_time() {
+    let board = "wwwwwwww wAc...bw wd.....w wwwwwwww";
+    check(&["hunt", "never-both"], &[], board, "rdl", Outcome::Lost);
+    check(&["hunt", "never-both"], &[], board, "rrrrrlllldlurrrrr", Outcome::Won);
+}
+
+#[test]
+fn the_exit_takes_exactly_one_of_each() {
+    let names = ["hunt", "one-of-each"];
+    check(&names, &[], "wwwwwww wAcd.bw wwwwwww", "rrrr", Outcome::Won);
+    check(&names, &[], "wwwwwww wAccdbw wwwwwww", "rrrr", Outcome::Lost);
+    check(&names, &[], "wwwwwww wAcb.dw wwwwwww", "rrrrll", Outcome::Won);
+}
+
+#[test]
+fn the_exit_opens_when_every_burden_is_used_up() {
+    let merges = [("lock.key", "use-up.burden")];
+    check(&["lock", "hunt", "use-up"], &merges, "wwwwwww wAb.adw wwwwwww", "rrrrr", Outcome::Won);
+    check(&["lock", "hunt", "use-up"], &merges, "wwwwwww wdAb..w wwwwwww", "lrrlll", Outcome::Ongoing);
+}
+
+#[test]
+fn enough_prizes_are_held_before_the_rival_gets_the_last() {
+    let merges = [("pace.walker", "outgather.rival")];
+    check(&["pace", "outgather"], &merges, "wwwwwww wAbbbbw wwwwwww", "rrrr", Outcome::Won);
+    check(&["pace", "outgather"], &merges, "wwwww wA.aw w..bw wwwww", "nn", Outcome::Lost);
+}
+
+#[test]
+fn bells_fall_silent_again() {
+    check(&["hunt", "in-one-go"], &[], "wwwwwww wAb.b.w wwwwwww", "rrr", Outcome::Won);
+    let late = format!("lr{}rr", "n".repeat(24));
+    check(&["hunt", "in-one-go"], &[], "wwwwwww wbA.b.w wwwwwww", &late, Outcome::Ongoing);
+}
+
+#[test]
+fn the_first_idol_starts_the_clock() {
+    check(&["hunt", "last-minute"], &[], "wwwwwww wAc.b.w wwwwwww", "rrr", Outcome::Won);
+    let idle = format!("r{}", "n".repeat(60));
+    let (outcome, played) = play(&["hunt", "last-minute"], &[], "wwwwwww wAc.b.w wwwwwww", &idle);
+    assert!(outcome == Outcome::Lost && (17..=30).contains(&played), "{outcome:?} {played}");
+}
+
+#[test]
+fn a_fire_is_fed_twice_before_it_goes_out() {
+    let board = "wwwwwww wAcb..w w..c..w w.....w wwwwwww";
+    check(&["hunt", "stoke"], &[], board, "rddru", Outcome::Won);
+    let (outcome, played) = play(&["hunt", "stoke"], &[], board, &"n".repeat(60));
+    assert!(outcome == Outcome::Lost && (32..=52).contains(&played), "{outcome:?} {played}");
+}
+
+#[test]
+fn only_the_beast_may_step_on_the_tiles() {
+    check(&["hunt", "herd", "lure-over"], SHEEP, "wwwwwww wAbcc.w wwwwwww", "rr", Outcome::Won);
+    check(&["hunt", "herd", "lure-over"], SHEEP, "wwwwwww wcA.b.w wwwwwww", "l", Outcome::Lost);
+}
+
+#[test]
+fn a_worn_tile_bars_the_way() {
+    check(&["hunt", "one-stroke"], &[], "wwwwwww wAcc.bw wwwwwww", "rrrr", Outcome::Won);
+    check(&["hunt", "one-stroke"], &[], "wwwwwww wbAc..w wwwwwww", "rrlll", Outcome::Ongoing);
+}
+
+#[test]
+fn a_touch_is_undone_by_the_beast() {
+    let merges = [("pace.walker", "undo.beast")];
+    let names = ["hunt", "pace", "undo"];
+    check(&names, &merges, "wwwwww wAc.cw w.b..w wwwwww", "rrnnnnr", Outcome::Ongoing);
+    check(&names, &merges, "wwwwww wAc.cw wb...w wwwwww", "rrnnnnr", Outcome::Won);
+}
+
+#[test]
+fn enough_friends_get_home() {
+    let merges = [("rescue-some.foe", "hunt.hunter"), ("rescue-some.friend", "herd.sheep")];
+    let board = "wwwwww wAb.cw w.b.cw w.b.cw wwwwww";
+    let (outcome, played) = play(&["hunt", "herd", "rescue-some"], &merges, board, "rrlldrrlldrr");
+    assert!(outcome == Outcome::Won && [7, 12].contains(&played), "{outcome:?} {played}");
+}
+
+#[test]
+fn a_customer_is_lost_to_the_foe() {
+    let merges = [("pace.walker", "before-them.foe")];
+    check(&["pace", "before-them"], &merges, "wwwwwww wAc.b.w wwwwwww", "rrr", Outcome::Won);
+    check(&["pace", "before-them"], &merges, "wwwww wAcaw w..bw wwwww", "nn", Outcome::Lost);
+}
+
+#[test]
+fn one_touch_serves_two_mechanics() {
+    let merges = [("engine.engine", "ring-all.bell")];
+    check(&["hunt", "engine", "ring-all"], &merges, "wwwwwww wAb...w wwwwwww", "r", Outcome::Won);
+}
