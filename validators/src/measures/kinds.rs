@@ -2,7 +2,9 @@
 
 use super::families::{ClassFamily, EffectFamily};
 use super::guards::Guards;
-use engine::analysis::{Attainable, Condition, Genre, Key, Motion, Role, Side, Steering, WinMethod};
+use engine::analysis::{
+    Attainable, Condition, EffectSummary, Genre, Key, Motion, Role, Side, Steering, WinMethod,
+};
 use engine::{Analysis, SpriteClass, SpriteType, Term};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -134,8 +136,8 @@ impl GoalKind {
     }
 }
 
-/// Returns `true` if a type that must be removed to win is removed by meeting a different type, and one of the two
-/// types moves by itself.
+/// Returns `true` if meeting a different type removes a type that must be removed to win, or creates a type that must
+/// exist to win, and one of the two types that meet moves by itself.
 fn moves_to_a_goal(analysis: &Analysis) -> bool {
     let moves = |written: SpriteType| {
         let types = analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype));
@@ -145,10 +147,19 @@ fn moves_to_a_goal(analysis: &Analysis) -> bool {
         let mut wanted = analysis.aims().remove.iter();
         wanted.any(|&stype| analysis.applies(written, stype))
     };
+    let won_by_number = analysis.goals().iter().filter_map(|goal| match &goal.condition {
+        Condition::AtLeast(types, _) if goal.win => Some(types),
+        _ => None,
+    });
+    let made: BTreeSet<SpriteType> = won_by_number.flatten().copied().collect();
     analysis.encounters().iter().any(|encounter| {
         let Some(second) = encounter.second else { return false };
         let ends = |side: Side, written: SpriteType| encounter.ends(side) && is_goal(written);
-        (ends(Side::First, encounter.first) || ends(Side::Second, second))
+        let brings_goal = encounter.does(|effect| match effect {
+            EffectSummary::Become(to) | EffectSummary::Make(to) => made.contains(to),
+            _ => false,
+        });
+        (ends(Side::First, encounter.first) || ends(Side::Second, second) || brings_goal)
             && (moves(encounter.first) || moves(second))
     })
 }
@@ -299,6 +310,9 @@ mod tests {
         let gun = "prop > RandomNPC; other > Missile; avatar > ShootAvatar stype=other";
         goal(gun, "prop other > killBoth", none_left, GoalKind::Eliminate);
         goal(ROAMER, "prop other > killSprite", none_left, GoalKind::Herd);
+        let safe = "prop > RandomNPC; other > Immovable; safe > Immovable; avatar > MovingAvatar";
+        let two_safe = "SpriteCounterMore stype=safe limit=2 win=True; SpriteCounter stype=avatar";
+        goal(safe, "prop other > transformTo stype=safe", two_safe, GoalKind::Herd);
         let lamp = "prop > Immovable; other > Immovable; avatar > MovingAvatar";
         let lit = "avatar prop > spawn stype=other; prop other > killSprite";
         goal(lamp, lit, none_left, GoalKind::Switch);

@@ -367,7 +367,9 @@ fn bad_recipes_are_named() {
     let more = "[invented]\ngames = 2\nlevels = 4\n[corpus]\ngames = 3\n";
     fs::write(folder.path().join("mine.toml"), format!("{good}{more}")).unwrap();
     let output = run(folder.path(), &["release", "mine.toml", "--dry-run"], 0);
-    for part in ["would mint 2 invented games of 4 levels\n", "and 1 new game of", "for each of 3 corpus games"] {
+    for part in
+        ["would mint 2 invented games of 4 levels\n", "and 1 new game of", "for each of 3 corpus games"]
+    {
         assert!(text(&output.stdout).contains(part), "{}", text(&output.stdout));
     }
     assert!(!folder.path().join("releases").exists());

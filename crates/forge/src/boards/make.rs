@@ -79,8 +79,8 @@ pub(crate) fn search_boards(
     }
     best.tidy(&variation, &judge);
     if budget.scrutiny > 1 {
-        let (calls, small_calls) = (budget.calls * budget.scrutiny, budget.small_calls * budget.scrutiny);
-        best.scrutinize(&Judge { budget: &BoardBudget { calls, small_calls, ..budget.clone() }, ..judge });
+        let calls = budget.calls * budget.scrutiny;
+        best.scrutinize(&Judge { budget: &BoardBudget { calls, ..budget.clone() }, ..judge });
     }
     let feasibility = search.best().map_or(0.0, |(_, evaluation)| evaluation.feasibility);
     BoardSearch { feasibility, calls: best.calls, made: best.into_board() }
@@ -241,11 +241,12 @@ mod tests {
         let text = GAME
             .replace("    gate > Immovable\n", "    gate > Immovable\n    bead > Immovable\n")
             .replace("    G > gate\n", "    G > gate\n    b > bead\n")
+            .replace("resource=key limit=1", "resource=key limit=1 subtract=True")
             .replace("    plum avatar", "    bead avatar > killSprite scoreChange=1\n    plum avatar");
         let game = Game::from_source(&text).unwrap();
         let analysis = Analysis::of(&game);
         let budget =
-            BoardBudget { compositions: 8, evaluations: 24, calls: 20_000, ..BoardBudget::default() };
+            BoardBudget { compositions: 8, evaluations: 60, calls: 20_000, ..BoardBudget::default() };
         let search = |mechanics: Vec<Vec<usize>>| {
             let order = BoardOrder { mechanics, ..BoardOrder::of(BoardBrief::of_demand(0)) };
             search_boards(&analysis, &order, Seed::from_text("ordered mechanics"), &budget)

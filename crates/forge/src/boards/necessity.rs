@@ -60,20 +60,21 @@ impl Ablations {
             let spared = || fatal.iter().filter(|deviation| !kills(without.game(), deviation)).count();
             let mut is_shorter = || {
                 let ticks = win.actions.len() * 100 / LONGER;
-                let found = shortest_win(without, &without.game().start(level, seed), Limits { calls, ticks });
+                let found =
+                    shortest_win(without, &without.game().start(level, seed), Limits { calls, ticks });
                 all += found.calls;
                 // A win that also wins with the mechanic only shows that the known win is not the shortest.
                 found.win.is_some_and(|shorter| !wins(analysis.game(), level, &shorter, seed))
             };
-            let matters =
-                lines.iter().any(|line| needed.contains(line)) || spared() >= FATAL || is_shorter();
+            let matters = lines.iter().any(|line| needed.contains(line)) || spared() >= FATAL || is_shorter();
             matter += usize::from(matters);
         }
         (matter as f64 / self.mechanics.len() as f64, all)
     }
 
     /// Returns which of the given interactions a level's win needs, and the number of calls. Each search for a
-    /// different win may make `calls` calls.
+    /// different win may make `calls` calls. A search for the known win should succeed with as many calls, because
+    /// otherwise a search without success shows nothing.
     pub(crate) fn needed(
         &self,
         lines: impl IntoIterator<Item = usize>,

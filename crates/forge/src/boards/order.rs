@@ -46,12 +46,12 @@ base::with_defaults! {
         pub patience: usize = 24,
         /// The number of boards without a win after which the search ends.
         pub hopeless: usize = 32,
-        /// The maximum number of forward-model calls in a search for the shortest win.
-        pub calls: u64 = 40_000,
-        /// The maximum number of forward-model calls in a search for a win without an interaction or after a deviation.
-        pub small_calls: u64 = 5_000,
-        /// The factor by which `calls` and `small_calls` are multiplied for the final judging of the best board. With a
-        /// factor of 1, there is no final judging.
+        /// The maximum number of forward-model calls in each search for a win: for the shortest win, for a win without
+        /// an interaction, and for a win after a different choice. All searches have the same maximum, so that a search
+        /// without success shows something.
+        pub calls: u64 = 12_000,
+        /// The factor by which `calls` is multiplied for the final judging of the best board. With a factor of 1, there
+        /// is no final judging.
         pub scrutiny: u64 = 8,
         /// The number of deviations from the win to try.
         pub deviations: usize = 10,
@@ -90,9 +90,9 @@ pub struct BoardMeasures {
     pub steady: f64,
     /// The interactions without which every win is clearly longer or does not exist.
     pub needed: Vec<usize>,
-    /// The fraction of deviations from the win after which the player is dead or no win is found.
-    pub traps: f64,
-    /// The fraction of deviations after which the player is dead.
+    /// The fraction of the player's other choices during the win after which no win is found.
+    pub wrong: f64,
+    /// The fraction of deviations from the win after which the player is dead.
     pub deaths: f64,
     /// The fraction of placed types, not counting walls and floor, that take part in the win.
     pub used: f64,

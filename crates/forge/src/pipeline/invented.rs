@@ -33,8 +33,8 @@ const JOINT_CALLS: u64 = 2_000_000;
 pub(super) const USELESS: &str = "a mechanic does not matter";
 /// The minimum fraction of necessary interactions on a quick look's best board.
 const LEAST_NECESSITY: f64 = 0.4;
-/// The minimum fraction of costly wrong choices, on a quick look's best board.
-const LEAST_TRAPS: f64 = 0.1;
+/// The minimum fraction of wrong choices, on a quick look's best board.
+const LEAST_WRONG: f64 = 0.1;
 /// The maximum value of an unmet condition.
 const NEARLY: f64 = 0.999;
 
@@ -117,12 +117,8 @@ pub(crate) struct QuickLook {
 impl QuickLook {
     /// Returns the reason why no board is worth a search; `None` if there is no such reason.
     pub(crate) fn obstacle(&self) -> Option<&'static str> {
-        let names = [
-            "no board was won",
-            "hardly anything is necessary",
-            "no wrong choice costs",
-            "no wrong choice kills",
-        ];
+        let names =
+            ["no board was won", "hardly anything is necessary", "no choice is wrong", "no wrong key kills"];
         self.constraints().iter().zip(names).find(|(met, _)| **met < 1.0).map(|(_, name)| name)
     }
 
@@ -131,7 +127,7 @@ impl QuickLook {
         let Some(board) = &self.board else { return [self.nearness.min(NEARLY), 0.0, 0.0, 0.0] };
         let necessity = (board.necessity() / LEAST_NECESSITY).min(1.0);
         let deaths = if board.deaths > 0.0 { 1.0 } else { 0.0 };
-        [1.0, necessity, (board.traps / LEAST_TRAPS).min(1.0), deaths]
+        [1.0, necessity, (board.wrong / LEAST_WRONG).min(1.0), deaths]
     }
 
     /// Returns the degree to which all conditions are met: 1.0 exactly if there is no obstacle.

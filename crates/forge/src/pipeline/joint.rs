@@ -15,7 +15,7 @@ const JOINT: &str = "joint use";
 const LEVELS: usize = 2;
 
 /// The number of forward-model calls in the search for a win without an interaction or a mechanic.
-const CALLS: u64 = 40_000;
+const CALLS: u64 = 96_000;
 
 impl Trial<'_> {
     pub(super) const JOINT: Stage<Self> = Stage {

@@ -118,11 +118,20 @@ impl WinMethods<'_> {
                     types.for_each(|&stype| methods.extend(self.methods_to_remove(stype)));
                 }
                 Condition::AtLeast(..) | Condition::Exactly(..) => {
-                    types.for_each(|stype| methods.extend(&self.made[stype.index()]));
+                    types.for_each(|&stype| methods.extend(self.methods_to_make(stype)));
                 }
             }
         }
         methods
+    }
+
+    fn methods_to_make(&self, stype: SpriteType) -> BTreeSet<WinMethod> {
+        let made = &self.made[stype.index()];
+        let is_met = || {
+            let mut met = self.analysis.encounters.iter().filter(|encounter| encounter.second.is_some());
+            met.any(|encounter| encounter.brings_one_of(&[stype]))
+        };
+        if made.is_empty() && is_met() { BTreeSet::from([WinMethod::Others]) } else { made.clone() }
     }
 
     fn methods_to_remove(&self, stype: SpriteType) -> BTreeSet<WinMethod> {

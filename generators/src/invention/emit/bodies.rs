@@ -94,7 +94,8 @@ fn is_settled(before: &[InteractionLine], one: &str, other: &str) -> bool {
     })
 }
 
-/// Returns `true` if touching a type harms the player, although the player also needs to touch the type.
+/// Returns `true` if two rules remove a type when the player touches it, so that one of the rules has no effect. Also
+/// returns `true` if touching a type harms the player, although the player needs to touch the type.
 pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[InteractionLine]) -> bool {
     let meets = |line: &InteractionLine, first: &str, second: &str| {
         line.first.text == first && line.second.iter().any(|word| word.text == second)
@@ -106,6 +107,12 @@ pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[Inter
         _ => &[],
     };
     (0..types.len()).map(name).any(|stype| {
+        let ends = |line: &&InteractionLine| {
+            meets(line, &stype, "hero") && ["killSprite", "transformTo"].contains(&line.effect.text.as_str())
+        };
+        if rules.iter().filter(ends).count() > 1 {
+            return true;
+        }
         let mut harms = rules.iter().filter(|line| meets(line, "hero", &stype));
         harms.any(|line| {
             let taken = taken_from(&line.effect.text);

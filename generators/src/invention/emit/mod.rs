@@ -100,7 +100,7 @@ pub(in crate::invention) fn write(invention: &Invention, types: &[Merged]) -> Re
     before.iter_mut().chain(&mut rules).for_each(|line| collect_instead(line, &items));
     let all: Vec<InteractionLine> = before.iter().chain(&rules).cloned().collect();
     if is_contradictory(&bodies, types, &all) {
-        return Err(GenerateError::Unlucky("a touch that harms is wanted".to_owned()));
+        return Err(GenerateError::Unlucky("two effects of a touch contradict each other".to_owned()));
     }
     let loses = |line: &TerminationLine| {
         line.params.iter().any(|param| param.key.text == "win" && param.value.text == "False")

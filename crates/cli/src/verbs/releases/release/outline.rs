@@ -34,7 +34,8 @@ pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, c
     }))?;
     console.say(format_args!("recipe `{}`: {}", recipe.name, recipe.description.trim()));
     let invented = recipe.invented.as_ref().map(|part| (part.games, part.levels, "invented game"));
-    let puzzle = |kind: PuzzleKind| recipe.puzzles_of(kind).map(|part| (part.games, part.levels, kind.noun()));
+    let puzzle =
+        |kind: PuzzleKind| recipe.puzzles_of(kind).map(|part| (part.games, part.levels, kind.noun()));
     let made = invented.into_iter().chain([(new.games, new.levels, "new game")]);
     let made = made.chain(PuzzleKind::ALL.into_iter().filter_map(puzzle)).filter(|(games, ..)| *games > 0);
     let made = made.map(|(games, levels, noun)| {
