@@ -1,8 +1,8 @@
 //! Random draws for everything that is not part of a game's rules: search, generation, imagined futures.
 //!
 //! ChaCha8 produces the bits. The few distributions that the suite needs are implemented here and pinned by
-//! golden vectors, because a library may change the values of its distributions in a minor release, and
-//! minted bytes depend on these values (`docs/lab/decisions/0003-determinism.md`).
+//! golden vectors. A library may change the values of its distributions in a minor release, and minted bytes
+//! depend on these values (`docs/lab/decisions/0003-determinism.md`).
 
 use crate::seed::Seed;
 use rand_chacha::ChaCha8Rng;

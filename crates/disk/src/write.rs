@@ -32,7 +32,7 @@ pub fn create(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     }
     let disk = Disk::new();
     let placed = match disk.fill(path, bytes, access)?.persist_noclobber(path) {
-        // Not every file system can rename without replacing.
+        // Not every file system supports renaming without replacing.
         Err(PersistError { error, file }) if error.kind() != ErrorKind::AlreadyExists => {
             match fs::symlink_metadata(path) {
                 Ok(_) => return Err(taken()),

@@ -2,7 +2,7 @@
 //!
 //! - Object keys are sorted by their UTF-8 bytes, at every depth, regardless of the order in which the type
 //!   serialises them.
-//! - Indentation is two spaces, but an array without arrays or objects inside stays on one line.
+//! - Indentation is two spaces, but an array that contains no arrays or objects stays on one line.
 //! - Strings are escaped like in `serde_json`: only `"`, `\` and control characters.
 //! - Integers are plain 64-bit numbers. Floats have the shortest form that parses back to the same bits,
 //!   always with a `.` or an exponent (`1.0`, not `1`; `1e+16`). An `f32` is first widened to `f64`.

@@ -61,8 +61,8 @@ pub struct Simulator {
 }
 
 impl Simulator {
-    /// Creates a simulator. Its planners range from weak to strong, and its readers are weaker than the
-    /// planners.
+    /// Creates a simulator. Its planners range from weak to strong, and its readers are weaker on
+    /// average.
     pub fn new(plan: Plan, seed: u64) -> Simulator {
         let mut examinees = Vec::new();
         let mut abilities = Vec::new();

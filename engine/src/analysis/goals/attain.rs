@@ -184,8 +184,8 @@ impl PopulationChanges {
     }
 }
 
-/// Returns `true` if the effects that turn their sprite into a different type also turn a dead avatar, again
-/// in every tick. All such effects do so, except a `transformTo` that has no condition and turns no other
+/// Returns `true` if the effects that turn their sprite into a different type also turn a dead avatar again
+/// in every tick. All such effects do so except `transformTo`, which has no condition and turns no other
 /// sprite.
 pub(crate) fn turns_dead(effects: &[EffectSummary], precondition: Precondition) -> bool {
     precondition == Precondition::Movement

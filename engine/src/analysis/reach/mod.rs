@@ -35,7 +35,7 @@
 //! 1. `meetings` lists which types can meet, with which effects.
 //! 2. From the meetings, `model` derives how each type can move (`mobility` by itself, `contact` by others),
 //!    before any cell is examined.
-//! 3. `events` iterates until nothing is new. In each round, types spread over the cells (`flood`, `jump`),
+//! 3. `events` iterates until nothing changes. In each round, types spread over the cells (`flood`, `jump`),
 //!    create other types (`makers`), and collide (`effects`).
 //! 4. `tally` determines the terminations that can no longer hold.
 //!
