@@ -86,8 +86,8 @@ impl Game {
     }
 
     /// Plays one tick like [`Game::step`], but without the scheduler: the plain cycle of `spec/01` §4. Tests
-    /// compare the scheduled step with this one, which counts more work towards the limit and costs O(sprites
-    /// + cells) more.
+    /// compare the scheduled step with this one, which counts more work towards the limit and costs
+    /// O(sprites + cells) more.
     #[doc(hidden)]
     pub fn step_unscheduled(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
         if state.is_over() {

@@ -2,9 +2,10 @@
 //!
 //! A boulder on the ground falls a little, collides with the dirt below and is moved back in every tick. As
 //! long as nothing enters or leaves the cells of the boulder and the cells below, each tick repeats the last
-//! tick and changes nothing. Such a sprite is skipped. As soon as anything touches these cells, it wakes. If
-//! its turn to move in this tick has already passed, but the rule that moves it back has not run yet, the
-//! movement is performed late.
+//! tick and changes nothing. Such a sprite is skipped.
+//!
+//! As soon as anything touches these cells, it wakes. If its turn to move in this tick has already passed,
+//! but the rule that moves it back has not run yet, the movement is performed late.
 //!
 //! Sprites may sleep only if that does not change the result (`spec/01` §4, `spec/03` §4). The conditions
 //! are:

@@ -12,8 +12,8 @@
 //!   with its type (`overrides.rs`): orientation, speed, health. [`World::add_amount`] and
 //!   [`World::replace_missile`] change tables that few sprites need (`side_tables.rs`).
 //!
-//! The VGDL operations in `tick/population.rs` and `tick/motion.rs` call these methods, which effects and
-//! updates call in turn. `numbers.rs` changes the numbers that are stored alongside the sprites.
+//! The VGDL operations in `tick/population.rs` and `tick/motion.rs` call these methods, and effects and
+//! updates call those operations. `numbers.rs` changes the numbers that are stored alongside the sprites.
 
 use super::{Models, NONE, Slot, Sprite, Target, Watcher, World, flag};
 use crate::limits::MAX_SLOTS;

@@ -41,7 +41,7 @@ struct Survival {
     survived: bool,
     /// `true` if all sequences of actions were searched.
     complete: bool,
-    /// The longest episode found.
+    /// The longest episode found. `idle` is the episode in which the player never acts.
     longest: Episode,
     idle: Episode,
     calls: u64,

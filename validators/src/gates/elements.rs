@@ -39,8 +39,8 @@ impl Element {
 }
 
 /// Returns a game's elements: interactions and placed types. Guards ([`Guards`]) are excluded, and so are
-/// interactions by which a wall keeps sprites other than avatars in bounds, avatars, walls, the background,
-/// and types that an ending counts.
+/// interactions by which a wall keeps sprites other than avatars in bounds. Avatars, walls, the background,
+/// and types that an ending counts are excluded as well.
 ///
 /// `executed` lists, by level, the rules that were executed in addition to those in the recording.
 pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]) -> Vec<Element> {

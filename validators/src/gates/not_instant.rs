@@ -10,12 +10,15 @@ use base::Seed;
 use engine::analysis::{Attainable, Role};
 use engine::{Analysis, Episode, Game, Level, SpriteClass, SpriteType, Term};
 
-/// Passes if each level after the first meets two conditions. The shortest known win must take at least
-/// [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of the slowest spawner on the level. The
-/// nearest-goal player ([`agents::NearestGoal`]) must win at most [`Gates::bot_wins`] of its episodes. If it
-/// wins more, it plays four times as many episodes. A fraction [`Gates::instant_levels`] of these levels may
-/// be exceptions. In addition, the game's time limit must be within [`Gates::time_limit`] times the longest
-/// known win.
+/// Passes if each level after the first meets two conditions:
+///
+/// - The shortest known win takes at least [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of
+///   the slowest spawner on the level.
+/// - The nearest-goal player ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its episodes. If
+///   it wins more, it plays four times as many episodes.
+///
+/// A fraction [`Gates::instant_levels`] of these levels may be exceptions. In addition, the game's time limit
+/// must be within [`Gates::time_limit`] times the longest known win.
 ///
 /// A spawner counts if the level places it and its sprites can do harm, are needed for an ending or give
 /// something. Its period is the mean time between two sprites: its cooldown divided by its probability. The

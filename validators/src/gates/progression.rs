@@ -8,11 +8,13 @@ use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
-/// Passes if the mechanics needed to win grow over the levels. A level's mechanics are the interactions executed in
-/// its shortest known win, not counting guards. At least [`Gates::growth`] levels must need mechanics that no earlier
-/// level needed. The last level must need as many mechanics as the first, and at least [`Gates::last_share`] of all
-/// mechanics needed on any level. The last level must not be easier than either of the first two by more than
-/// [`Gates::easier`].
+/// Passes if the mechanics needed to win grow over the levels. A level's mechanics are the interactions
+/// executed in its shortest known win, not counting guards. There are three conditions:
+///
+/// - At least [`Gates::growth`] levels need mechanics that no earlier level needed.
+/// - The last level needs as many mechanics as the first, and at least [`Gates::last_share`] of all mechanics
+///   needed on any level.
+/// - The last level is not easier than either of the first two by more than [`Gates::easier`].
 ///
 /// If a ladder was played on every level, a level's ease is its ease for the ladder. If not, its ease is the
 /// win rate of careless players, with four times as many episodes if the last level seems easier. Games with

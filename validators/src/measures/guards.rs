@@ -5,8 +5,8 @@ use crate::measures::is_guard;
 use engine::analysis::Role;
 use engine::{Analysis, Meeting, SpriteType};
 
-/// A game's guards: interactions with the screen edge, and walls that undo moves at no cost. A wall
-/// ([`Role::Wall`]) is stationary, always blocks and cannot be removed.
+/// A game's guards: interactions with the screen edge, and interactions in which a wall undoes a move at no
+/// cost. A wall ([`Role::Wall`]) is stationary, always blocks and cannot be removed.
 #[derive(Clone, Debug)]
 pub struct Guards {
     /// Each interaction line's kind.

@@ -31,8 +31,9 @@ pub struct RuleRefError {
 const MAX_LISTED: usize = 4;
 
 impl RuleRef {
-    /// Parses a rule name. The name is either the number of the rule's line in the InteractionSet, counted
-    /// from 1, or the names of the two sprites. Each sprite is named as on the line, or by a type below it.
+    /// Parses a rule name, which is either the number of the rule's line in the InteractionSet, counted from
+    /// 1, or the names of the two sprites. Each sprite is named as on the line, or by a type below it.
+    ///
     /// If the two sprites meet in more than one way, the effect must follow: `box hole killSprite`, or
     /// equivalently `box hole > killSprite`. If the two sprites occur only in the opposite order, the name
     /// refers to that interaction.

@@ -11,10 +11,12 @@ use super::graph::{Grain, RuleGraph};
 use itertools::Itertools;
 
 /// The maximum number of texts to write. Games whose types are distinguished by colours, or can be exchanged,
-/// need far fewer texts. Beyond the limit, the first type with a given colour represents all types with this
-/// colour. The result is the same if these types are equivalent, as they are unless the rule graph is
-/// adversarial. In an adversarial graph, two versions of the same rules may get different texts. Different
-/// rules never get the same text.
+/// need far fewer texts.
+///
+/// Beyond the limit, the first type with a given colour represents all types with this colour. The result is
+/// the same if these types are equivalent, as they are unless the rule graph is adversarial. In an
+/// adversarial graph, two versions of the same rules may get different texts. Different rules never get the
+/// same text.
 const MAX_LABELLINGS: usize = 200;
 
 /// The canonical text, with the types in text order. It is the same for all graphs that differ only in names

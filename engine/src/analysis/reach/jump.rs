@@ -6,8 +6,9 @@
 //! The avatar moves upwards only after a jump. A jump sets the upward speed to `strength / mass`, whatever
 //! the speed was before, and lifts the avatar by 5 pixels at once. Gravity subtracts `gravity` in each tick.
 //! Friction and the speed limit can only reduce the speed further. A wall beside the avatar can restore the
-//! speed `gravity` once, when the avatar comes to rest. The avatar therefore rises above the position where
-//! it last stood on something solid by at most
+//! speed `gravity` once, when the avatar comes to rest.
+//!
+//! The avatar therefore rises above the position where it last stood on something solid by at most
 //!
 //! ```text
 //! u + u² / 2g + g + 6 pixels      with u = strength / mass, g = gravity
