@@ -28,9 +28,8 @@ pub fn benjamini_hochberg(p: &[f64]) -> Vec<f64> {
 }
 
 /// Returns the Bonferroni adjusted values for `p`, in the same order. If every null hypothesis with an
-/// adjusted value of at most 5% is rejected, the probability of any false rejection is at most 5%. Adjusted
-/// values are
-/// at most 1. Cost: O(n).
+/// adjusted value of at most 5% is rejected, the probability of any false rejection is at most 5%. No adjusted
+/// value exceeds 1. Cost: O(n).
 ///
 /// All results are NaN if a value is not a probability.
 ///
