@@ -239,9 +239,9 @@ fn small(name: &str, seed: &str) -> String {
     )
 }
 
-/// Runs every command on the page. The recipes are replaced by small ones before they are committed to, and
-/// the secrets by secrets that are the same in every run, because such a small recipe finds enough levels
-/// only with some seeds.
+/// Runs every command on the page. Before they are committed to, the recipes are replaced by small ones, and
+/// the secrets by secrets that are the same in every run. Such a small recipe finds enough levels only with
+/// some seeds.
 #[test]
 fn the_first_month_works_as_printed() {
     let page = include_str!("../../../../docs/how-to/first-month.md");

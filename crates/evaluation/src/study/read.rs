@@ -21,9 +21,9 @@ impl Study {
     /// Results of the same person in several folders are merged. Persons are the same if their name, mode,
     /// aids, prompts, decoding and served version are equal.
     ///
-    /// Games with the same ID count as one game in two cases: either their rules are equal except for names
-    /// and their levels start in the same states, or their rules and levels are mirror images. Results on the
-    /// two variants belong to separate players.
+    /// Games with the same ID count as one game in two cases: their rules are equal except for names, and
+    /// their levels start in the same states, or their rules and levels are mirrored. Results on the two
+    /// variants belong to separate players.
     ///
     /// Cost: one [`replay`](crate::metrics::replay) per episode, on the threads of the current rayon pool.
     ///
