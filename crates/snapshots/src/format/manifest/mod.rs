@@ -223,9 +223,8 @@ impl Manifest {
         Ok(merkle::root(&self.leaves()?)?)
     }
 
-    /// Reads a manifest, and checks everything except the root that can be checked without the files.
-    /// [`check_integrity`](crate::check_integrity) reports a wrong root together with the problems in the
-    /// files.
+    /// Reads a manifest and checks everything that can be checked without the files, except the root.
+    /// [`check_integrity`](crate::check_integrity) reports a wrong root together with the problems in the files.
     ///
     /// # Errors
     /// Returns an error in each of these cases:
