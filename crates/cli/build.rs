@@ -1,5 +1,5 @@
-//! Records the commit of a release build for `arcade --version`. Other builds do not record their commit, so that a
-//! commit does not trigger a rebuild.
+//! Records the commit of a release build for `arcade --version`. Other builds do not record their commit, so
+//! a commit does not trigger a rebuild.
 
 use std::env;
 use std::process::Command;
@@ -15,7 +15,7 @@ fn main() {
         && let Some(commit) = git(&["rev-parse", "--short=12", "HEAD"])
     {
         println!("cargo::rustc-env=ARCADE_COMMIT={commit}");
-        // These are HEAD and the branch that it points to, which a commit or a checkout changes.
+        // These are HEAD and the branch it points to. A commit or a checkout changes them.
         for file in ["HEAD", "logs/HEAD"] {
             if let Some(path) = git(&["rev-parse", "--git-path", file]) {
                 println!("cargo::rerun-if-changed={path}");
@@ -24,12 +24,14 @@ fn main() {
     }
 }
 
-/// Returns `true` in the project's own clone, and `false` if the sources were unpacked into a different clone.
+/// Returns `true` in the project's own clone, and `false` if the sources were unpacked inside a clone of a
+/// different project.
 fn is_own_clone() -> bool {
     git(&["rev-parse", "--show-prefix"]).is_some_and(|prefix| prefix == "cli/")
 }
 
-/// Returns the first line that git prints; `None` without git or outside a clone, as in an unpacked archive.
+/// Returns the first line that git prints, or `None` without git or outside a clone (for example in an
+/// unpacked archive).
 fn git(arguments: &[&str]) -> Option<String> {
     let output =
         Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;

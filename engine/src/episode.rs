@@ -7,8 +7,8 @@ use crate::{State, StateHash};
 use base::{Digest, Seed, SeedPath, SeedStep};
 use serde::{Deserialize, Serialize};
 
-/// An episode's actions and their results. An episode serves as a validator's witness, as an evaluation's
-/// log, or as a golden trace. [`Episode::replay`] checks all three.
+/// A game's recorded actions, with their results. An episode serves as a validator's witness, as an
+/// evaluation's log, or as a golden trace. [`Episode::replay`] checks all three.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Episode {
@@ -26,8 +26,8 @@ pub struct Episode {
     pub outcome: Outcome,
     /// The final score.
     pub score: f64,
-    /// The path from a root seed to the episode's seed. Empty if the caller of [`Episode::begin`] passed only
-    /// a seed. The path is not part of the record: neither files nor comparisons of episodes include it.
+    /// The path from a root seed to the episode's seed. Empty if [`Episode::begin`] was called with only a
+    /// seed. The path is not part of the record: neither files nor comparisons of episodes include it.
     #[serde(skip)]
     pub path: Vec<SeedStep>,
 }
@@ -50,7 +50,7 @@ pub enum Divergence {
     Game {
         /// The recorded digest of the game.
         recorded: Digest,
-        /// The digest of the game given to the replay.
+        /// The digest of the game passed to the replay.
         given: Digest,
     },
     /// The episode was recorded on a different level.
@@ -58,7 +58,7 @@ pub enum Divergence {
     Level {
         /// The recorded digest of the level.
         recorded: Digest,
-        /// The digest of the level given to the replay.
+        /// The digest of the level passed to the replay.
         given: Digest,
     },
     /// The numbers of actions and hashes differ.
@@ -96,8 +96,8 @@ pub enum Divergence {
 }
 
 impl Episode {
-    /// Starts an episode before its first tick, and returns it with the initial state. The episode stores the
-    /// steps of a [`SeedPath`].
+    /// Creates an episode that has not played its first tick yet, and returns it with the initial state. The
+    /// episode stores the steps of a [`SeedPath`].
     pub fn begin(game: &Game, level: &Level, seed: impl Into<SeedPath>) -> (Episode, State) {
         let path = seed.into();
         let (seed, path) = (path.seed(), path.into_steps());

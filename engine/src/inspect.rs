@@ -1,6 +1,6 @@
-//! Internal data of games and states, for readers of the engine and for this crate's tests. The tests play
-//! whole games and therefore run against the library (`tests/it`). This data follows the engine's internal
-//! design, and its compatibility is not guaranteed.
+//! Internal data of games and states, for readers of the engine and for this crate's tests, which play whole
+//! games and therefore run against the library (`tests/it`). This data follows the engine's internal design
+//! and may change at any time.
 
 use crate::analysis::EffectSummary;
 use crate::numbers::geometry::Direction;
@@ -22,7 +22,7 @@ pub struct EffectRow {
     /// `true` if sprites that take no part in the interaction may change.
     pub affects_distant_sprites: bool,
     /// `true` if the effect leaves the second sprite unchanged, provided that nothing else moves that sprite
-    /// and no parameter refers to its type.
+    /// and that no parameter refers to its type.
     pub spares_still_second: bool,
 }
 

@@ -1,5 +1,4 @@
-//! The keywords of VGDL. The tables in `rules/` define the keywords, and tests compare these lists with the
-//! tables.
+//! The keywords of VGDL. The tables in `rules/` define them, and tests compare these lists with the tables.
 
 /// The sprite classes (`spec/02` §12).
 pub(crate) const CLASSES: &[&str] = &[

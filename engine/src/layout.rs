@@ -1,11 +1,11 @@
 //! The names of a game's files, which determine the levels that belong to the game. The engine itself reads
-//! no files. This module is for programs that read files.
+//! no files; this module is for programs that do.
 //!
 //! A level is `lvl3.txt` next to `game.vgdl` or `game.txt`, or next to the only game in a folder.
-//! Alternatively, a level is `zelda_lvl3.txt` next to `zelda.vgdl` or `zelda.txt`, as in the public games.
-//! Names are case-insensitive, and numbers may have gaps.
+//! Alternatively, as in the public games, it is `zelda_lvl3.txt` next to `zelda.vgdl` or `zelda.txt`. Names
+//! are case-insensitive, and numbers may have gaps.
 
-/// The file names of a game and its levels, all in the same folder.
+/// The names of the files with a game and its levels, all in the same folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GameFiles {
     /// The file with the rules.
@@ -23,7 +23,7 @@ pub fn level_number(name: &str) -> Option<usize> {
 }
 
 /// Returns the games in a folder with these files, sorted by name. If `game.vgdl` or `game.txt` exists, it is
-/// the only game. Otherwise, every file with levels of its own is a game. If no file has levels of its own,
+/// the only game. If neither exists, every file with levels of its own is a game; and if no file has any,
 /// every `.vgdl` file is a game.
 pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
     let mut names: Vec<&str> = names.into_iter().collect();
@@ -108,8 +108,8 @@ pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
     })
 }
 
-/// Returns the files that are games according to their names or to their levels' names, in a folder without
-/// `game.vgdl` and `game.txt`.
+/// Returns the files that are games, judging by their names or by the names of levels, in a folder that has
+/// neither `game.vgdl` nor `game.txt`.
 fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     let candidates = || names.iter().copied().filter(|name| is_source(name));
     let with_levels: Vec<&str> = candidates().filter(|name| owns_levels(name, names)).collect();
@@ -124,7 +124,7 @@ fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     }
 }
 
-/// Returns `true` if levels whose names do not contain a game belong to the game `source`.
+/// Returns `true` if levels whose names do not name a game belong to the game `source`.
 fn takes_plain(source: &str, names: &[&str]) -> bool {
     let other = |name: &&str| has_ending(name, "vgdl") || is_game(name) || owns_levels(name, names);
     is_game(source) || !names.iter().filter(|name| stem(name) != stem(source)).any(other)
@@ -135,8 +135,8 @@ const TEXTS: [&str; 4] = ["txt", "text", "lvl", "level"];
 /// The words that stand for a level in file names.
 const WORDS: [&str; 4] = ["level", "lvl", "lev", "lv"];
 
-/// Returns the game and the number in a name that resembles a level name: `level_3.txt`, `lvl3`. The game is
-/// empty if the name contains no game.
+/// Returns the game and the number in a name that resembles a level name, such as `level_3.txt` or `lvl3`.
+/// The game is empty if the name does not include one.
 fn like_level(name: &str) -> Option<(&str, usize)> {
     let is_text = |ending: &str| TEXTS.iter().any(|text| ending.eq_ignore_ascii_case(text));
     let mut stem = name;
@@ -297,7 +297,7 @@ mod tests {
                 ("x_lvl5.txt", "lvl5.txt"),
             ],
         );
-        // Existing levels are never replaced.
+        // A suggested name never replaces an existing level.
         check("game.vgdl", &["game.vgdl", "lvl0.txt", "level0.txt"], &[("level0.txt", "lvl1.txt")]);
         check("pond.txt", &["pond.txt", "pond-level1.txt"], &[("pond-level1.txt", "pond_lvl1.txt")]);
         let two = ["a.vgdl", "b.vgdl", "b_level1.txt", "lvl0.txt", "map.txt", "notes.txt", "travel.txt"];

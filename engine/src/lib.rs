@@ -8,8 +8,8 @@
 //! 4. Helpful messages.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
-// `pest_derive` without its `std` feature, which would check the stack at every step, generates code that names this
-// crate.
+// `pest_derive` is used without its `std` feature, which would check the stack at every step. It then
+// generates code that names this crate.
 extern crate alloc;
 
 pub mod analysis;
@@ -63,6 +63,6 @@ pub use syntax::Description;
 pub use tick::{Meeting, Removal, Watch};
 pub use world::{SearchKey, StateHash};
 
-/// The version of the engine's semantics. The version is incremented when any golden trace changes, because
-/// a witness replays only under the version with which it was recorded.
+/// The version of the engine's semantics, which is incremented when any golden trace changes, because a
+/// witness replays only under the version with which it was recorded.
 pub const SEMANTICS: u32 = 3;

@@ -12,7 +12,7 @@ pub const MAX_NAME: usize = 128;
 pub const MAX_NESTING: usize = 32;
 /// The maximum number of sprite types in a game.
 pub const MAX_TYPES: usize = 512;
-/// The maximum number of parameters of a sprite type, including inherited parameters.
+/// The maximum number of parameters of a sprite type, including inherited ones.
 pub const MAX_PARAMETERS: usize = 256;
 /// The maximum number of names in one parameter on a sprite type.
 pub const MAX_LIST: usize = 64;
@@ -25,7 +25,7 @@ pub const MAX_REACH: i32 = 16;
 pub const MAX_COUNTERS: i32 = 64;
 /// The maximum side length of a cell in pixels.
 pub const MAX_SQUARE: i32 = 10_000;
-/// The maximum number of problems to report for a file. One more problem summarises the rest.
+/// The maximum number of problems to report for a file. One additional problem summarises the rest.
 pub const MAX_PROBLEMS: usize = 100;
 
 /// The maximum length of a level's text in bytes.

@@ -1,4 +1,4 @@
-//! Starting and stepping episodes.
+//! Starts and steps episodes.
 
 use crate::game::{Compiled, Game};
 use crate::level::Level;
@@ -50,8 +50,8 @@ impl Game {
         state
     }
 
-    /// Plays one tick. Does nothing once the episode is over. An action that is unavailable to the avatar
-    /// counts as [`Action::Nil`].
+    /// Plays one tick. Does nothing once the episode is over. An action that the avatar does not have counts
+    /// as [`Action::Nil`].
     ///
     /// Does not allocate once the state's buffers have grown.
     pub fn step(&self, state: &mut State, action: Action) -> Outcome {
@@ -86,8 +86,8 @@ impl Game {
     }
 
     /// Plays one tick like [`Game::step`], but without the scheduler: the plain cycle of `spec/01` §4. Tests
-    /// compare the scheduled step with this unscheduled step, which counts more work towards the limit and
-    /// costs O(sprites + cells) more.
+    /// compare the scheduled step with this one, which counts more work towards the limit and costs
+    /// O(sprites + cells) more.
     #[doc(hidden)]
     pub fn step_unscheduled(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
         if state.is_over() {

@@ -11,14 +11,14 @@ use std::path::Path;
 use tests::{games, isomorphic, public_games, workspace_root};
 use validators::novelty::{GameForm, distance};
 
-/// A game and its form.
+/// A game with its form.
 struct Formed {
     name: String,
     game: Game,
     form: GameForm,
 }
 
-/// Returns the strictly loadable games in a folder's subfolders.
+/// Returns the games in a folder's subfolders that load strictly.
 fn formed(folder: &Path) -> Vec<Formed> {
     let strictly = games(folder).into_iter().filter_map(|(name, game, _)| {
         let game = Game::compile(game.description()).ok()?;
@@ -44,7 +44,7 @@ fn main() {
     distributions(lists);
 }
 
-/// Prints each corpus game and its nearest neighbours.
+/// Prints each corpus game with its nearest neighbours.
 fn neighbours(own: &[Formed], public: &[Formed]) {
     told("| game | nearest in the corpus | distance | nearest public game | distance |");
     told("|---|---|---|---|---|");
@@ -58,7 +58,7 @@ fn neighbours(own: &[Formed], public: &[Formed]) {
     }
 }
 
-/// Returns all pairs with their distances, nearest first.
+/// Returns all pairs of games with their distances, nearest first.
 fn pairs(games: &[Formed]) -> Vec<(f64, &str, &str)> {
     let mut pairs = Vec::new();
     for (at, one) in games.iter().enumerate() {
@@ -69,7 +69,7 @@ fn pairs(games: &[Formed]) -> Vec<(f64, &str, &str)> {
     pairs
 }
 
-/// Prints the pairs of related public games, and the equally close pairs.
+/// Prints the pairs of related public games, and the other pairs that are as close.
 fn nearest_pairs(public: &[Formed]) {
     let relatives = [
         ("sokoban", "wrapsokoban"),
@@ -86,8 +86,7 @@ fn nearest_pairs(public: &[Formed]) {
     }
 }
 
-/// Returns the distances between games and their copies with different numbers, and between games and their
-/// copies with changed rules.
+/// Returns the distances from games to copies with different numbers, and to copies with changed rules.
 fn copies(all: &[&Formed]) -> Vec<(&'static str, Vec<f64>)> {
     let mut renumbered = Vec::new();
     let mut altered = [Vec::new(), Vec::new(), Vec::new()];

@@ -9,7 +9,8 @@ use engine::syntax::{
 };
 use engine::{EFFECTS, ParameterKind, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS, effect_parameters};
 
-/// A game and one of its levels, as texts. Most such games load strictly, and all others load as in the reference.
+/// A game and one of its levels, as texts. Most such games load strictly, and the others load as in the
+/// reference.
 #[derive(Clone, Debug)]
 pub struct AnyGame {
     /// The game's text.
@@ -18,7 +19,7 @@ pub struct AnyGame {
     pub level: String,
 }
 
-/// Creates the game described by the decisions.
+/// Creates the game that the decisions describe.
 pub fn any_game(choices: &mut Choices<'_>) -> AnyGame {
     let leaves = vec![("wall".to_owned(), SpriteClass::Immovable)];
     let has_ground = choices.once_in(6);
@@ -54,14 +55,14 @@ struct Author<'c, 'b> {
     leaves: Vec<(String, SpriteClass)>,
     /// The types with subtypes.
     groups: Vec<String>,
-    /// `true` if the lowest row is ground, on which avatars and walkers can stand.
+    /// `true` if the lowest row is ground on which avatars and walkers can stand.
     has_ground: bool,
     /// The number of counters in the game.
     counters: usize,
 }
 
 impl Author<'_, '_> {
-    /// Creates names and classes. Inherited classes are not repeated.
+    /// Creates names and classes. Inherited classes are not written again.
     fn forest(&mut self, inherited: Option<SpriteClass>, depth: usize) -> Vec<SpriteLine> {
         let count = 1 + self.choices.below(SIBLINGS);
         let mut lines = Vec::new();
@@ -114,7 +115,7 @@ impl Author<'_, '_> {
             }
             for _ in 0..self.choices.below(4) {
                 let own = class.map_or(Vec::new(), SpriteClass::parameters);
-                // The parameters of a class are few and matter more.
+                // A class has few parameters of its own, but they matter more.
                 let key = if own.is_empty() || self.choices.once_in(2) {
                     self.choices.pick(SPRITE_PARAMETERS)
                 } else {
@@ -142,7 +143,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Adds gravity to sprites that can stand, if there is ground.
+    /// Adds gravity to sprites that can stand, provided that there is ground.
     fn weight(&mut self, lines: &mut [SpriteLine]) {
         if !self.has_ground {
             return;
@@ -198,7 +199,7 @@ impl Author<'_, '_> {
         (self.choices.pick(&others)).clone()
     }
 
-    /// Chooses any type, whether or not it has subtypes.
+    /// Chooses any type, with or without subtypes.
     fn family(&mut self) -> String {
         let at = self.choices.below(self.leaves.len() + self.groups.len());
         match self.leaves.get(at) {
@@ -207,7 +208,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Chooses a resource, if there are any.
+    /// Chooses a resource, if there is one.
     fn resource(&mut self) -> String {
         let is_resource = |leaf: &&(String, SpriteClass)| leaf.1 == SpriteClass::Resource;
         let found: Vec<&String> = self.leaves.iter().filter(is_resource).map(|(name, _)| name).collect();
@@ -250,7 +251,7 @@ impl Author<'_, '_> {
         }
     }
 
-    /// Returns an amount for each counter, always as a list.
+    /// Returns an amount for each counter, written as a list in any case.
     fn amounts(&mut self) -> String {
         let entries: Vec<String> = (0..2).map(|_| vocabulary::int(self.choices).to_string()).collect();
         entries.join(",")
@@ -448,7 +449,7 @@ impl Author<'_, '_> {
     }
 }
 
-/// Returns `true` if sprites of the class respond to the ground below them.
+/// Returns `true` if sprites of the class react to the ground below them.
 fn stands(class: SpriteClass) -> bool {
     class.is_a(SpriteClass::PlatformerAvatar) || class.is_a(SpriteClass::Walker)
 }

@@ -1,10 +1,10 @@
-//! Decisions from bytes: the conversion of a fuzzer's input into a game.
+//! Decisions read from bytes, which turn a fuzzer's input into a game.
 
 use base::Sampler;
 
-/// Decisions read from bytes. Small decisions are read from the front. [`Choices::from_end`] reads bytes from the back,
-/// so that changing one kind of decision does not shift the other. Past the end, every decision yields the first
-/// option. The first option is always the simplest, so shorter inputs give simpler games.
+/// Decisions read from bytes. Small decisions are read from the front. [`Choices::from_end`] reads bytes from
+/// the back, so that changing one kind of decision does not shift the other. Past the end, every decision
+/// yields the first option, which is always the simplest. Shorter inputs therefore give simpler games.
 #[derive(Clone, Debug)]
 pub struct Choices<'a> {
     bytes: &'a [u8],
@@ -40,13 +40,13 @@ impl<'a> Choices<'a> {
         last
     }
 
-    /// Returns a number below `bound`, which must be between 1 and 65536.
+    /// Returns a number below `bound`. The bound must be between 1 and 65536.
     pub fn below(&mut self, bound: usize) -> usize {
         let high = if bound > 256 { usize::from(self.byte()) << 8 } else { 0 };
         (high | usize::from(self.byte())) % bound
     }
 
-    /// Returns `true` in one of `times` cases on average.
+    /// Returns `true` once in `times` cases on average.
     pub fn once_in(&mut self, times: usize) -> bool {
         self.below(times) == times - 1
     }

@@ -1,4 +1,4 @@
-//! Random compilable games with any classes, effects and parameters.
+//! Random games that compile, with any classes, effects and parameters.
 
 use base::Sampler;
 use engine::SpriteClass;
@@ -10,7 +10,7 @@ pub fn game(sampler: &mut Sampler) -> (String, String) {
     // A wall is solid, and exists in every game.
     names.push("wall".to_owned());
     names.push("hero".to_owned());
-    // Some games are more plausible games about jumping.
+    // Some of the games are more plausible ones about jumping.
     let jumps = sampler.ratio(1, 6);
     let mut sprites = String::new();
     let mut depth = 0;
@@ -148,8 +148,8 @@ pub(crate) fn sprite(sampler: &mut Sampler, names: &[String], hero: bool) -> Str
 /// The parameters specific to certain classes.
 const OWN: [&str; 8] = ["limit", "value", "total", "prob", "spawnorientation", "cons", "spreadprob", "stype"];
 
-/// Every effect with its parameters. N stands for a sprite, I for a small integer, S for a speed, P for a probability,
-/// B for a Boolean, and E for an effect.
+/// Every effect with its parameters. N stands for a sprite, I for a small integer, S for a speed, P for a
+/// probability, B for a Boolean, and E for an effect.
 const EFFECTS: [&str; 72] = [
     "killSprite",
     "killSprite",

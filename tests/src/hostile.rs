@@ -18,10 +18,10 @@ use engine::{Action, Diagnostics, Game, MAX_TICKS};
 use std::fs;
 use std::path::PathBuf;
 
-/// The folder of the set, relative to the workspace.
+/// The folder of the set, relative to the workspace root.
 const FOLDER: &str = "tests/suite/hostile";
 
-/// One case of the hostile set.
+/// A case in the hostile set.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The file name without its extension.
@@ -30,7 +30,7 @@ pub struct Case {
     pub source: String,
     /// The level's text, if the game is expected to load.
     pub level: Option<String>,
-    /// The expectation, as text lines.
+    /// The expectation, as lines of text.
     pub expect: String,
 }
 
@@ -58,7 +58,7 @@ impl Case {
         Case { name, source: must("vgdl"), level: read("txt").ok(), expect: must("expect") }
     }
 
-    /// Writes the result of the case into its expectation.
+    /// Writes the case's result into its expectation.
     ///
     /// # Panics
     ///
@@ -68,7 +68,7 @@ impl Case {
         fs::write(&file, self.got()).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     }
 
-    /// Returns the expectation, with its results replaced by the actual results.
+    /// Returns the expectation, with its results replaced by the actual ones.
     pub fn got(&self) -> String {
         let lines = self.expect.lines().map(|line| match line.split_once(':') {
             Some(("strict", _)) => format!("strict: {}\n", self.end(false)),
@@ -92,7 +92,7 @@ impl Case {
         };
         let mut state = game.start(&level, Seed::from_text("hostile"));
         for action in self.actions().into_iter().cycle() {
-            // Play one tick beyond the reference's limit, so that an endless game is noticed.
+            // The case is played one tick beyond the reference's limit, so that an endless game is noticed.
             if state.is_over() || state.tick() > MAX_TICKS {
                 break;
             }
@@ -104,7 +104,7 @@ impl Case {
         format!("{outcome} after {} ticks", state.tick() + 1)
     }
 
-    /// Returns the player's actions, in a repeating sequence.
+    /// Returns the player's actions, as an endlessly repeating sequence.
     fn actions(&self) -> Vec<Action> {
         let given = self.expect.lines().find_map(|line| line.strip_prefix("actions: "));
         let letters = given.unwrap_or("N").chars();
@@ -121,7 +121,7 @@ impl Case {
     }
 }
 
-/// Returns the distinct codes, ordered by position.
+/// Returns the distinct codes in order of position.
 fn codes(problems: &Diagnostics) -> String {
     assert!(Diagnostics::has_errors(&problems.0), "refused without an error");
     let mut codes: Vec<&str> = Vec::new();

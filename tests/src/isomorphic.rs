@@ -1,12 +1,12 @@
-//! Isomorphic games in a different theme, and nearly identical games.
+//! Isomorphic games under a different theme, and nearly identical games.
 
 use base::Sampler;
 use engine::Description;
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
 use std::collections::BTreeMap;
 
-/// Returns an isomorphic game with different names, characters, colours and order. Inherited and default parameters are
-/// written explicitly.
+/// Returns an isomorphic game with different names, characters, colours and order. Inherited and default
+/// parameters are written out.
 pub fn rethemed(description: &Description, sampler: &mut Sampler) -> Description {
     let mut tree = description.clone();
     rename(&mut tree, sampler);
@@ -21,7 +21,7 @@ pub fn rethemed(description: &Description, sampler: &mut Sampler) -> Description
     tree
 }
 
-/// Changes all numbers that are sizes, preserving signs and zeros. Returns `None` if there are no such numbers.
+/// Changes all numbers that are sizes, preserving signs and zeros. Returns `None` if there are none.
 pub fn renumbered(description: &Description) -> Option<Description> {
     let mut tree = description.clone();
     let mut changed = false;
@@ -44,7 +44,8 @@ pub fn renumbered(description: &Description) -> Option<Description> {
     changed.then_some(tree)
 }
 
-/// Changes one effect, class or ending. Returns `None` if the randomly chosen item cannot be changed in this way.
+/// Changes one effect, class or ending. Returns `None` if the randomly chosen item cannot be changed in this
+/// way.
 pub fn altered(description: &Description, sampler: &mut Sampler) -> Option<Description> {
     let mut tree = description.clone();
     let own = ["scoreChange", "repeat", "applyScore"];
@@ -170,7 +171,7 @@ fn reorder_sprites(lines: &mut [SpriteLine], sampler: &mut Sampler) {
     lines.iter_mut().for_each(|line| reorder_sprites(&mut line.children, sampler));
 }
 
-/// Reorders partners, and sometimes moves them to separate lines.
+/// Reorders partners, and sometimes moves them to lines of their own.
 fn split(lines: Vec<InteractionLine>, sampler: &mut Sampler) -> Vec<InteractionLine> {
     let mut all = Vec::new();
     for mut line in lines {

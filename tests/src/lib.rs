@@ -1,8 +1,8 @@
 //! Helpers for the tests that span crates: the workspace root and files, and checks that must hold for any input
 //! ([`robustness`]).
 //!
-//! The tests themselves are in `tests/tests/it/`. Its subfolder `tidy/` contains the rules that can be checked
-//! automatically.
+//! The tests themselves are in `tests/tests/it/`. Its subfolder `tidy/` contains the house rules that can be
+//! checked automatically.
 
 extern crate infinite_arcade_base as base;
 extern crate infinite_arcade_engine as engine;
@@ -81,8 +81,8 @@ pub fn rust_files() -> Vec<(PathBuf, String)> {
         .collect()
 }
 
-/// Returns the folder with the reference's public games: test data outside the repository. If the folder is missing,
-/// prints a message and returns `None`.
+/// Returns the folder with the reference's public games, which are test data outside the repository. If the
+/// folder is missing, prints a message and returns `None`.
 pub fn public_games() -> Option<PathBuf> {
     let games = workspace_root().join("../shared/gvgai/games");
     let found = games.is_dir();
@@ -92,8 +92,8 @@ pub fn public_games() -> Option<PathBuf> {
     found.then_some(games)
 }
 
-/// Loads the games in a folder's subfolders as the reference does, sorted by name, with their levels. Games that fail
-/// to load are skipped.
+/// Loads the games in a folder's subfolders, with their levels, as the reference does. Games are sorted by
+/// name. Games that fail to load are skipped.
 pub fn games(folder: &Path) -> Vec<(String, Game, Vec<Level>)> {
     let mut folders: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     folders.sort();

@@ -1,4 +1,4 @@
-//! Small damage to a file, similar to careless editing, disk errors and fuzzing.
+//! Small damage to files, similar to careless editing, disk errors and fuzzing.
 
 use base::Sampler;
 use engine::{EFFECTS, SPRITE_PARAMETERS, SpriteClass, TERMINATIONS};
@@ -12,7 +12,7 @@ pub fn mutated(bytes: &[u8], sampler: &mut Sampler) -> Vec<u8> {
     bytes
 }
 
-/// Bytes and words with a special meaning in some context.
+/// Bytes and words that have a special meaning in some context.
 const TOKENS: [&str; 24] = [
     "\n",
     "\r\n",

@@ -1,5 +1,5 @@
-//! The pages that newcomers read first. Their example programs run in this crate, where every crate has its
-//! public name.
+//! The pages that newcomers read first. Their example programs run in this crate, in which every crate has
+//! its public name.
 
 #[doc = include_str!("../../README.md")]
 struct Workspace;

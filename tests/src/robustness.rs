@@ -1,8 +1,8 @@
-//! Properties that must hold for any input. Each check takes bytes from any source. Each fuzz target in `tools/fuzz/`
-//! and each short run in `tests/tests/it/robustness.rs` is a single call to a check.
+//! Properties that must hold for any input. Each check takes bytes from any source. A fuzz target in
+//! `tools/fuzz/`, or a short run in `tests/tests/it/robustness.rs`, is a single call to a check.
 //!
 //! - [`text`]: any text either compiles or yields diagnostics, and prints canonically.
-//! - [`level`]: any text either is a level of a valid game or yields diagnostics.
+//! - [`level`]: any text is either a level of a valid game or yields diagnostics.
 //! - [`play`]: any actions on any valid game and level leave a sound state behind, tick after tick.
 
 use crate::any_game::any_game;
@@ -18,7 +18,7 @@ use engine::{
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// A check's coverage.
+/// The coverage of a check.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seen {
     /// The number of ticks played.
@@ -27,7 +27,7 @@ pub struct Seen {
     pub merged: usize,
     /// The executed effects, one bit per effect, in [`EFFECTS`] order.
     pub effects: u64,
-    /// The classes of the sprites present, one bit per class, in [`SpriteClass::ALL`] order.
+    /// The classes of the sprites that occurred, one bit per class, in [`SpriteClass::ALL`] order.
     pub classes: u64,
 }
 
@@ -43,7 +43,7 @@ impl Seen {
     }
 }
 
-/// The corpus games: each game's text, and its levels' texts.
+/// The corpus games, each as its text and the texts of its levels.
 static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     let folders = workspace_root().join("corpora").read_dir().expect("the corpus can be read");
     let mut folders: Vec<_> = folders.map(|entry| entry.expect("the corpus can be read").path()).collect();
@@ -56,8 +56,9 @@ static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     folders.iter().map(load).collect()
 });
 
-/// Checks a text as a game. Parsing and compiling any text, strictly and as in the reference, must not fail other than
-/// by diagnostics. Diagnostics must point into the text, and a text without problems must print canonically.
+/// Checks a text as a game. Parsing and compiling any text, both strictly and as in the reference, may fail
+/// only with diagnostics. Diagnostics must point into the text, and a text without problems must print
+/// canonically.
 pub fn text(bytes: &[u8]) {
     let source = String::from_utf8_lossy(bytes);
     let (description, problems) = syntax::parse(&source);
@@ -74,7 +75,7 @@ pub fn text(bytes: &[u8]) {
             }
             Ok(game) => {
                 check_diagnostics(&source, game.warnings());
-                // A level with all types that a level can place, in one row.
+                // A one-row level with all types that a level can place.
                 let everything: String =
                     (33..127u8).filter(|&c| !game.places(c).is_empty()).map(char::from).collect();
                 for level in [everything.as_str(), "A"] {
@@ -87,8 +88,8 @@ pub fn text(bytes: &[u8]) {
     }
 }
 
-/// Checks that spans are within the text and on character boundaries, and that problems are sorted by position and have
-/// messages.
+/// Checks that spans lie within the text and on character boundaries, and that problems have messages and are
+/// sorted by position.
 fn check_diagnostics(source: &str, problems: &[Diagnostic]) {
     for Diagnostic { code, message, span, severity, .. } in problems {
         let Span { start, end } = *span;
@@ -166,8 +167,8 @@ fn bare(mut description: Description) -> Description {
     description
 }
 
-/// Checks bytes as a level. Any bytes must be a level of a valid game, or be rejected with reasons. A level must print
-/// unchanged and be playable.
+/// Checks bytes as a level. Any bytes must either be a level of a valid game or be rejected with reasons. A
+/// level must print unchanged and be playable.
 pub fn level(bytes: &[u8]) -> Seen {
     let mut choices = Choices::new(bytes);
     let which = choices.below(2 * CORPUS.len());
@@ -200,8 +201,8 @@ pub fn level(bytes: &[u8]) -> Seen {
     seen
 }
 
-/// Checks arbitrary actions in a valid game. After every tick, the state must be sound. Episodes must replay, nothing
-/// may happen after the end, and states with equal search keys must have equal futures.
+/// Checks arbitrary actions in a valid game. After every tick, the state must be sound. Episodes must replay,
+/// nothing may happen after their end, and states with equal search keys must have equal futures.
 pub fn play(bytes: &[u8]) -> Seen {
     let mut choices = Choices::new(bytes);
     let seed = Seed::from_text("play").child("chance", u64::from(choices.from_end()));
@@ -224,22 +225,22 @@ pub fn play(bytes: &[u8]) -> Seen {
     walk.seen
 }
 
-/// The number of ticks in the episode that is recorded and replayed.
+/// The number of ticks of the episode that is recorded and replayed.
 const EPISODE: usize = 24;
-/// The number of walks from states already seen.
+/// The number of walks that start from states already seen.
 const WAYS: usize = 24;
 /// The maximum number of ticks per walk.
 const WAY: usize = 4;
-/// The number of state pairs with equal search keys to play further.
+/// The number of state pairs with equal search keys that are played further.
 const TWINS: usize = 4;
-/// The number of ticks to play such a state pair further.
+/// The number of ticks for which such a state pair is played further.
 const FUTURE: usize = 50;
 /// The work limit of a check, over all ticks and including the work of checking sprites.
 const COST: usize = 300_000;
 /// The work of checking a single sprite.
 const CHECK: usize = 8;
 
-/// A walk through one level's states, with a check after each step.
+/// A walk through one level's states, with a check after every step.
 struct Walk<'g> {
     game: &'g Game,
     level: &'g Level,
@@ -250,7 +251,7 @@ struct Walk<'g> {
     seen: Seen,
 }
 
-/// An observer that records a step's executed effects and work.
+/// An observer that records the effects executed in a step, and its work.
 struct Executed<'g> {
     description: &'g Description,
     effects: u64,
@@ -297,8 +298,8 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Plays and checks one tick. A copy of the state taken before the tick must stay unchanged, and a second copy must
-    /// evolve identically.
+    /// Plays and checks one tick. A copy of the state made before the tick must stay unchanged, and a second
+    /// copy must evolve identically.
     fn step(&mut self, state: &mut State, action: Action) {
         let before = state.clone();
         let (hash, over) = (state.state_hash(), state.is_over());
@@ -316,7 +317,7 @@ impl<'g> Walk<'g> {
         let mut copy = before;
         self.game.step_unscheduled(&mut copy, action, &mut ());
         if copy.outcome() == Outcome::Stopped(Limit::Work) {
-            // Prediction saves work, so the other state gets further before it reaches the limit.
+            // Prediction saves work, so the other state gets further before it reaches the work limit.
             return;
         }
         assert_eq!(copy.state_hash(), state.state_hash(), "a copy that foresees nothing goes the same way");
@@ -340,7 +341,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Checks that incrementally maintained values match recomputed values.
+    /// Checks that values maintained incrementally match the same values computed from scratch.
     fn check(&mut self, state: &State) {
         assert_eq!(state.state_hash(), state.state_hash_from_scratch(), "tick {}", state.tick());
         let counts =
@@ -374,7 +375,7 @@ impl<'g> Walk<'g> {
         assert_eq!(observation.cells.len(), self.level.columns() * self.level.rows());
         let replayed =
             episode.replay(self.game, self.level).unwrap_or_else(|divergence| panic!("{divergence}"));
-        // Compare the states as text, because some speeds are NaN.
+        // The states are compared as text, because some speeds are NaN.
         let written = |state: &State| format!("{:?}", self.game.records(state));
         assert_eq!(written(&replayed), written(&state));
         if state.is_over() && self.cost < COST / 2 {
@@ -382,8 +383,8 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Takes many short walks from visited states. If two walks lead to states with equal search keys but different
-    /// histories, plays both states further, side by side.
+    /// Takes many short walks from visited states. If two walks lead to states with equal search keys but
+    /// distinct histories, plays both states further, side by side.
     fn explore(&mut self, choices: &mut Choices<'_>) {
         let start = self.start();
         let mut reached = vec![start.clone()];
@@ -428,11 +429,11 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Checks that states with equal keys still have equal keys, outcomes and gains after the same actions. If nothing
-    /// draws random numbers, the random state is not part of the key, and must not matter.
+    /// Checks that states with equal keys still have equal keys, outcomes and gains after the same actions.
+    /// If nothing draws random numbers, the random state is not part of the key and must not matter.
     ///
-    /// If an `abstraction` is given, its keys are compared. If the abstraction omits the tick, the later state may lose
-    /// for that reason.
+    /// If an `abstraction` is given, its keys are compared instead. If the abstraction omits the tick, the
+    /// later state may lose for that reason.
     fn compare_futures(
         &mut self,
         one: &State,

@@ -1,12 +1,12 @@
 //! The sizes and seeds of randomised tests.
 //!
-//! An ordinary run uses a tenth of the cases, with fixed seeds. `cargo xtask sweep` uses all cases, with a fresh seed,
-//! which it stores in [`VARIABLE`] and prints. Tests that call [`many_cases`] multiply the number of cases by
-//! [`TIMES`].
+//! An ordinary run uses a tenth of the cases, with fixed seeds. `cargo xtask sweep` uses all cases, with a
+//! fresh seed that it prints and passes in [`VARIABLE`]. Tests that call [`many_cases`] multiply the number
+//! of cases by [`TIMES`].
 
 use base::Seed;
 
-/// The environment variable that requests a sweep. Its value is the seed.
+/// The environment variable that requests a sweep. Its value is the sweep's seed.
 pub const VARIABLE: &str = "ARCADE_SWEEP";
 
 /// The environment variable that contains the factor for [`many_cases`].
@@ -22,7 +22,7 @@ pub fn many_cases(full: usize) -> usize {
     cases(full) * times.map_or(1, |times| times.parse().expect("a number of times"))
 }
 
-/// Returns the number of cases to run, given the number in a full sweep.
+/// Returns the number of cases to run, given the number of cases in a full sweep.
 pub fn cases(full: usize) -> usize {
     if fresh().is_some() { full } else { full.div_ceil(10) }
 }

@@ -1,5 +1,4 @@
-//! The kinds of VGDL parameter values, with example values. Most example values are realistic, and some are
-//! extreme.
+//! The kinds of VGDL parameter values, with example values. Most of them are realistic, and some are extreme.
 
 use crate::choices::Choices;
 
@@ -30,7 +29,7 @@ pub enum ValueKind {
     Sprites,
     /// Text without meaning for the rules.
     Text,
-    /// A value fixed by the class, so that any other value is an error.
+    /// A value that the class fixes, so that any other value is an error.
     Fixed,
 }
 
@@ -77,7 +76,7 @@ pub fn int(choices: &mut Choices<'_>) -> i32 {
     if choices.once_in(8) { choices.pick(&WILD) } else { choices.pick(&TAME) }
 }
 
-/// Returns a number of ticks, possibly too large to matter in a short episode.
+/// Returns a number of ticks, which may be too large to matter in a short episode.
 pub fn ticks(choices: &mut Choices<'_>) -> i32 {
     if choices.once_in(8) { int(choices) } else { choices.below(8) as i32 + 1 }
 }
@@ -89,7 +88,7 @@ pub fn number(choices: &mut Choices<'_>) -> &'static str {
     if choices.once_in(8) { choices.pick(&WILD) } else { choices.pick(&TAME) }
 }
 
-/// Returns a probability, rarely an invalid one.
+/// Returns a probability, which is rarely invalid.
 pub fn probability(choices: &mut Choices<'_>) -> &'static str {
     choices.pick(&["1", "0.5", "0.1", "0.9", "0", "1.0", "0.3", "2"])
 }

@@ -1,7 +1,7 @@
 //! A validation budget: a number of forward-model calls, divided among the criteria.
 //!
-//! Minting does not need such a budget, because its recipe limits each criterion separately. A designer sets one
-//! number and expects an answer after about that much work, regardless of the game.
+//! Minting does not need such a budget, because recipes limit each criterion separately. A designer, by
+//! contrast, sets one number and expects an answer after about that much work, whatever the game.
 
 use crate::measures::LadderConfig;
 use crate::thresholds::CheckedCriteria;
@@ -9,16 +9,17 @@ use agents::PortfolioConfig;
 use base::Seed;
 use engine::{Action, Game, Level, Meeting, Watch};
 
-/// The maximum work per tick, in the units of `engine`, at which a call still counts as one call.
+/// The maximum work per tick, in the engine's units, at which a call counts as just one call.
 const USUAL_WORK: u64 = 4096;
 /// The number of ticks to play when estimating a level's work per tick.
 const SAMPLED_TICKS: u64 = 16;
 
-/// The forward-model calls to divide among the criteria, for each level and for the game as a whole.
+/// The numbers of forward-model calls to divide among the criteria, for each level and for the game as a
+/// whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Allowance {
     calls: u64,
-    /// The number of calls counted per call. More than one if ticks are unusually expensive.
+    /// The number of calls that each call counts as: more than one if ticks are unusually expensive.
     weight: u64,
 }
 
@@ -52,7 +53,7 @@ impl Allowance {
         Allowance { calls, weight: levels.into_iter().map(weight_of).max().unwrap_or(1) }
     }
 
-    /// Returns the fraction `times / of` of the calls, at least `least`.
+    /// Returns the fraction `times / of` of the calls, but at least `least`.
     fn share(self, times: u64, of: u64, least: u64) -> u64 {
         let share = u128::from(self.calls) * u128::from(times) / u128::from(of.max(1));
         let share = u64::try_from(share).unwrap_or(u64::MAX).max(least);
@@ -60,24 +61,25 @@ impl Allowance {
     }
 }
 
-/// A panel's effort.
+/// The effort that a panel makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// All of the criteria's episodes and searches. Used for reports.
+    /// All episodes and searches of the criteria. Used for reports.
     Full,
     /// Like [`Effort::Full`], except that `skill` stops its players as soon as the answer is practically certain. Used
     /// for minting, which judges many candidates.
     Sequential,
-    /// A number of forward-model calls for each level, and for the game as a whole, divided among all criteria. All
-    /// criteria together take up to about eight times this number, and at least the minimum for an answer. Work beyond
-    /// the limit is stopped, and its answer is unknown. An unusually expensive tick counts as several calls.
+    /// A number of forward-model calls, divided among the criteria, for each level and for the game as a
+    /// whole. All criteria together make up to about eight times as many calls, and at least the minimum for
+    /// an answer. Work beyond the limit is stopped, which leaves the answer unknown. An unusually expensive
+    /// tick counts as several calls.
     Calls(u64),
 }
 
-/// The criteria, and their judges' budgets for some levels.
+/// The criteria, with their judges' budgets for the given levels.
 #[derive(Clone, Copy)]
 pub(crate) struct Setting<'a> {
-    /// The criteria. For numbers limited by the allowance, use the methods instead of this field.
+    /// The criteria. For numbers that the allowance limits, use the methods instead of this field.
     pub(crate) criteria: &'a CheckedCriteria,
     allowance: Option<Allowance>,
     is_sequential: bool,
@@ -99,7 +101,7 @@ impl<'a> Setting<'a> {
         Setting { criteria, allowance, is_sequential: effort == Effort::Sequential }
     }
 
-    /// Returns the smaller of `full` and the fraction `times / of` of the allowance.
+    /// Returns `full`, or the fraction `times / of` of the allowance if that is smaller.
     fn bounded(&self, full: u64, [times, of]: [u64; 2]) -> u64 {
         self.allowance.map_or(full, |allowance| allowance.share(times, of, 1).min(full))
     }
@@ -114,7 +116,7 @@ impl<'a> Setting<'a> {
         self.allowance.map_or(usize::MAX, |allowance| allowance.share(1, 80, 250) as usize)
     }
 
-    /// Returns the number of forward-model calls to spend on surviving the first ticks, per random seed.
+    /// Returns the number of forward-model calls to spend, per random seed, on surviving the first ticks.
     pub(crate) fn early_calls(&self) -> u64 {
         let seeds = u64::from(self.criteria.early_seeds);
         self.bounded(self.criteria.early_calls, [1, 2 * seeds])
@@ -140,12 +142,12 @@ impl<'a> Setting<'a> {
         self.is_sequential
     }
 
-    /// Returns the number of ticks per level for random walks that look for rules that were never executed.
+    /// Returns the number of ticks per level for random walks that look for rules not executed so far.
     pub(crate) fn exploration(&self) -> u64 {
         self.bounded(u64::MAX, [1, 3])
     }
 
-    /// Returns the total number of forward-model calls for ablating all rules, if limited.
+    /// Returns the limit, if any, on the total number of forward-model calls for ablating all rules.
     pub(crate) fn ablation_calls(&self) -> Option<u64> {
         self.allowance.map(|allowance| allowance.share(4, 1, 1))
     }
@@ -168,7 +170,7 @@ mod tests {
         panel.judge(Judging::game(&game, &[level], Seed::from_text("allowance")))
     }
 
-    /// Returns the number of calls, plus the ticks of all episodes.
+    /// Returns the number of calls plus the ticks in all episodes.
     fn spent(report: &Report) -> u64 {
         let of = |judged: &crate::Judgement| {
             let ticks: usize = judged.finding.episodes.iter().map(|episode| episode.actions.len()).sum();
@@ -182,7 +184,7 @@ mod tests {
         for calls in [1, 1000, 20_000] {
             let report = report(calls);
             let spent = spent(&report.levels[0]);
-            // The minimum is one decision of each player, and the shortest episodes.
+            // The minimum consists of one decision per player and the shortest episodes.
             assert!(spent < 30_000 + 8 * calls, "{calls}: {spent}");
             // An episode that was stopped early gives no answer.
             for judged in report.levels[0].judgements.iter().chain(&report.judgements) {

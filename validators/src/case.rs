@@ -3,7 +3,7 @@
 use base::SeedPath;
 use engine::{Analysis, Episode, Game, Level};
 
-/// A level to judge, with the seed.
+/// A level to judge, with the data that its judges need.
 #[derive(Clone, Copy)]
 pub struct Case<'a> {
     /// The level's game.

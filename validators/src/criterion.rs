@@ -41,7 +41,7 @@ macro_rules! every_criterion {
 }
 pub(crate) use every_criterion;
 
-/// A level criterion's assumptions.
+/// The assumptions that a level criterion makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
     /// The criterion does not depend on play, or its failure is the reason for skipping other criteria.
@@ -50,9 +50,9 @@ pub(crate) enum Stage {
     Play,
     /// The criterion searches for a win.
     Search,
-    /// The criterion examines the win.
+    /// The criterion examines the win found.
     Win,
-    /// The criterion uses a player ladder, which may win although no search did. Skipped on unwinnable levels.
+    /// The criterion uses a player ladder, which may win even if no search did. Skipped on unwinnable levels.
     Ladder,
 }
 
@@ -61,13 +61,13 @@ pub(crate) enum Stage {
 pub(crate) enum About {
     /// The players.
     Players,
-    /// Winning play. Levels without a known win are skipped.
+    /// Winning play. Skips levels without a known win.
     Play,
     /// The rules. Doubts about the rules may be due to an unwinnable level.
     Rules,
 }
 
-/// The cost of a verdict, from lowest to highest.
+/// The cost of reaching a verdict, from lowest to highest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cost {
     /// An inspection of the rules, the level or a known win.
@@ -80,7 +80,7 @@ pub enum Cost {
     Ladder,
 }
 
-/// Defines [`Criterion`] from the table.
+/// Defines [`Criterion`] from the table of criteria.
 macro_rules! define {
     (
         levels { $($level:ident = $level_name:literal, $stage:ident, $level_cost:ident, $level_module:ident;)* }
@@ -100,7 +100,7 @@ macro_rules! define {
             pub const LEVEL: CriterionSet = CriterionSet::of(&[$(Criterion::$level),*]);
             /// The game criteria, except gates.
             pub const GAME: CriterionSet = CriterionSet::of(&[$(Criterion::$game),*]);
-            /// The gates: game criteria that measure what people observe in play.
+            /// The gates: game criteria that measure what people notice in play.
             pub const GATES: CriterionSet = CriterionSet::of(&[$(Criterion::$gate),*]);
         }
 
@@ -118,7 +118,7 @@ macro_rules! define {
                 }
             }
 
-            /// Returns a verdict's cost.
+            /// Returns the cost of reaching a verdict.
             pub fn cost(self) -> Cost {
                 match self {
                     $(Criterion::$level => Cost::$level_cost,)*

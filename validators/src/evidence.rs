@@ -1,4 +1,5 @@
-//! A validator's observations. Each is a sentence with optional advice and its tick, cell, line and board.
+//! A validator's observations, each of which is a sentence that may come with advice, a tick, a cell, a line
+//! and a board.
 
 use crate::explain::board::Board;
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine};
@@ -11,7 +12,7 @@ use std::fmt::Write;
 pub struct Evidence {
     /// The observation, as text.
     pub text: String,
-    /// The tick of the observation. The first tick is 1.
+    /// The tick of the observation, counted from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tick: Option<usize>,
     /// The cell, as column and row, counted from 1 at the upper left.

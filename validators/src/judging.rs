@@ -18,12 +18,12 @@ pub struct Judging<'a, S> {
     pub observer: Option<Observer<'a>>,
 }
 
-/// A receiver of judgements that can cancel the judging.
+/// A receiver of judgements, which can cancel the judging.
 pub struct Observer<'a> {
     /// Receives each judgement as soon as it is made, and again if it changes later. The judging ends if the receiver
     /// returns `false`.
     pub hear: &'a mut (dyn FnMut(&Judgement) -> bool + 'a),
-    /// Cancels the judging: once this function returns `true`, the judging ends soon. The last judgement is then
+    /// Cancels the judging, which ends soon after this function returns `true`. The last judgement is then
     /// meaningless, and is not passed to `hear`.
     pub stopped: Stopped<'a>,
 }
@@ -34,7 +34,7 @@ pub struct LevelSubject<'a> {
     pub game: &'a Game,
     /// The level to judge.
     pub level: &'a Level,
-    /// A known win. The criterion `winnable` searches for a win regardless.
+    /// A known win. The criterion `winnable` searches for a win even if one is known.
     pub witness: Option<Episode>,
 }
 
@@ -78,7 +78,7 @@ impl<'a> Judging<'_, GameSubject<'a>> {
 }
 
 impl<'a> Judging<'_, TogetherSubject<'a>> {
-    /// Creates a request to judge a game as a whole by the game criteria. Each level has its report.
+    /// Creates a request to judge a game as a whole by the game criteria. Each level comes with its report.
     pub fn together(
         game: &'a Game,
         levels: &'a [Level],
@@ -94,13 +94,13 @@ impl<'a, S> Judging<'a, S> {
         Judging { subject, seed: seed.into(), stop_at_first: false, observer: None }
     }
 
-    /// Makes the judging stop at the first unmet criterion.
+    /// Makes the judging stop at the first unmet criterion, without explaining failures.
     #[must_use]
     pub fn until_failure(self) -> Self {
         Judging { stop_at_first: true, ..self }
     }
 
-    /// Makes the judging pass each judgement to `hear`, until `stopped` cancels it.
+    /// Passes each judgement to `hear`, and makes the judging end once `stopped` returns `true`.
     #[must_use]
     pub fn watched_by(
         self,

@@ -18,7 +18,7 @@ use agents::Stopped;
 use engine::{Analysis, Episode, Level};
 use rayon::prelude::*;
 
-/// The judges for a set of criteria. The criteria are checked from cheapest to most expensive.
+/// The judges for a set of criteria. They are checked from cheapest to most expensive.
 #[derive(Clone, Debug)]
 pub struct Panel {
     criteria: CheckedCriteria,
@@ -41,8 +41,8 @@ impl Panel {
         S::judged_by(self, judging)
     }
 
-    /// Judges a game. Each level is judged first, with a seed derived from its text, so that the result does not depend
-    /// on the other levels. All levels are then judged together.
+    /// Judges a game. First judges each level, with a seed derived from its text, so that the result does not
+    /// depend on the other levels. Then judges all levels together.
     fn judge_game(&self, judging: Judging<'_, GameSubject<'_>>) -> GameReport {
         let Judging { subject: GameSubject { game, levels }, seed, stop_at_first, observer } = judging;
         let stopped = observer.as_ref().map(|observer| observer.stopped);
@@ -170,7 +170,7 @@ impl Panel {
             }
             is_over |= is_start && is_over_at_once(game, level, seed.seed());
         }
-        // A player of the ladder may win a level that the search did not win.
+        // A ladder player may win a level that the search did not.
         if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
             report.witness = Some(won);
             let searched = report.clone();
@@ -235,14 +235,14 @@ impl Subject for TogetherSubject<'_> {
     }
 }
 
-/// Returns the finding for a criterion skipped for the given reason.
+/// Returns the finding for a criterion that is skipped for the given reason.
 fn skipped(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
-/// Returns the reason why a verdict on the rules should not count, if any. The verdict may merely be a consequence of
-/// levels that are unwinnable or over in their first tick. The verdict is meaningless if all levels are unwinnable or
-/// over.
+/// Returns the reason why a verdict on the rules should not count, if any. The verdict may merely be a
+/// consequence of levels that are unwinnable or over in their first tick, and it is meaningless if all levels
+/// are.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());

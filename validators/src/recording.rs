@@ -26,13 +26,13 @@ pub(crate) struct Use {
 /// The interactions and types that occur in a recording.
 #[derive(Clone, Debug)]
 pub(crate) struct Usage {
-    /// For each interaction line, the first executions in some episodes, alternating between levels.
+    /// For each interaction line, its first execution in each of some episodes, alternating between levels.
     pub(crate) lines: Vec<Vec<Use>>,
     /// For each type, `true` if a sprite of the type was present, or the type was held as a resource.
     pub(crate) types: Vec<bool>,
-    /// `true` if at least one episode is won on every level.
+    /// `true` if every level has at least one won episode.
     pub(crate) won: bool,
-    /// The number of episodes replayed, followed by their total ticks.
+    /// The number of replayed episodes and, in the next field, their total number of ticks.
     pub(crate) episodes: usize,
     pub(crate) ticks: u64,
 }
@@ -73,13 +73,13 @@ impl Usage {
         Usage { lines, types: vec![false; game.sprite_types().count()], won: true, episodes: 0, ticks: 0 }
     }
 
-    /// Replays the recording. Costs the episodes, at most 100,000 ticks per level.
+    /// Replays the recording. Costs a replay of the episodes, with at most 100,000 ticks per level.
     pub(crate) fn of(game: &Game, recording: &[Recorded<'_>]) -> Usage {
         Usage::within(game, recording, TICKS)
     }
 
-    /// Replays the recording like [`Usage::of`], with about `most` ticks per level. The episode that exceeds the limit
-    /// is the last to be replayed.
+    /// Replays the recording like [`Usage::of`], with about `most` ticks per level. The last episode to be
+    /// replayed is the one that exceeds the limit.
     pub(crate) fn within(game: &Game, recording: &[Recorded<'_>], most: u64) -> Usage {
         let most = most.min(TICKS);
         let numbered: Vec<(usize, &Recorded<'_>)> = recording.iter().enumerate().collect();
@@ -88,8 +88,8 @@ impl Usage {
         let mut usage = Usage::new(game);
         let levels: Vec<Usage> = numbered.par_iter().map(of_level).collect();
         for (line, all) in usage.lines.iter_mut().enumerate() {
-            // Take the first execution of every level, then the second, because the effect of a rule may show on only
-            // one level.
+            // Take the first execution on every level, then the second, because a rule's effect may show on
+            // only one level.
             let ranked =
                 (0..USES).flat_map(|rank| levels.iter().filter_map(move |of| of.lines[line].get(rank)));
             all.extend(ranked.copied().take(USES));
@@ -135,9 +135,9 @@ impl Usage {
     }
 }
 
-/// Returns, for each interaction line, the level and episode of up to 24 recorded executions, each in a different
-/// episode. A rule's effect can be examined in these episodes. Costs the episodes, with at most 100,000 ticks per
-/// level.
+/// Returns, for each interaction line, the level and episode of up to 24 recorded executions, each in a
+/// different episode. A rule's effect can be examined in these episodes. Costs a replay of the episodes, with
+/// at most 100,000 ticks per level.
 pub fn executions(game: &Game, recording: &[Recorded<'_>]) -> Vec<Vec<[usize; 2]>> {
     let places = |uses: Vec<Use>| uses.iter().map(|at| [at.level, at.episode]).collect();
     Usage::of(game, recording).lines.into_iter().map(places).collect()
@@ -148,9 +148,9 @@ const MAX_WALKS: u64 = 400;
 /// The number of random actions per walk.
 const WALK_TICKS: usize = 40;
 
-/// Searches for executions of interactions missing from a recording, by random walks from random moments in each
-/// level's episodes. Uses up to `most` ticks and one more walk per level. Returns, for each level, new ordinary
-/// episodes with these executions.
+/// Searches for executions of interactions that a recording lacks, by random walks from random moments in
+/// each level's episodes. Uses up to `most` ticks per level, plus one walk. Returns, for each level, new
+/// ordinary episodes with these executions.
 pub(crate) fn explore(
     game: &Game,
     recording: &[Recorded<'_>],
@@ -175,8 +175,8 @@ pub(crate) fn explore(
     numbered.par_iter().map(of_level).collect()
 }
 
-/// Takes a random walk and marks the new interactions executed in it. Returns the episode up to the last new
-/// interaction.
+/// Takes a random walk, and marks the new interactions that it executes. Returns the episode up to the last
+/// new interaction.
 fn random_walk(
     game: &Game,
     recorded: Recorded<'_>,
@@ -194,7 +194,7 @@ fn random_walk(
         return None;
     }
     let mut sampler = seed.sampler();
-    // The most informative episode comes first. Every other walk starts from that episode.
+    // The most informative episode comes first, and about every other walk starts from it.
     let among = if sampler.ratio(1, 2) { 1 } else { recorded.episodes.len() };
     let from = &recorded.episodes[sampler.below(among)];
     let start = sampler.below(from.actions.len().max(1));
@@ -242,7 +242,7 @@ pub(crate) fn record(
         explore(game, &recording, &usage, seed, most)
     };
     for (episodes, new) in episodes.iter_mut().zip(new) {
-        // Insert the walks after the witness, before episodes that may exceed the limit.
+        // Insert the walks after the witness, but before episodes that may exceed the limit.
         let at = usize::from(!episodes.is_empty());
         episodes.splice(at..at, new);
     }

@@ -15,7 +15,7 @@ pub(crate) const OVER: &str = "skipped: the game is over in its first tick";
 pub struct Judgement {
     /// The judged criterion.
     pub criterion: Criterion,
-    /// The finding of the criterion's validator.
+    /// The finding by the criterion's validator.
     #[serde(flatten)]
     pub finding: Finding,
 }
@@ -41,18 +41,18 @@ impl Report {
         self.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass())
     }
 
-    /// Returns the finding for a criterion; `None` if the criterion was not checked.
+    /// Returns the finding for a criterion, or `None` if the criterion was not checked.
     pub fn finding(&self, criterion: Criterion) -> Option<&Finding> {
         let judgement = self.judgements.iter().find(|judgement| judgement.criterion == criterion)?;
         Some(&judgement.finding)
     }
 
-    /// Returns the ladder's results; `None` if no ladder was played.
+    /// Returns the ladder's results, or `None` if no ladder was played.
     pub fn ladder(&self) -> Option<&Ladder> {
         self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
     }
 
-    /// Returns `true` if the level is proved unwinnable.
+    /// Returns `true` if the level is proven unwinnable.
     pub(crate) fn is_unwinnable(&self) -> bool {
         self.finding(Criterion::Winnable)
             .is_some_and(|finding| matches!(finding.verdict, Verdict::Fail { .. }))
@@ -71,7 +71,7 @@ impl Report {
         first.any(|seen| seen.text == OVER)
     }
 
-    /// Adopts a judgement's witness. If the search found no win, uses another player's win instead.
+    /// Adopts a judgement's witness or, if the search found no win, another player's win.
     pub(crate) fn accept(&mut self, judgement: &mut Judgement) {
         if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
             judgement.finding.verdict = Verdict::Pass { witness: Some(won) };
@@ -87,8 +87,8 @@ impl Report {
         won.min_by_key(|episode| episode.actions.len()).cloned()
     }
 
-    /// Returns all episodes played by the validators, from most to least informative: first the witness, and then the
-    /// episodes of the last validators.
+    /// Returns all episodes played by the validators, from most to least informative: first the witness, then
+    /// the episodes of the last validators.
     pub fn episodes(&self) -> Vec<Episode> {
         let played = self.judgements.iter().rev().flat_map(|judgement| {
             let shown = match &judgement.finding.verdict {

@@ -77,7 +77,7 @@ base::with_defaults! {
     }
 }
 
-/// Returns `true` if a fraction is 0 and can be omitted from files.
+/// Returns `true` if a fraction is 0, and can therefore be omitted from files.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
 fn is_zero(share: &f64) -> bool {
     *share == 0.0
@@ -103,8 +103,8 @@ fn wrong<T>(key: &'static str, message: impl Into<String>) -> Result<T, Criteria
 }
 
 impl Criteria {
-    /// Returns the criteria for a single game, including criteria not used by minting. `skill-overall` is not included,
-    /// because it may fail a good game merely for being too hard.
+    /// Returns the criteria for a single game, including criteria not used by minting. `skill-overall` is not
+    /// included, because it may fail a good game merely because the game is too hard.
     pub fn full() -> Criteria {
         let all = Criteria::of_generated_games();
         Criteria { ask: all.ask.without(CriterionSet::of(&[Criterion::SkillOverall])), ..all }
@@ -132,7 +132,7 @@ impl Criteria {
         self.ask.contains(criterion)
     }
 
-    /// Checks the values. Judges accept only checked criteria.
+    /// Checks the values. Judges accept only criteria that were checked.
     ///
     /// # Errors
     /// Returns an error for the first value that is out of range.
@@ -202,7 +202,7 @@ impl Criteria {
     }
 }
 
-/// Criteria whose thresholds are in range, as judges require. Narrowing the criteria cannot fail.
+/// Criteria whose thresholds are in range, as judges require. Narrowing the set of criteria cannot fail.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckedCriteria {
     criteria: Criteria,

@@ -15,8 +15,8 @@ pub trait Validator: Sync {
     /// Judges the case. The same case gives the same result on any number of threads.
     fn validate(&self, case: Case<'_>) -> Finding;
 
-    /// Judges the case like [`Validator::validate`], but can be cancelled. Once `stopped` returns `true`, the call
-    /// returns soon, and its finding is meaningless.
+    /// Judges the case like [`Validator::validate`], but can be cancelled. The call returns soon after
+    /// `stopped` returns `true`, and its finding is then meaningless.
     fn validate_until(&self, case: Case<'_>, stopped: Stopped<'_>) -> Finding {
         let _ = stopped;
         self.validate(case)
@@ -32,7 +32,7 @@ pub(crate) struct GameCase<'a> {
     pub(crate) analysis: &'a Analysis,
     /// The game's levels, with the episodes played by their validators.
     pub(crate) recording: &'a [Recorded<'a>],
-    /// Each level's ladder results; `None` for a level without a played ladder.
+    /// Each level's ladder results, or `None` for a level on which no ladder was played.
     pub(crate) ladders: &'a [Option<&'a Ladder>],
     /// The rules and types that occur in the recorded episodes.
     pub(crate) usage: &'a Usage,
@@ -44,8 +44,8 @@ pub(crate) struct GameCase<'a> {
 
 /// The judge for a game criterion.
 pub(crate) trait GameValidator: Sync {
-    /// Returns `true` if the judge needs to know which rules the recording executes. If no judge does, the recording
-    /// is not replayed, and no random walks search for executions of the remaining rules.
+    /// Returns `true` if the judge needs to know which rules the recording executes. If no judge needs to,
+    /// the recording is not replayed, and no random walks search for executions of the remaining rules.
     fn asks_for_usage(&self) -> bool {
         false
     }
@@ -53,8 +53,8 @@ pub(crate) trait GameValidator: Sync {
     /// Judges the case. The same case gives the same result on any number of threads.
     fn validate(&self, case: GameCase<'_>) -> Finding;
 
-    /// Judges the case like [`GameValidator::validate`], but can be cancelled. Once `stopped` returns `true`, the call
-    /// returns soon, and its finding is meaningless.
+    /// Judges the case like [`GameValidator::validate`], but can be cancelled. The call returns soon after
+    /// `stopped` returns `true`, and its finding is then meaningless.
     fn validate_until(&self, case: GameCase<'_>, stopped: Stopped<'_>) -> Finding {
         let _ = stopped;
         self.validate(case)

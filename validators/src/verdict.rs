@@ -11,16 +11,16 @@ pub struct Finding {
     /// The validator's verdict.
     #[serde(flatten)]
     pub verdict: Verdict,
-    /// The measured players' win rate; `None` if no player was measured.
+    /// The measured players' win rate, or `None` if no player was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<Rate>,
-    /// The number of forward-model calls made by a search, in addition to the measured episodes' calls.
+    /// The number of forward-model calls made by a search, in addition to those in the measured episodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub searched: Option<u64>,
-    /// The number of ticks in the shortest win, if the win is proved to be the shortest.
+    /// The number of ticks in the shortest win, if it is proven to be the shortest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub optimal: Option<usize>,
-    /// The figure measured by a gate, for tables.
+    /// The figure that a gate measured, for tables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub figure: Option<f64>,
     /// The names of the placed types that are not needed to win, if `necessity` was checked.
@@ -29,10 +29,10 @@ pub struct Finding {
     /// The observations, in report order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub evidence: Vec<Evidence>,
-    /// A ladder's results, if a ladder was played.
+    /// The ladder's results, if a ladder was played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// The episodes played, which show the used rules.
+    /// The episodes played, which show the rules that play uses.
     #[serde(skip)]
     pub episodes: Vec<Episode>,
 }
@@ -89,7 +89,7 @@ impl Finding {
 pub enum Verdict {
     /// The criterion is met.
     Pass {
-        /// An episode that demonstrates the pass; `None` if no single episode can.
+        /// An episode that demonstrates the pass, or `None` if no single episode can.
         #[serde(skip)]
         witness: Option<Episode>,
     },
@@ -97,11 +97,11 @@ pub enum Verdict {
     Fail {
         /// The reason for the failure.
         reason: Reason,
-        /// An episode that demonstrates the failure; `None` if no single episode can.
+        /// An episode that demonstrates the failure, or `None` if no single episode can.
         #[serde(skip)]
         witness: Option<Episode>,
     },
-    /// The answer is not known within the budget.
+    /// The budget ran out before the answer was known.
     Unknown {
         /// The number of forward-model calls spent.
         spent: u64,
@@ -119,7 +119,7 @@ impl Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: None }
     }
 
-    /// Returns a failure with an episode that demonstrates the failure.
+    /// Returns a failure with an episode that demonstrates it.
     pub fn fail_with(reason: impl Into<String>, witness: Episode) -> Verdict {
         Verdict::Fail { reason: Reason(reason.into()), witness: Some(witness) }
     }
@@ -130,7 +130,7 @@ impl Verdict {
     }
 }
 
-/// The reason for a failure, worded so that a designer can act on it.
+/// The reason for a failure, worded so that designers can act on it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Reason(pub String);

@@ -2,15 +2,15 @@
 //! that try many futures of one state.
 //!
 //! Each state has its own random seed and keeps its index on every thread, so no result depends on the number
-//! of threads. Actions and results are slices, so that one call replaces a thousand calls. Lanes are not
-//! reset automatically, so the caller can inspect an episode's last state before deciding how to continue.
+//! of threads. Actions and results are slices, so that one call replaces thousands. Lanes are not reset
+//! automatically, so the caller can inspect an episode's last state before deciding how to continue.
 
 use base::Seed;
 use engine::{Action, Chance, Game, Level, Outcome, State};
 use rayon::prelude::*;
 
-/// The number of steps in one task. The number is large enough to justify waking a thread, and small enough
-/// that no thread waits long for the last task.
+/// The number of steps in one task. It is large enough to justify waking a thread, and small enough that no
+/// thread waits long for the last task to finish.
 const STEPS_OF_A_TASK: usize = 64;
 
 /// A batch of states of one game, each with its current episode. A lane consists of the state and the values
@@ -106,18 +106,18 @@ pub enum BatchError {
     /// The number of actions differs from the number of states.
     #[error("{actions} actions were given for {lanes} states; pass one action for each state")]
     Actions {
-        /// The number of given actions.
+        /// The number of actions passed.
         actions: usize,
         /// The number of states.
         lanes: usize,
     },
-    /// The number of actions is not divisible by the number of states.
+    /// The number of actions is not a multiple of the number of states.
     #[error(
         "{actions} actions cannot be divided into plans for {lanes} states; pass the same number of \
          actions for each state"
     )]
     Plans {
-        /// The number of given actions.
+        /// The number of actions passed.
         actions: usize,
         /// The number of states.
         lanes: usize,
@@ -160,7 +160,7 @@ impl Batch {
         batch
     }
 
-    /// Replaces all episodes with futures of `state`, as in [`Batch::fork`]. Allocates nothing once the
+    /// Replaces all episodes with futures of `state`, as in [`Batch::fork`]. Does not allocate once the
     /// buffers are large enough.
     pub fn fork_from(&mut self, state: &State, seed: Seed) {
         self.roots.truncate(1);
@@ -211,7 +211,7 @@ impl Batch {
         Ok(seed_of(self.seed, lane, *episode))
     }
 
-    /// Plays one tick in every lane, with one action per lane. Finished episodes stay unchanged.
+    /// Plays one tick in every lane, with one action per lane. Finished episodes remain unchanged.
     ///
     /// # Errors
     ///
@@ -224,7 +224,7 @@ impl Batch {
     }
 
     /// Plays a plan in every lane. All plans have the same length. The layout of `plans` is `[lane][tick]`,
-    /// one plan after the other. The results are the same as with one call of [`Batch::step`] per tick.
+    /// one plan after the other. The results are the same as calling [`Batch::step`] once per tick, but
     /// `play` is faster, because the threads synchronise once instead of in every tick.
     ///
     /// # Errors
@@ -278,7 +278,7 @@ impl Batch {
         count
     }
 
-    /// Resets the lanes with a matching outcome to the start of their episode.
+    /// Resets the lanes whose outcome matches to the start of their episode.
     fn begin(&mut self, whose: impl Fn(&Outcome) -> bool + Sync) {
         let (seed, roots) = (self.seed, &self.roots);
         (&mut self.states, &self.episodes, &mut self.outcomes, &mut self.scores)

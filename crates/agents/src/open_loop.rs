@@ -4,10 +4,10 @@ use crate::{Budget, Planner};
 use base::Seed;
 use engine::{Action, Game, State};
 
-/// A player that commits to several actions at a time. The player plans each action in the state that it
-/// imagines after the previous actions. In a deterministic game, the imagined state is the actual next state.
-/// Otherwise, the imagined state is one of many possible states, drawn from a random stream that belongs
-/// neither to the planner nor to the game.
+/// A player that commits to several actions at a time. It plans each action in the state that it imagines
+/// after the previous actions. In a deterministic game, the imagined state is the actual next state. In a
+/// stochastic game, it is one of many possible states, drawn from a random stream that belongs neither to the
+/// planner nor to the game.
 #[derive(Clone, Debug)]
 pub struct OpenLoop<P> {
     planner: P,
@@ -23,7 +23,7 @@ impl<P: Planner> OpenLoop<P> {
     }
 
     /// Returns `count` actions and their cost in forward-model calls. Returns fewer actions if the game ends
-    /// in the imagined future. If `count` is 1, the action is exactly the planner's choice.
+    /// in the imagined future. If `count` is 1, the only action is the planner's own choice.
     pub fn plan(&mut self, game: &Game, state: &State, count: u64) -> (Vec<Action>, u64) {
         let (first, mut calls) = self.planner.plan(game, state, self.budget);
         let mut actions = vec![first];

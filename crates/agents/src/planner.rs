@@ -4,17 +4,17 @@ use base::{Sampler, Seed};
 use engine::{Action, Chance, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// The maximum number of forward-model calls that a decision may cost.
+/// The maximum number of forward-model calls that one decision may make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Budget(pub u64);
 
 impl Budget {
-    /// The maximum budget that users can set. A decision with a billion calls takes most of an hour.
+    /// The maximum budget that users can set. A decision that makes a billion calls takes most of an hour.
     pub const MOST: Budget = Budget(1_000_000_000);
 }
 
-/// Chooses actions by looking ahead on copies of the state.
+/// A player that chooses actions by looking ahead on copies of the state.
 pub trait Planner {
     /// Returns the next action and its cost in forward-model calls. A search checks its budget before each iteration, so it may
     /// exceed the budget by one iteration.
@@ -52,7 +52,7 @@ impl Streams {
 }
 
 impl Decision {
-    /// Makes `copy` a copy of the state with an imagined future.
+    /// Overwrites `copy` with a copy of the state that has an imagined future.
     pub(crate) fn fork_with_random_future(&mut self, copy: &mut State, state: &State) {
         copy.fork_from(state, Chance::from_java(self.imagined.bits() as i64));
     }

@@ -25,7 +25,7 @@ base::with_defaults! {
     }
 }
 
-/// Plays until the episode is over or a limit is reached. `seed` determines the game's randomness. The
+/// Plays until the episode is over or a limit is reached. `seed` determines the game's randomness; the
 /// planner has its own random streams. If `seed` is a [`SeedPath`], the episode records its steps.
 pub fn play(
     game: &Game,
@@ -38,8 +38,8 @@ pub fn play(
     play_until(game, level, planner, budget, seed, limits, &|| false)
 }
 
-/// A function that returns `true` once the result is no longer needed. A result that arrives earlier does
-/// not depend on the function.
+/// A function that returns `true` once the result is no longer needed. A result that is complete before then
+/// does not depend on the function.
 pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// Plays like [`play`], but stops before the next decision once `stopped` returns `true`.

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The division of a budget between methods.
+    /// The parameters of the portfolio: how it divides a budget between its methods.
     ///
     /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then
     /// [`best_first`]. After that, and from the start in stochastic games, planners play episodes in rounds
@@ -39,9 +39,9 @@ base::with_defaults! {
         pub foresight: f64 = 0.0,
         /// The memory limit of a systematic search, in bytes.
         pub bytes: usize = 1 << 30,
-        /// The planners' maximum number of calls per decision. The planners get fewer calls if an episode
-        /// would cost more than its part of the budget. The cost is estimated for an episode of
-        /// [`USUAL_TICKS`], or for an episode that lasts until the winning tick.
+        /// The planners' maximum number of calls per decision. Planners get fewer calls if an episode would
+        /// otherwise exceed its part of the budget. The cost is estimated for an episode of [`USUAL_TICKS`],
+        /// or for an episode that lasts until the winning tick.
         pub decision: u64 = 500,
         /// The look-ahead, in ticks, of each bold Monte-Carlo tree search. Each entry adds one such player.
         pub depths: Vec<u32> = vec![20],
@@ -66,22 +66,22 @@ pub enum Solution {
     Won {
         /// The winning episode, which replays bit for bit.
         episode: Box<Episode>,
-        /// `true` if it is proven that no win takes fewer ticks.
+        /// `true` if this win is proven to be the shortest.
         shortest: bool,
     },
-    /// A win is provably impossible, because the search has covered all reachable states.
+    /// A win is provably impossible: the search has covered all reachable states.
     Impossible {
         /// The number of distinct reachable states.
         states: u64,
         /// The actions that lead to the state closest to a win. See [`Searched::nearest`].
         nearest: Vec<Action>,
     },
-    /// The budget was too small to find the answer.
+    /// The budget ran out before the question was answered.
     Unknown,
 }
 
-/// The number by which the total budget is divided to get the first round's budget. Each later round may cost
-/// twice as much as the previous round.
+/// The first round's budget is the total budget divided by this number. Each later round may cost twice as
+/// much as the one before.
 const FIRST_ROUND: u64 = 16;
 
 /// Searches for a win. The same configuration and seed produce the same result with any number of threads.
@@ -196,7 +196,7 @@ const USUAL_TICKS: u64 = 700;
 const LEAST_DECISION: u64 = 30;
 
 /// Plays one episode with each planner. The budget is divided equally between the planners, and an episode
-/// stops at the first decision beyond its part.
+/// stops at the first decision that would exceed its part.
 fn play_round(
     analysis: &Analysis,
     level: &Level,
@@ -225,7 +225,7 @@ fn play_round(
             };
             let decision = match (survive, number) {
                 (Some(ticks), _) => affordable(ticks + 1),
-                // A long look-ahead is expensive, and helps to find short wins.
+                // A long look-ahead is expensive, but it helps to find short wins.
                 (None, 0) => config.decision,
                 (None, _) => affordable(USUAL_TICKS),
             };

@@ -6,7 +6,7 @@ use crate::registry::{PlannerSpec, Player, UnknownPlanner};
 use base::Seed;
 
 /// A registered planner with a fixed number of forward-model calls per decision, written `mcts:500`. The
-/// planner depends only on its name and the number of calls, so that its wins can be compared between levels.
+/// planner depends only on its name and the number of calls, so its wins are comparable across levels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReferencePlanner {
     name: String,
@@ -19,7 +19,7 @@ impl ReferencePlanner {
     ///
     /// # Errors
     ///
-    /// Returns an error if there is no such planner, or if the text after the colon is not a number of calls.
+    /// Returns an error if no such planner exists, or if the text after the colon is not a number.
     pub fn new(name: &str, calls: u64) -> Result<ReferencePlanner, UnknownPlanner> {
         let planner: PlannerSpec = name.parse()?;
         let budget = planner.budget().unwrap_or(Budget(calls));

@@ -18,8 +18,8 @@ macro_rules! planners {
         /// The names of all planners, from weakest to strongest.
         pub const PLANNERS: &[&str] = &[$($name),*];
 
-        /// A registered planner with default parameters. The planner can be saved between two decisions, and
-        /// continues after loading as if it had never been saved.
+        /// A registered planner with default parameters. A player can be saved between two decisions. After
+        /// loading, it continues as if it had never been saved.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         #[serde(tag = "planner")]
         #[allow(missing_docs, clippy::large_enum_variant, reason = "the types say what each is; players are few")]
@@ -66,7 +66,7 @@ planners! {
 
 /// Planners that do not look ahead.
 const BASELINES: [&str; 3] = ["do-nothing", "random", "random-with-nil"];
-/// Planners that look ahead with a few calls, regardless of their budget.
+/// Planners that look ahead but make only a few calls, regardless of their budget.
 const SHALLOW: [&str; 3] = ["one-step", "one-step-score", "nearest-goal"];
 
 /// A planner as users specify it: `mcts`, or `olets:500` with the number of forward-model calls per decision.
@@ -93,7 +93,8 @@ impl PlannerSpec {
         !BASELINES.contains(&self.name())
     }
 
-    /// Returns `true` if a decision spends its whole budget, instead of few calls or no calls.
+    /// Returns `true` if the planner spends its whole budget on each decision, instead of making few calls or
+    /// none.
     pub fn spends_its_budget(&self) -> bool {
         self.looks_ahead() && !SHALLOW.contains(&self.name())
     }
@@ -168,7 +169,7 @@ impl fmt::Display for UnknownPlanner {
 ///
 /// # Errors
 ///
-/// Returns an error if there is no such planner.
+/// Returns an error if no such planner exists.
 pub fn planner(name: &str, seed: Seed) -> Result<Box<dyn Planner + Send>, UnknownPlanner> {
     Ok(Box::new(name.parse::<PlannerSpec>()?.player(seed)))
 }

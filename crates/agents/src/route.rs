@@ -4,7 +4,7 @@ use engine::{Action, Observation};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// The four directions, in order of preference among equally good directions.
+/// The four directions, in the order in which ties are broken.
 pub const DIRECTIONS: [(Action, (isize, isize)); 4] =
     [(Action::Up, (0, -1)), (Action::Left, (-1, 0)), (Action::Down, (0, 1)), (Action::Right, (1, 0))];
 

@@ -10,14 +10,14 @@ use serde::{Deserialize, Serialize};
 /// The length in ticks of a plan in a stochastic game, and of the first plan without a win in a deterministic game.
 const AHEAD: usize = 10;
 
-/// A player that uses [`best_first`] to search for a complete winning plan, and plays that plan without
-/// searching again. If the player finds no win within the budget, it plays towards the state in which the
-/// minimum number of sprites must still disappear or appear, and then presses random keys.
+/// A player that uses [`best_first`] to search for a complete winning plan, and plays it without searching
+/// again. If the player finds no win within the budget, it plays towards the state in which the fewest
+/// sprites must still disappear or appear, and then presses random keys.
 ///
 /// In a deterministic game, a winning plan remains correct regardless of its length. After a plan that does
-/// not win, the player searches again after ten ticks, and doubles this interval with every further search.
-/// In a stochastic game, the search treats one imagined future as the only possible future. Such a search
-/// gets a tenth of the budget and is repeated after ten ticks.
+/// not win, the player searches again after ten ticks, and doubles this interval with each further search. In
+/// a stochastic game, the search treats one imagined future as the only possible future. Such a search gets a
+/// tenth of the budget and is repeated after ten ticks.
 ///
 /// Cost: the budget, or a tenth of it, for each new plan, and no calls in between. A search uses up to a
 /// gibibyte of memory.
@@ -50,7 +50,7 @@ impl Planner for Systematic {
         let calls = if is_certain { calls } else { calls / AHEAD as u64 };
         let mut start = state.clone();
         decision.fork_with_random_future(&mut start, state);
-        // The pushes that a level needs follow from the level, which a player does not see.
+        // Push bounds are computed from the level, which a player does not see.
         let searched = best_first(&analysis, &Pushes::default(), &start, SearchLimits::calls(calls));
         let (mut plan, least) = match searched.answer {
             Answer::Won { actions, .. } => (actions, 0),

@@ -2,11 +2,14 @@
 //!
 //! Each decision looks ahead breadth first from copies of the state, each with its own random seed. The
 //! look-ahead continues only from novel states, in which a type has a sprite in a cell that is new to the
-//! look-ahead. The method is IW(1): see Lipovetzky and Geffner 2012, "Width and serialization of classical
-//! planning problems", and Lipovetzky, Ramirez and Geffner 2015, "Classical planning with simulators: results
-//! on the Atari video games". Iterated width looks far ahead with few calls, whereas random rollouts stay
-//! near. The best plans found, one per first action, are then tried again with different seeds, because a
-//! single good result in a stochastic game may be luck. The plan with the best average is played.
+//! look-ahead.
+//!
+//! The method is IW(1): see Lipovetzky and Geffner 2012, "Width and serialization of classical planning
+//! problems", and Lipovetzky, Ramirez and Geffner 2015, "Classical planning with simulators: results on the
+//! Atari video games". It looks far ahead with few calls, whereas random rollouts stay near.
+//!
+//! The best plans found, one per first action, are then tried again with different seeds, because a single
+//! good result in a stochastic game may be luck. The plan with the best average is played.
 
 use crate::guides::features::{Atoms, Features};
 use crate::guides::progress::Progress;
@@ -26,12 +29,12 @@ base::with_defaults! {
         pub discount: f64 = 0.98,
         /// The fraction of the budget for looking ahead. The rest is spent on retrying the plans.
         pub look: f64 = 0.6,
-        /// The number of ticks in a plan to retry. Later ticks can be replanned in time.
+        /// The number of ticks of a plan to retry. Later ticks can still be replanned when they come.
         pub horizon: usize = 12,
         /// The weight of a loss, in multiples of the largest gain seen.
         pub loss: f64 = 10.0,
         /// The value, in points, of reaching a state with an atom that is new in this episode. An atom that
-        /// was present in one tick is worth half of that value, and an atom that was present in two ticks a
+        /// was present in one earlier tick is worth half as much, and an atom that was present in two a
         /// third.
         pub curiosity: f64 = 0.1,
     }
@@ -292,7 +295,7 @@ impl Planner for Width {
                 tried.count += 1.0;
             }
         }
-        // The value of a plan beyond the horizon counts in proportion to the fraction of tries that reach it.
+        // The value of a plan beyond the horizon counts in proportion to the tries that reach the horizon.
         let expected = |(plan, tried): (&Plan, &Tried)| {
             if tried.count == 0.0 {
                 return plan.worth();

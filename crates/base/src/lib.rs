@@ -1,4 +1,4 @@
-//! The foundation of all other crates: digests, seeds and their paths, random draws, canonical JSON.
+//! The foundation of all other crates: digests, seeds and their paths, random draws, and canonical JSON.
 //!
 //! Seeds, digests, draws and canonical JSON never change: the bytes of every release depend on them.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]

@@ -1,8 +1,8 @@
 //! Random draws for everything that is not part of a game's rules: search, generation, imagined futures.
 //!
-//! ChaCha8 produces the bits. The few distributions are implemented here and pinned by golden vectors,
-//! because a library may change the values of its distributions in a minor release, and minted bytes depend
-//! on these values (`docs/lab/decisions/0003-determinism.md`).
+//! ChaCha8 produces the bits. The few distributions that the suite needs are implemented here and pinned by
+//! golden vectors. A library may change the values of its distributions in a minor release, and minted bytes
+//! depend on these values (`docs/lab/decisions/0003-determinism.md`).
 
 use crate::seed::Seed;
 use rand_chacha::ChaCha8Rng;
@@ -88,7 +88,7 @@ impl Sampler {
         low + self.below(high - low + 1)
     }
 
-    /// Returns a uniform number in [0, 1) with 53 bits.
+    /// Returns a uniform 53-bit number in [0, 1).
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
@@ -128,8 +128,8 @@ impl Sampler {
     }
 }
 
-/// Provides the bits from [`Sampler::bits`] to other crates' distributions. Every call consumes whole draws
-/// of 64 bits: `next_u32` consumes one draw, and `fill_bytes` one draw per eight bytes, lowest byte first.
+/// Provides the bits from [`Sampler::bits`] to other crates' distributions. Every call consumes whole 64-bit
+/// draws: `next_u32` consumes one draw, and `fill_bytes` one draw per eight bytes, lowest byte first.
 impl TryRng for Sampler {
     type Error = Infallible;
 

@@ -1,4 +1,4 @@
-//! Seeds of 256 bits, derived by hashing a path, never by addition.
+//! 256-bit seeds, derived by hashing a path, never by addition.
 //!
 //! For example, two items in a release get their randomness from `seed.child("game", 3)` and
 //! `seed.child("game", 4)`. The two seeds share no stream, so items can be minted in any order, on any number
@@ -94,8 +94,8 @@ mod tests {
         }
     }
 
-    /// Compares a derived seed with a golden vector. If the vector changes, the seeds of all releases lose
-    /// their meaning.
+    /// Compares a derived seed with a golden vector. If the vector changes, the seeds of all existing
+    /// releases lose their meaning.
     #[test]
     fn derivation_is_frozen() {
         let seed = Seed::from_text("starter").child("game", 7);

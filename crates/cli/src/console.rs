@@ -48,8 +48,8 @@ impl Console {
         Console { json, quiet, output: Mutex::default() }
     }
 
-    /// Writes to standard output. If the reader disconnects early, the subcommand still runs to its end and
-    /// keeps its exit status. [`finish`](Console::finish) reports a full device, after the subcommand has
+    /// Writes to standard output. If the reader disconnects early, the subcommand still runs to completion
+    /// and keeps its exit status. [`finish`](Console::finish) reports a full device, after the subcommand has
     /// written its files.
     fn out(&self, text: std::fmt::Arguments<'_>, is_document: bool) {
         let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
@@ -138,14 +138,14 @@ impl Console {
         }
     }
 
-    /// Returns a function that prints notes, for players in other threads.
+    /// Returns a function that prints notes, for players that run in other threads.
     pub(crate) fn remarks(&self) -> Arc<dyn Fn(&str) + Send + Sync> {
         let remarks = Console::new(self.json, self.quiet);
         Arc::new(move |text| remarks.remark(text))
     }
 
-    /// Prints the failure, even if the user requested quiet output. Also prints the failure as a document if
-    /// the user requested JSON and the subcommand has not written a document yet.
+    /// Prints the failure, even if the user requested quiet output. If the user requested JSON and no
+    /// document has been written yet, also prints the failure as a document.
     pub(crate) fn error(&self, failure: &Failure) {
         self.report(failure);
         self.error_document(failure);
@@ -199,13 +199,14 @@ impl Stopwatch {
     }
 }
 
-/// Prints a note about an action that differs from the request, even if the user requested quiet output.
+/// Prints a note that the program is doing something other than requested, even if the user requested quiet
+/// output.
 pub(crate) fn warn(text: impl Display) {
     let _ = writeln!(io::stderr(), "note: {}", shown(&text.to_string()));
 }
 
-/// Escapes the characters escaped by [`visible_lines`], in JSON notation. In a JSON document, such characters
-/// occur only in strings.
+/// Escapes, in JSON notation, the characters that [`visible_lines`] escapes. In a JSON document, such
+/// characters occur only in strings.
 fn in_ascii_escapes(text: &str) -> Cow<'_, str> {
     if *visible_lines(text) == *text {
         return Cow::Borrowed(text);
@@ -217,14 +218,15 @@ fn in_ascii_escapes(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(spelt).collect())
 }
 
-/// Makes text safe for a terminal. The text may quote untrusted input, so control characters are escaped, except for the colours
-/// of our own diagnostics on a terminal.
+/// Makes text safe to print on a terminal. The text may quote untrusted input, so control characters are
+/// escaped, except for the colours of our own diagnostics.
 fn shown(text: &str) -> Cow<'_, str> {
     let is_terminal = io::stderr().is_terminal();
     escaped(text, &if is_terminal { editor::colours() } else { Vec::new() })
 }
 
-/// Escapes a text's invisible characters like [`visible_lines`], except in the sequences in `kept`.
+/// Escapes a text's invisible characters like [`visible_lines`], but leaves the sequences in `kept`
+/// unchanged.
 fn escaped<'a>(text: &'a str, kept: &[String]) -> Cow<'a, str> {
     let is_escaped = |character: char| is_invisible(character) && !matches!(character, '\n' | '\t');
     if !text.contains(is_escaped) {

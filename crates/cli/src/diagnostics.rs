@@ -19,7 +19,7 @@ impl Named {
     }
 }
 
-/// Returns a human-readable report: a summary line, and every problem with its position.
+/// Returns a human-readable report: a summary line, followed by every problem with its position.
 pub(crate) fn in_words(source: &Named, problems: &[Diagnostic]) -> String {
     editor::in_words(shown(source), problems)
 }
@@ -33,7 +33,7 @@ fn shown(source: &Named) -> Source<'_> {
     Source { name: &source.name, text: &source.text, is_coloured: std::io::stderr().is_terminal() }
 }
 
-/// Returns the failure of a subcommand that cannot continue because of problems in a file.
+/// Returns the failure of a subcommand that cannot continue because a file has problems.
 pub(crate) fn failure(source: &Named, problems: &[Diagnostic]) -> Failure {
     let text = in_words(source, problems);
     let summary = text.lines().next().unwrap_or_default().to_owned();

@@ -30,10 +30,10 @@ pub(crate) enum Failure {
     Environment(anyhow::Error),
 }
 
-/// A file's problems, as an error.
+/// The problems in a file, as an error.
 #[derive(Debug)]
 pub(crate) struct Problems {
-    /// The line with the number of problems.
+    /// The summary line, which states the number of problems.
     pub(crate) summary: String,
     pub(crate) placed: Vec<Placed>,
     pub(crate) text: String,
@@ -57,7 +57,7 @@ pub(crate) struct Placed {
     pub(crate) problem: Diagnostic,
 }
 
-/// Creates the failure for a malformed question, with a message formatted as by `format!`.
+/// Creates the failure for a malformed question. The arguments are those of `format!`.
 macro_rules! malformed {
     ($($message:tt)*) => { $crate::failure::Failure::malformed(format_args!($($message)*)) };
 }
@@ -79,7 +79,7 @@ impl Failure {
         Failure::Environment(error.into().context(what.to_string()))
     }
 
-    /// Returns the failure, with advice on how to resume if the environment stopped the work.
+    /// Returns the failure. If the environment stopped the work, adds advice on how to resume.
     pub(crate) fn resumable(self, what: &str) -> Failure {
         match self {
             Failure::Environment(error) => Failure::environment(
@@ -90,7 +90,7 @@ impl Failure {
         }
     }
 
-    /// Returns the failure for reading the file at `path`. Either the user specified a missing file, or the
+    /// Returns the failure to read the file at `path`. Either the user specified a missing file, or the
     /// system denied access.
     pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
         let name = path.in_message();
@@ -108,8 +108,8 @@ impl Failure {
         }
     }
 
-    /// Returns the failure for writing the file at `path`. Either the user specified an impossible path, or
-    /// the system denied access.
+    /// Returns the failure to write the file at `path`. Either the user specified an impossible path, or the
+    /// system denied access.
     pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
         let name = path.in_message();
         match error.kind() {
@@ -148,7 +148,7 @@ impl Failure {
     }
 }
 
-/// Converts release errors into malformed questions, unless the snapshot itself is at fault.
+/// Converts release errors into malformed questions, except errors in the snapshot itself.
 macro_rules! from_snapshot_errors {
     ($($error:ident),*) => {$(
         impl From<$error> for Failure {

@@ -17,7 +17,7 @@ mod unix {
     /// `true` if a signal is about to end the program.
     static ENDING: AtomicBool = AtomicBool::new(false);
 
-    /// Starts catching the signals. On a signal, `last` runs first and may take several seconds. Then `hint`
+    /// Starts handling the signals. On a signal, `last` runs first and may take several seconds. Then `hint`
     /// is written to standard error.
     pub(crate) fn watch(last: impl FnOnce() + Send + 'static, hint: String) {
         let ignored = ignored();
@@ -65,10 +65,10 @@ mod unix {
 #[cfg(unix)]
 pub(crate) use unix::{defer, watch};
 
-/// Has no effect on non-Unix systems, where the program ends silently.
+/// Does nothing on non-Unix systems, where a signal ends the program silently.
 #[cfg(not(unix))]
 pub(crate) fn watch(_: impl FnOnce() + Send + 'static, _: String) {}
 
-/// Has no effect on non-Unix systems.
+/// Does nothing on non-Unix systems.
 #[cfg(not(unix))]
 pub(crate) fn defer() {}

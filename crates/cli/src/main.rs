@@ -48,8 +48,8 @@ struct Cli {
     limits: flags::threads::Limits,
 }
 
-/// Declares the subcommands, in the groups and the order of the help. Each entry contains the variant, and
-/// the module with its `Args` and `run`. The short help lists the subcommands after `more` only by name.
+/// Declares the subcommands, in the groups and the order of the help. Each entry contains the variant and the
+/// module with its `Args` and `run`. The short help lists subcommands after `more` by name only.
 macro_rules! verbs {
     ($($group:literal in $folder:ident {
         $($verb:ident: $module:ident),* $(,)?; more $($(#[$attribute:meta])* $rare:ident: $other:ident),* $(,)?
@@ -60,7 +60,7 @@ macro_rules! verbs {
         }
 
         /// The help groups. Each group has a title, the number of subcommands that the short help describes,
-        /// and the number that it lists only by name.
+        /// and the number of subcommands that it lists by name only.
         const GROUPS: &[(&str, usize, usize)] =
             &[$(($group, [$(stringify!($verb)),*].len(), [$(stringify!($rare)),*].len())),*];
 

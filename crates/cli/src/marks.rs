@@ -1,11 +1,11 @@
-//! The players that measure a release's marks, built in the same way as the players in evaluations.
+//! The players that measure a release's marks, constructed in the same way as the players in evaluations.
 
 use base::Seed;
 use evaluation::LevelMark;
 use evaluation::reference::{ReferencePlayer, ReferencePlays, SEED};
 use snapshots::marks::{MarkPlayers, Marks, MarksPart, Wins};
 
-/// The players for marks, looked up by the names accepted by `arcade evaluate --player`.
+/// The players for marks, by the names that `arcade evaluate --player` accepts.
 #[derive(Debug)]
 pub(crate) struct Players;
 

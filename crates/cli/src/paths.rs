@@ -15,7 +15,7 @@ pub(crate) fn in_json(path: &Path) -> Cow<'_, str> {
 }
 
 /// Returns the metadata of the file or folder at `path`, following links. Returns `None` if nothing exists at
-/// `path`. A folder that denies access is a failure, not an absence.
+/// `path`. A folder that denies access is a failure, not a missing file.
 pub(crate) fn metadata(path: &Path) -> Result<Option<Metadata>, Failure> {
     match fs::metadata(path) {
         Ok(found) => Ok(Some(found)),
@@ -23,8 +23,8 @@ pub(crate) fn metadata(path: &Path) -> Result<Option<Metadata>, Failure> {
     }
 }
 
-/// Returns a release's folder: `place` itself, or its folder `public` if `place` contains the two parts of a
-/// sealed release.
+/// Returns a release's folder: `place` itself, or its subfolder `public` if `place` contains the two parts of
+/// a sealed release.
 pub(crate) fn release(place: PathBuf) -> PathBuf {
     let public = place.join("public");
     match !place.join(MANIFEST_FILE).exists() && public.join(MANIFEST_FILE).is_file() {

@@ -1,4 +1,5 @@
-//! Protection of releases. A file added to a release breaks its verification, or is published with the release.
+//! Protection of releases against stray output. A file added to a release breaks its verification, or would
+//! be published with the release.
 
 use crate::failure::Failure;
 use crate::shell;
@@ -33,7 +34,8 @@ pub(crate) fn check(place: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The first bytes of a manifest in canonical JSON. Other programs may use the same file name.
+/// The first bytes of a manifest in canonical JSON. The file name alone proves nothing, because other
+/// programs may use it.
 const MANIFEST_START: &[u8] = b"{\n  \"canary\": ";
 
 /// Returns `true` if the folder contains a release's manifest.
@@ -42,7 +44,7 @@ fn is_release(folder: &Path) -> bool {
     start.is_ok_and(|start| start == MANIFEST_START)
 }
 
-/// Starts the draft for a folder or file outside any release.
+/// Starts a draft of a folder or file that lies outside any release.
 pub(crate) fn draft(out: &Path) -> Result<Draft, Failure> {
     check(out)?;
     Draft::create(out).map_err(Failure::from)
@@ -57,13 +59,13 @@ pub(crate) fn publish(draft: Draft, files: Vec<pages::File>) -> Result<Vec<Strin
     Ok(files.into_iter().map(|file| file.name).collect())
 }
 
-/// Starts a draft like [`draft`], keeping the finished jobs from an interrupted draft.
+/// Starts a draft like [`draft`], but keeps the finished jobs from an interrupted draft.
 pub(crate) fn resumed(out: &Path) -> Result<Draft, Failure> {
     check(out)?;
     Draft::resume(out).map_err(Failure::from)
 }
 
-/// Returns the absolute path, following links in the path's existing part.
+/// Returns the absolute path, resolving links in the part of the path that exists.
 fn resolved(place: &Path) -> PathBuf {
     for above in place.ancestors() {
         let known = if above.as_os_str().is_empty() { Path::new(".") } else { above };

@@ -39,7 +39,7 @@ fn help_of_all() -> Command {
 /// The width of the help text, in columns.
 const COLUMNS: usize = 100;
 
-/// Returns the subcommands that users need first, by group, and the names of all other subcommands.
+/// Lists, by group, the subcommands that users need first. All other subcommands are listed by name only.
 fn verbs_in_short(command: &Command) -> String {
     let mut verbs = command.get_subcommands();
     let mut groups = Vec::new();
@@ -85,7 +85,7 @@ fn first_clause(verb: &Command) -> String {
     about[..end.unwrap_or(about.len())].to_owned()
 }
 
-/// Adds a subcommand and its description, wrapped in its own column.
+/// Adds a subcommand and its description, wrapped within its own column.
 fn row(text: &mut String, name: &str, width: usize, description: &str) {
     let mut line = format!("  {name:<width$} ");
     for word in description.split_whitespace() {
@@ -98,14 +98,14 @@ fn row(text: &mut String, name: &str, width: usize, description: &str) {
     let _ = writeln!(text, "{line}");
 }
 
-/// The groups into which subcommands from version 0.13 have moved. The old spellings still work in version
-/// 0.14.
+/// The groups into which subcommands from version 0.13 have moved. Version 0.14 still accepts the old
+/// spellings.
 const MOVED: [(&str, &[&str]); 2] = [
     ("trust", &["keygen", "keys", "sign", "log"]),
     ("study", &["calibrate", "scale", "timeline", "contamination"]),
 ];
 
-/// The subcommand from version 0.13 that has become a task for developers.
+/// The subcommand from version 0.13 that has become a developer task.
 const CONFORMANCE: &str = "conformance";
 
 /// Returns the index of a moved subcommand among the arguments, and its new group.
@@ -116,7 +116,7 @@ fn moved(arguments: &[OsString]) -> Option<(usize, &'static str)> {
     Some((at, group.0))
 }
 
-/// Parses the arguments, or returns the exit status if they are rejected. A request for help is not an error.
+/// Parses the arguments, or returns the exit status if parsing fails. A request for help is not an error.
 pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
     let mut arguments = arguments.to_vec();
     let is_quiet = arguments.iter().any(|argument| argument == "-q" || argument == "--quiet");
@@ -149,7 +149,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
         }
         let message =
             in_words(&error).or_else(|| other_name(&error, arguments)).or_else(|| developers_task(&error));
-        // Colours are for terminals. Programs read the first line of the document instead.
+        // Only terminals get colours. Programs read the first line of the document instead.
         let told = message.as_ref().map_or_else(|| error.render().to_string(), Clone::clone);
         match message {
             Some(message) => drop(write!(std::io::stderr(), "{message}")),
@@ -171,7 +171,8 @@ fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Words with a different name on the command line. Each row contains a subcommand and its words.
+/// Words whose subcommand has a different name in arcade. Each row contains a subcommand and the words for
+/// it.
 const OTHER_VERBS: [(&str, &[&str]); 6] = [
     ("new", &["create", "make", "init", "init-game", "new-game", "begin", "start"]),
     ("validate", &["check", "test", "lint", "judge"]),
@@ -200,7 +201,8 @@ fn with_own_verb(mut error: clap::Error, arguments: &[OsString]) -> clap::Error 
     error
 }
 
-/// Returns `true` if `--json` is among the flags. If parsing fails, only the arguments reveal this setting.
+/// Returns `true` if `--json` is among the flags. If parsing fails, the raw arguments are the only source of
+/// this setting.
 fn is_json_wanted(arguments: &[OsString]) -> bool {
     let flags = arguments.iter().take_while(|argument| *argument != OsStr::new("--"));
     flags.into_iter().any(|argument| argument == OsStr::new("--json"))
@@ -222,7 +224,7 @@ fn numeric_flags_take_negative_numbers(command: Command) -> Command {
     command.mut_subcommands(numeric_flags_take_negative_numbers)
 }
 
-/// Returns a plain message for an invalid number. The message from clap would be "invalid digit found in
+/// Returns a plain message for an invalid number. clap's own message would be "invalid digit found in
 /// string".
 fn in_words(error: &clap::Error) -> Option<String> {
     if error.kind() != ErrorKind::ValueValidation {
@@ -247,7 +249,7 @@ fn in_words(error: &clap::Error) -> Option<String> {
     ))
 }
 
-/// Returns the flags with the meaning of an unknown flag, rather than a flag that only looks similar.
+/// Returns the flags that mean the same as an unknown flag, rather than a flag with a similar spelling.
 fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let is_unknown = error.kind() == ErrorKind::UnknownArgument;
     let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg).filter(|_| is_unknown) else {
@@ -264,7 +266,7 @@ fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     Some(format!("error: unexpected argument '{flag}': {instead}\n\nFor more information, try '--help'.\n"))
 }
 
-/// Returns a message about the command that replaces the developers' subcommand.
+/// Returns a message about the command that replaces the developer subcommand.
 fn developers_task(error: &clap::Error) -> Option<String> {
     let verb = error.get(ContextKind::InvalidSubcommand)?;
     (verb.to_string() == CONFORMANCE).then(|| {

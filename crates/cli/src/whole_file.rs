@@ -21,8 +21,8 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     written.map_err(|error| Failure::write(path, error))
 }
 
-/// Rejects, before the work starts, a path that [`write`] would reject after the work. Also rejects each of
-/// the command's `inputs`.
+/// Rejects a path that [`write`] would reject, before the work starts. Also rejects each of the command's
+/// `inputs`.
 pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     protected::check(path)?;
     Place::of(path)?;
@@ -39,7 +39,7 @@ pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     }
 }
 
-/// The kind of file to which a path leads.
+/// The kind of file that a path leads to.
 enum Place {
     /// A regular file, or a path where nothing exists yet.
     File,
@@ -48,8 +48,8 @@ enum Place {
 }
 
 impl Place {
-    /// Examines a path specified by the user. Other users with write access to its folder may have placed a
-    /// link to a different file there, or a pipe, which would block when opened.
+    /// Examines a path specified by the user. Other users with write access to its folder may have replaced
+    /// the file with a link to a different file, or with a pipe, which would block when opened.
     fn of(path: &Path) -> Result<Place, Failure> {
         let name = path.in_message();
         if is_own_stream(path) {
@@ -74,8 +74,8 @@ impl Place {
     }
 }
 
-/// Returns `true` if a path denotes one of the streams with which the process was started. On some systems,
-/// such paths are links.
+/// Returns `true` if a path denotes one of the process's standard streams. On some systems, such paths are
+/// links.
 fn is_own_stream(path: &Path) -> bool {
     let is_numbered =
         ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.parent() == Some(Path::new(folder)));
@@ -95,7 +95,7 @@ fn is_character_device(found: &Metadata) -> bool {
     }
 }
 
-/// Returns the file to which a link leads, which need not exist. Returns `None` if the link leads back to
+/// Returns the file that a link leads to, which need not exist. Returns `None` if the link leads back to
 /// itself.
 fn target(link: &Path) -> Option<PathBuf> {
     match fs::canonicalize(link) {
@@ -180,7 +180,7 @@ mod tests {
         fs::set_permissions(&target, fs::Permissions::from_mode(0o640)).expect("set");
         write(&target, b"new").expect("written");
         assert_eq!(fs::metadata(&target).expect("there").permissions().mode() & 0o777, 0o640);
-        // A new file has the same permissions as any other new file.
+        // The file gets the same permissions as any other new file.
         let [plain, fresh] = ["plain", "fresh"].map(|name| home.path().join(name));
         fs::write(&plain, "").expect("written");
         write(&fresh, b"new").expect("written");

@@ -5,8 +5,8 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// A lock on a file. The lock excludes other processes until it is dropped. The operating system also
-/// releases the lock when the process ends for any reason.
+/// A lock on a file. The lock excludes other processes until it is dropped. The operating system releases it
+/// when the process ends, for whatever reason.
 #[derive(Debug)]
 pub struct Lock(File);
 
@@ -17,7 +17,7 @@ impl Lock {
     /// # Errors
     /// Returns an error if the path is a link or not a regular file, or if the file system fails.
     pub fn take(path: &Path) -> io::Result<Option<Lock>> {
-        // The current holder may finish in the meantime and remove the file.
+        // In the meantime, the current holder may finish and remove the file.
         for _ in 0..16 {
             let file = open_no_follow(path)?;
             match file.try_lock() {
@@ -26,7 +26,7 @@ impl Lock {
                 Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
                 Err(TryLockError::Error(error)) => return Err(error),
             }
-            // The lock counts only if the path still leads to the locked file.
+            // The lock is valid only if the path still leads to the locked file.
             let held = file.metadata()?;
             if fs::symlink_metadata(path).is_ok_and(|found| is_same_file(&held, &found)) {
                 return Ok(Some(Lock(file)));

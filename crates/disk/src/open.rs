@@ -31,7 +31,7 @@ pub fn read_start(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     start(open(path)?, limit)
 }
 
-/// Reads up to `limit` more bytes from a reader.
+/// Reads at most `limit` bytes from a reader.
 ///
 /// # Errors
 /// Returns an error if reading fails.
@@ -46,7 +46,7 @@ fn bounded(file: File, limit: u64) -> io::Result<Option<Vec<u8>>> {
     Ok(Some(bytes).filter(|bytes| bytes.len() as u64 <= limit))
 }
 
-/// Reads a file of at most `limit` bytes, without following a link. Returns `None` if the file is larger.
+/// Reads a file of at most `limit` bytes, without following links. Returns `None` if the file is larger.
 ///
 /// # Errors
 /// Returns an error if the path is not a regular file, or the file cannot be read.
@@ -99,7 +99,7 @@ pub fn is_readable_by_others(path: &Path) -> bool {
 }
 
 fn open_or_create(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
-    // Somebody may create or remove the file between the two attempts.
+    // Another process may create or remove the file between the two attempts.
     for _ in 0..16 {
         match existing(path, options) {
             Err(error) if error.kind() == ErrorKind::NotFound => {}
@@ -134,7 +134,7 @@ fn invalid(what: &str) -> io::Error {
     io::Error::new(ErrorKind::InvalidInput, what)
 }
 
-/// Returns `true` if `one` and `other` describe the same file, or if the files' identity is unknown.
+/// Returns `true` if `one` and `other` describe the same file, or if this cannot be determined.
 pub fn is_same_file(one: &Metadata, other: &Metadata) -> bool {
     #[cfg(unix)]
     {

@@ -8,8 +8,8 @@ use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 use tempfile::{Builder, NamedTempFile, PersistError};
 
-/// The prefix and the suffix in the names of unfinished files, which are stored next to their targets.
-/// Between prefix and suffix, the name contains six letters or digits.
+/// The prefix and the suffix of the name of an unfinished file, which is stored next to its target. Between
+/// them are six letters or digits.
 const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
 
 /// Writes a whole file, replacing any previous file, like [`Disk::write`].
@@ -20,7 +20,7 @@ pub fn write(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     Disk::new().write(path, bytes, access)
 }
 
-/// Writes a whole new file. An existing file with this name is never replaced.
+/// Writes a whole new file. Never replaces an existing file with this name.
 ///
 /// # Errors
 /// Returns an error if the name already exists ([`ErrorKind::AlreadyExists`]) or the file system fails. In
@@ -32,7 +32,7 @@ pub fn create(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     }
     let disk = Disk::new();
     let placed = match disk.fill(path, bytes, access)?.persist_noclobber(path) {
-        // Not every file system can rename without replacing.
+        // Not every file system supports renaming without replacing.
         Err(PersistError { error, file }) if error.kind() != ErrorKind::AlreadyExists => {
             match fs::symlink_metadata(path) {
                 Ok(_) => return Err(taken()),
@@ -54,8 +54,8 @@ pub fn create_folder(folder: &Path) -> io::Result<()> {
     Disk::new().create_folder(folder)
 }
 
-/// Waits until the file names in a folder are on disk. Only Unix supports such a wait. On other systems, the
-/// file system's journal must suffice.
+/// Waits until the file names in a folder are on disk. Only Unix supports this; on other systems, the file
+/// system's journal must suffice.
 ///
 /// # Errors
 /// Returns an error if the file system fails.
@@ -73,7 +73,7 @@ pub fn is_unfinished(name: &OsStr) -> bool {
 }
 
 /// Opens and locks an unfinished file that no process is writing. Returns `None` for any other file. While
-/// the returned file is open, no other process can open it with this function.
+/// the returned file is open, this function does not open it in any other process.
 pub fn unfinished(path: &Path) -> Option<File> {
     if !is_unfinished(path.file_name()?) {
         return None;
@@ -82,20 +82,20 @@ pub fn unfinished(path: &Path) -> Option<File> {
     file.try_lock().ok().map(|()| file)
 }
 
-/// Writes files such that a power loss at any moment leaves each file either unchanged or complete.
+/// Writes files so that a power loss at any moment leaves each file either unchanged or complete.
 ///
 /// Tests can simulate a power loss: a disk created by [`Disk::losing_power_after`] stops after a given number
-/// of steps, and leaves all files as they are at that moment.
+/// of steps, and leaves all files as they are at that point.
 #[derive(Debug, Default)]
 pub struct Disk {
     /// The number of remaining steps before the power loss, or `None` if the power is never lost.
     left: Option<Cell<usize>>,
 }
 
-/// The access to a new file for users other than the owner.
+/// The access to a new file granted to users other than the owner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// The same access as the replaced file, or the system's default for a new file.
+    /// The same access as to the replaced file, or the system's default for a new file.
     Shared,
     /// No access: only the owner can read the file.
     Private,
@@ -107,8 +107,8 @@ impl Disk {
         Disk::default()
     }
 
-    /// Creates a disk that stops working after `steps` changes to the file system. An interrupted write
-    /// writes half of its bytes.
+    /// Creates a disk that stops working after `steps` changes to the file system. A write interrupted by the
+    /// power loss writes half of its bytes.
     pub fn losing_power_after(steps: usize) -> Disk {
         Disk { left: Some(Cell::new(steps)) }
     }
@@ -121,7 +121,7 @@ impl Disk {
     pub fn write(&self, path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
         let fresh = self.fill(path, bytes, access)?;
         self.step()?;
-        // Dropping a file that could not be moved removes it.
+        // If the file could not be moved, dropping it removes it.
         fresh.persist(path).map_err(|failed| failed.error)?;
         self.sync(parent(path))
     }
@@ -136,7 +136,7 @@ impl Disk {
             let mode = if access == Access::Private { 0o600 } else { 0o666 };
             builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
         }
-        // The name of the unfinished file would be confusing in a message.
+        // The name of the unfinished file would be confusing in an error message.
         let unnamed = |error: io::Error| error.raw_os_error().map_or(error, io::Error::from_raw_os_error);
         let mut fresh = builder.tempfile_in(parent(path)).map_err(unnamed)?;
         // If the file system supports locks, the lock makes `unfinished` leave the file alone.
@@ -224,7 +224,7 @@ mod tests {
             let found = fs::read(&path).expect("there");
             assert!(found == b"old" || found == b"new!", "{found:?} after {steps} steps");
             ends.push(found == b"new!");
-            // Unfinished files left behind do not interfere, and no process holds them.
+            // Leftover unfinished files do not interfere, and no process holds a lock on them.
             write(&path, b"again", Access::Private).expect("written");
             let left: Vec<PathBuf> =
                 names(home.path()).into_iter().filter(|name| name.as_os_str() != "file").collect();
@@ -288,7 +288,7 @@ mod tests {
         fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).expect("set");
         write(&path, b"z", Access::Shared).expect("written");
         assert_eq!(mode(&path), 0o640);
-        // A new file has the same permissions as any other file.
+        // A new file has the permissions that any other new file has.
         fs::write(folder.join("plain"), "").expect("written");
         write(&folder.join("new"), b"", Access::Shared).expect("written");
         create(&folder.join("newer"), b"", Access::Shared).expect("written");
@@ -319,7 +319,8 @@ mod tests {
         assert!(!home.path().join("absent").exists());
     }
 
-    /// Checks power losses during the creation of each new folder, and during the wait for its name.
+    /// Checks power losses during the creation of each new folder, and during the wait until its name is on
+    /// disk.
     #[test]
     fn names_of_new_folders_are_waited_for() {
         let home = tempfile::tempdir().expect("temporary folder");

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// The words that can be inserted at a position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
-    /// The part of the word that is already written, which the chosen item replaces.
+    /// The already written part of the word, which the chosen item replaces.
     pub span: Span,
     /// The words, most likely first. Words that do not match the written part are included.
     pub items: Vec<Item>,
@@ -100,7 +100,7 @@ impl<'a> Context<'a, '_> {
         let above = above.map(|line| line.place);
         match (above, self.line.map(|line| line.place)) {
             (None, _) => Place::Header,
-            // The line may look like a section only because it is half written.
+            // The line may look like a section only because it is incomplete.
             (Some(Place::Head(section) | Place::Body(section)), _) => Place::Body(section),
             (Some(Place::Header | Place::Outside), own) => own.unwrap_or(Place::Outside),
         }
@@ -234,7 +234,7 @@ impl<'a> Context<'a, '_> {
     }
 }
 
-/// The classes and effects that games use most, in the order of the suggestions. All others follow.
+/// The most commonly used classes and effects, in suggestion order. All others follow.
 const COMMON: [&str; 24] = [
     "Immovable",
     "MovingAvatar",

@@ -8,8 +8,8 @@ use engine::{Diagnostics, syntax};
 ///
 /// # Errors
 ///
-/// Returns the problems in the text if some lines cannot be parsed, because the canonical form would omit
-/// these lines.
+/// Returns the problems in the text if any line cannot be parsed, because the canonical form would omit that
+/// line.
 pub fn format(source: &str) -> Result<String, Vec<Problem>> {
     let (description, found) = syntax::parse(source);
     if Diagnostics::has_errors(&found) {

@@ -21,8 +21,9 @@ pub struct Hover {
 /// The maximum number of sentences about a sprite type.
 const SENTENCES: usize = 12;
 
-/// Returns the explanation of the word at byte `at`. VGDL keywords are explained by their manual pages, and
-/// sprite types and level characters by the game. Sentences about rules require a game that compiles.
+/// Returns the explanation of the word at byte `at`. VGDL keywords are explained by their manual pages.
+/// Sprite types and level characters are explained by their use in the game. Sentences about rules require a
+/// game that compiles.
 pub fn hover(source: &str, at: usize) -> Option<Hover> {
     let words = Words::of(source);
     let word = words.at(at)?;
@@ -42,7 +43,7 @@ pub fn hover(source: &str, at: usize) -> Option<Hover> {
 }
 
 /// Returns the explanation of the character at byte `at` in a level: the sprites that the character places in
-/// the game.
+/// this game.
 pub fn level_hover(source: &str, level: &str, at: usize) -> Option<Hover> {
     let (span, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);
@@ -85,7 +86,7 @@ fn of_edge(word: &str) -> Option<&'static str> {
     EDGES.iter().position(|edge| *edge == word).map(|at| all[at])
 }
 
-/// Returns the explanation of a setting in the first line.
+/// Returns the explanation of a setting in a game's first line.
 pub(crate) fn of_setting(key: &str) -> Option<&'static str> {
     Some(match key {
         "square_size" => "pixels of a cell",
@@ -154,7 +155,7 @@ fn of_sprite(source: &str, words: &Words<'_>, name: &str) -> Option<String> {
     Some(markdown)
 }
 
-/// Returns a type's ancestors, its subtypes, and its parameters with their origin.
+/// Returns a type's ancestors, its subtypes, and its parameters, each with its origin.
 fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     let mut markdown = String::new();
     let names: Vec<String> = words.ancestors(sprite).map(|above| format!("`{}`", above.name)).collect();
@@ -180,7 +181,7 @@ fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     markdown
 }
 
-/// A game that compiles, with its rules in plain English.
+/// A compiled game, with its rules in plain English.
 struct Told {
     game: Game,
     lines: Vec<String>,

@@ -1,7 +1,6 @@
-//! Responses to editors' requests about VGDL games and levels: problems with fixes, hover texts, completions
-//! and renaming.
+//! Editor features for VGDL games and levels: problems with fixes, hover texts, completions and renaming.
 //!
-//! Every function accepts incomplete text, which need not compile. Positions are byte offsets into the text,
+//! Every function accepts incomplete text that does not compile. Positions are byte offsets into the text,
 //! and [`positions`] converts them to the units that editors use. The same text always yields the same
 //! result. [`lsp`] is a language server based on these functions.
 

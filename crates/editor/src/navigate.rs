@@ -1,4 +1,4 @@
-//! Navigation between the positions that refer to the same symbol.
+//! Navigation between positions that refer to the same symbol.
 
 use crate::words::{BUILT_IN, Role, Word, Words};
 use engine::Span;
@@ -25,13 +25,13 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Returns the words that refer to the symbol, in order.
+    /// Returns, in order, the words that refer to the symbol.
     pub(crate) fn places<'b>(self, words: &'b Words<'a>) -> impl Iterator<Item = &'b Word<'a>> {
         words.all().filter(move |word| Subject::of(word) == Some(self))
     }
 }
 
-/// Returns the position at which the sprite type, level character or `GameSpace` parameter at byte `at` is
+/// Returns the position where the sprite type, level character or `GameSpace` parameter at byte `at` is
 /// declared.
 pub fn definition(source: &str, at: usize) -> Option<Span> {
     let words = Words::of(source);
@@ -40,7 +40,7 @@ pub fn definition(source: &str, at: usize) -> Option<Span> {
     subject.places(&words).find(declares).map(|word| word.span)
 }
 
-/// Returns the position in a game at which the character at byte `at` in a level is declared.
+/// Returns the position in a game where the character at byte `at` of a level is declared.
 pub fn level_definition(source: &str, level: &str, at: usize) -> Option<Span> {
     let (_, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);
@@ -55,7 +55,7 @@ pub(crate) fn symbol_at(level: &str, at: usize) -> Option<(Span, &str)> {
     Some((span, &level[span.start..span.end]))
 }
 
-/// Returns the positions of all references to the symbol at byte `at`, including its declaration, in order.
+/// Returns, in order, the positions of all references to the symbol at byte `at`, including its declaration.
 pub fn references(source: &str, at: usize) -> Vec<Span> {
     let words = Words::of(source);
     let Some(subject) = words.at(at).and_then(Subject::of) else { return Vec::new() };

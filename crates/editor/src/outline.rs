@@ -24,9 +24,9 @@ pub enum EntryKind {
 /// An entry in an outline.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The entry's name. An interaction's name consists of its sprites and its effect.
+    /// The entry's name. For an interaction, the name consists of its sprites and its effect.
     pub name: String,
-    /// A class, or the names that a character places. The text may be empty.
+    /// A class, or the names that a character places. May be empty.
     pub detail: String,
     /// The kind of the entry.
     pub kind: EntryKind,
@@ -38,12 +38,12 @@ pub struct Entry {
     pub children: Vec<Entry>,
 }
 
-/// Returns the sections in a game's text with their lines. Subtypes are nested under their parents.
+/// Returns the sections of a game's text with their lines. Subtypes are nested under their parents.
 pub fn outline(source: &str) -> Vec<Entry> {
     let words = Words::of(source);
     let mut sections: Vec<Entry> = Vec::new();
     let mut sprites = words.sprites.iter().map(|sprite| sprite.parent);
-    // The indices of the sprites that contain the last sprite, each with its index among its siblings.
+    // The ancestors of the last sprite, each with its index among its siblings.
     let mut path: Vec<(usize, usize)> = Vec::new();
     for line in &words.lines {
         if let Place::Head(section) = line.place {

@@ -1,5 +1,5 @@
-//! The manual pages about VGDL keywords (`docs/reference/ontology`) and problem codes
-//! (`docs/reference/diagnostics`), and excerpts from these pages, in Markdown.
+//! The manual pages on VGDL keywords (`docs/reference/ontology`) and problem codes
+//! (`docs/reference/diagnostics`), and excerpts from them, in Markdown.
 
 use crate::values;
 use crate::values::Owner;
@@ -9,7 +9,7 @@ use include_dir::{Dir, include_dir};
 static ONTOLOGY: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/ontology");
 static DIAGNOSTICS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/diagnostics");
 
-/// Returns the page about a sprite class, an effect, a termination or a problem code, in Markdown.
+/// Returns the page on a sprite class, an effect, a termination or a problem code, in Markdown.
 pub fn page(name: &str) -> Option<&'static str> {
     let of_code = || DIAGNOSTICS.get_file(format!("{name}.md"))?.contents_utf8();
     of_word(name).or_else(of_code)
@@ -23,7 +23,7 @@ fn text(folder: &str, name: &str) -> Option<&'static str> {
     ONTOLOGY.get_file(format!("{folder}/{name}.md"))?.contents_utf8()
 }
 
-/// Returns the introduction of a keyword's page: its title, its first paragraph, and its parameters.
+/// Returns the introduction from a keyword's page: its title, its first paragraph, and its parameters.
 pub(crate) fn introduction(word: &str) -> Option<String> {
     let page = of_word(word)?;
     let mut markdown = format!("**{word}**\n\n{}\n", summary(word)?);
@@ -43,7 +43,7 @@ pub(crate) fn summary(word: &str) -> Option<String> {
     Some(unlinked(&paragraph.lines().collect::<Vec<_>>().join(" ")))
 }
 
-/// A parameter's row in a table: its default and its meaning.
+/// A table row for a parameter, with its default and its meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) default: String,
@@ -82,7 +82,7 @@ fn row_of(page: &str, key: &str) -> Option<Row> {
     })
 }
 
-/// Returns the parameters that a line accepts, starting with the parameters of the line's own keyword.
+/// Returns the parameters that a line accepts. The parameters of the line's own keyword come first.
 pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
     let mut keys: Vec<&'static str> = match owner {
         Owner::Game => values::HEADER.to_vec(),
@@ -113,7 +113,7 @@ pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
     keys
 }
 
-/// Replaces the links in Markdown by their texts, because an editor does not have the linked files.
+/// Replaces links in Markdown with their texts, because an editor does not have the linked files.
 fn unlinked(markdown: &str) -> String {
     let mut out = String::with_capacity(markdown.len());
     let mut rest = markdown;

@@ -1,4 +1,4 @@
-//! Positions in editors' units: UTF-16 code units instead of bytes, and lines with columns.
+//! Positions in the units that editors use: UTF-16 code units instead of bytes, and lines with columns.
 
 /// The unit in which columns are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,8 +24,8 @@ impl Unit {
         }
     }
 
-    /// Returns the byte offset at a distance of `count` units from the start of `text`. The offset is at most
-    /// the text's length, and never inside a character.
+    /// Returns the byte offset that is `count` units after the start of `text`. The offset is at most the
+    /// text's length, and never inside a character.
     fn byte(self, text: &str, count: usize) -> usize {
         let mut passed = 0;
         for (at, c) in text.char_indices() {
@@ -49,7 +49,7 @@ pub fn byte_of_utf16(text: &str, at: usize) -> usize {
     Unit::Utf16.byte(text, at)
 }
 
-/// Returns the start of the character that contains byte `at`, or the end of the text if the text is shorter.
+/// Returns the start of the character that contains byte `at`, or the end of the text if `at` is beyond it.
 fn boundary(text: &str, at: usize) -> usize {
     let at = at.min(text.len());
     (0..=at).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
@@ -64,7 +64,7 @@ pub struct Position {
     pub column: usize,
 }
 
-/// The lines in a text, for conversions between bytes and positions. Terminators are `\n`, `\r\n` and `\r`.
+/// The lines of a text, for converting between bytes and positions. Terminators are `\n`, `\r\n` and `\r`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lines {
     /// The offset of the first byte of each line.
@@ -96,8 +96,8 @@ impl Lines {
         Position { line, column: unit.length(&text[self.starts[line]..at]) }
     }
 
-    /// Returns the byte offset of a position in the text. A column beyond the line's end stands for the end
-    /// of the line. A line beyond the text's end stands for the end of the text.
+    /// Returns the byte offset of a position in the text. A column beyond the line's end is treated as the
+    /// end of the line, and a line beyond the last one as the end of the text.
     pub fn byte(&self, text: &str, position: Position, unit: Unit) -> usize {
         let Some(&start) = self.starts.get(position.line) else { return text.len() };
         let end = self.starts.get(position.line + 1).copied().unwrap_or(text.len());
@@ -119,7 +119,7 @@ mod tests {
             for unit in [Unit::Byte, Unit::Utf16] {
                 let lines = Lines::of(TEXT);
                 let position = lines.position(TEXT, at, unit);
-                // A position after the `\r` of `\r\n` is mapped to the position before it.
+                // A position between `\r` and `\n` is mapped to the position before the `\r`.
                 let back = lines.byte(TEXT, position, unit);
                 assert!(back == at || TEXT.as_bytes()[at - 1] == b'\r', "{at} {position:?} {back}");
             }

@@ -9,9 +9,9 @@ pub struct Problem {
     pub code: &'static str,
     /// The severity: error or warning.
     pub severity: Severity,
-    /// The message, which contains the faulty word. The message is in lower case and has no full stop.
+    /// The message, which quotes the faulty word. It is in lower case, without a full stop.
     pub message: String,
-    /// A note about the position. The note may be empty.
+    /// A note about the position. May be empty.
     pub label: String,
     /// The suggested next step, or `None` if there is no suggestion.
     pub help: Option<String>,
@@ -22,7 +22,7 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Converts an engine diagnostic about a text.
+    /// Converts the engine's diagnostic about a text.
     pub fn of(problem: Diagnostic, source: &str) -> Problem {
         let Diagnostic { code, severity, message, span, label, help, fix } = problem;
         let fixes = fix.map(|fix| tidied(*fix, source)).into_iter().collect();
@@ -30,8 +30,8 @@ impl Problem {
     }
 }
 
-/// Returns the errors and warnings about a game's text, sorted by position. Problems with the rules as a whole are found only if
-/// there are no errors.
+/// Returns the errors and warnings about a game's text, sorted by position. Problems that concern the rules
+/// as a whole are found only if there are no errors.
 pub fn problems(source: &str) -> Vec<Problem> {
     let found = match Game::from_source(source) {
         Ok(game) => game.warnings().to_vec(),
@@ -41,13 +41,13 @@ pub fn problems(source: &str) -> Vec<Problem> {
 }
 
 /// Returns the problems in a level's text under a game's rules. If the game has errors, returns only the
-/// problems that do not depend on these errors. For several levels of one game, [`LevelRules`] parses the
-/// game only once.
+/// problems that do not depend on these errors. To check several levels of one game, use [`LevelRules`],
+/// which parses the game only once.
 pub fn level_problems(source: &str, level: &str) -> Vec<Problem> {
     LevelRules::of(source).problems(level)
 }
 
-/// A game's rules for its levels, as far as the game's text can be parsed.
+/// A game's rules for its levels, as far as they can be parsed from the game's text.
 #[derive(Clone, Debug)]
 pub struct LevelRules(Rules);
 
@@ -80,8 +80,8 @@ impl LevelRules {
     }
 }
 
-/// Returns the text after the edits, whose ranges must be disjoint. Edits outside the text or inside a
-/// character are ignored.
+/// Applies edits to a text, and returns the result. The edits' ranges must be disjoint. Edits outside the
+/// text or inside a character are ignored.
 pub fn applied(text: &str, edits: &[Edit]) -> String {
     let mut sorted: Vec<&Edit> = edits.iter().collect();
     sorted.sort_by_key(|edit| edit.span);
@@ -99,8 +99,8 @@ pub fn applied(text: &str, edits: &[Edit]) -> String {
     out
 }
 
-/// Adapts a fix so that removing a word also removes the spaces before it, unless they indent the line or separate
-/// words.
+/// Adjusts a fix so that removing a word also removes the spaces before it, unless they indent the line or
+/// separate words.
 fn tidied(mut fix: Fix, source: &str) -> Fix {
     for edit in fix.edits.iter_mut().filter(|edit| edit.text.is_empty()) {
         let (Some(before), Some(after)) = (source.get(..edit.span.start), source.get(edit.span.end..)) else {

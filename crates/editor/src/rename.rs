@@ -6,7 +6,7 @@ use engine::limits::MAX_NAME;
 use engine::{Diagnostics, EFFECTS, Edit, Game, Span, SpriteClass, TERMINATIONS};
 use std::fmt;
 
-/// The characters that place `wall` and `avatar` in the levels of games that do not map these characters.
+/// The characters that place `wall` and `avatar` in levels of games that do not map these characters.
 const BUILT_IN_SYMBOLS: [&str; 2] = ["w", "A"];
 
 /// The reason for rejecting a new name.
@@ -20,7 +20,7 @@ pub enum RenameError {
     Keyword(String),
     /// A different type or character already has the new name.
     Taken(String),
-    /// The new name would not be parsed as a name.
+    /// The new name would not parse as a name.
     Illegal(String),
 }
 
@@ -67,7 +67,7 @@ pub fn renamable(source: &str, at: usize) -> Result<Span, RenameError> {
 ///
 /// # Errors
 ///
-/// Returns a [`RenameError`] if the name cannot be changed to the new name.
+/// Returns a [`RenameError`] if the renaming is not possible.
 pub fn rename(source: &str, at: usize, name: &str) -> Result<Vec<Edit>, RenameError> {
     renamable(source, at)?;
     let words = Words::of(source);
@@ -98,7 +98,7 @@ pub fn rename(source: &str, at: usize, name: &str) -> Result<Vec<Edit>, RenameEr
     Ok(subject.places(&words).map(|word| Edit::new(word.span, name)).collect())
 }
 
-/// Returns the edits that replace a level character in a level's text.
+/// Returns the edits that rename a level character in a level's text.
 pub fn rename_in_level(level: &str, old: char, new: char) -> Vec<Edit> {
     let places = level.char_indices().filter(|&(_, c)| c == old);
     places.map(|(at, c)| Edit::new(Span::new(at, at + c.len_utf8()), new)).collect()
@@ -117,7 +117,7 @@ fn is_keyword(name: &str) -> bool {
         || EDGES.iter().any(|edge| edge.eq_ignore_ascii_case(name))
 }
 
-/// Returns `true` if the engine allows a sprite type with that name to be declared, placed, used in
+/// Returns `true` if the engine allows a sprite type with the given name to be declared, placed, used in
 /// interactions, listed and counted.
 fn is_name(name: &str) -> bool {
     if name.is_empty()
@@ -132,7 +132,7 @@ fn is_name(name: &str) -> bool {
     is_sound(&source, |words| words.sprites.first().is_some_and(|sprite| sprite.name == name))
 }
 
-/// Returns `true` if the engine allows the level character to be declared.
+/// Returns `true` if the engine allows the given level character to be declared.
 fn is_symbol(symbol: &str) -> bool {
     if !(symbol.len() == 1 && symbol.bytes().all(|byte| byte.is_ascii_graphic())) {
         return false;

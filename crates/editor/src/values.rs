@@ -2,12 +2,12 @@
 
 use engine::{ParameterKind, SpriteClass, effect_parameters};
 
-/// A parameter's owner.
+/// The owner of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Owner<'a> {
     /// A game's first line.
     Game,
-    /// A sprite type with that class, either inherited or its own.
+    /// A sprite type of the given class, either inherited or its own.
     Sprite(Option<SpriteClass>),
     /// An effect, identified by its keyword. The second keyword belongs to the effect that it schedules,
     /// if any.
@@ -16,7 +16,7 @@ pub(crate) enum Owner<'a> {
     Termination(&'a str),
     /// A parameter of a `GameSpace`.
     Parameter,
-    /// A line that lacks its subject.
+    /// A line without a subject.
     Nobody,
 }
 
@@ -55,7 +55,7 @@ pub(crate) const OF_EFFECTS: [&str; 9] = [
     "countElse",
 ];
 
-/// The parameters of effects that run on a clock.
+/// The parameters of effects that run on a timer.
 pub(crate) const OF_CLOCKS: [&str; 3] = ["timer", "repeating", "nextExecution"];
 
 /// The parameters that every termination accepts.
@@ -94,7 +94,7 @@ pub(crate) fn kind(owner: Owner<'_>, key: &str) -> Option<Kind> {
     }
 }
 
-/// Returns the kind of the parameters that refer to sprites on lines of any kind.
+/// Returns the kind of a parameter that refers to sprites and may appear on lines of any kind.
 fn of_line(key: &str) -> Option<Kind> {
     (key.starts_with("stype") || ["ammo", "spawnBehind", "resource_name"].contains(&key))
         .then_some(Kind::Sprites)
@@ -200,7 +200,7 @@ mod tests {
                 for value in values(kind) {
                     assert!(takes(class, key, value), "{} {key}={value}", class.name());
                 }
-                // An image can have any name, and some classes accept names of sprites that they never read.
+                // An image can have any name, and some classes accept sprite names that they never read.
                 let open = ["img", "orientedImg"].contains(&key) || kind == Kind::Sprites;
                 for other in ["True", "UP", "PINK"].into_iter().filter(|_| !open) {
                     let listed = values(kind).contains(&other);

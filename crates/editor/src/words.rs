@@ -1,5 +1,5 @@
-//! The words in a game's text and their roles in the game, line by line. A half-written line affects only its
-//! own words, and the words' roles are known before the game compiles.
+//! The words in a game's text and their roles in the game, line by line. An incomplete line affects only its
+//! own words, and roles are known even if the game does not compile.
 
 use crate::values;
 use crate::values::Owner;
@@ -96,7 +96,7 @@ pub(crate) struct Line<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct Sprite<'a> {
     pub(crate) name: &'a str,
-    /// The sprites' class. An inherited class takes precedence over a written class.
+    /// The sprites' class. An inherited class takes precedence over a class on the line.
     pub(crate) class: Option<SpriteClass>,
     /// The index of the parent type.
     pub(crate) parent: Option<usize>,
@@ -116,7 +116,7 @@ pub(crate) fn is_blank(c: char) -> bool {
     c <= ' '
 }
 
-/// Returns the text on a line before its comment. The comment starts with `#`, or with `//` as in other
+/// Returns the part of a line before its comment. A comment starts with `#`, or with `//` as in other
 /// languages.
 pub(crate) fn code(raw: &str) -> &str {
     let code = raw.split('#').next().unwrap_or_default();
@@ -127,7 +127,7 @@ pub(crate) fn code(raw: &str) -> &str {
     }
 }
 
-/// Returns the section whose name is on a line, even if misspelt.
+/// Returns the section named on a line, even if the name is misspelt.
 fn section(text: &str) -> Option<Section> {
     let exact = SECTIONS.into_iter().find(|section| section.name() == text);
     exact.or_else(|| {
@@ -138,8 +138,7 @@ fn section(text: &str) -> Option<Section> {
 }
 
 impl<'a> Words<'a> {
-    /// Splits a text into words. A text that is too long to parse yields no words, and overlong lines are
-    /// omitted.
+    /// Splits a text into words. A text too long to parse yields no words, and overlong lines are omitted.
     pub(crate) fn of(source: &'a str) -> Words<'a> {
         if source.len() > MAX_SOURCE {
             return Words { lines: Vec::new(), sprites: Vec::new() };
@@ -188,7 +187,7 @@ impl<'a> Words<'a> {
         self.lines.iter().flat_map(|line| &line.words)
     }
 
-    /// Returns the word at byte `at`, or the word that ends there.
+    /// Returns the word at byte `at`, or the word that ends at that byte.
     pub(crate) fn at(&self, at: usize) -> Option<&Word<'a>> {
         let mut around = self.all().filter(|word| word.span.start <= at && at <= word.span.end);
         let first = around.next()?;
@@ -205,7 +204,7 @@ impl<'a> Words<'a> {
         std::iter::successors(Some(sprite), |sprite| self.sprites.get(sprite.parent?)).skip(1)
     }
 
-    /// Returns a type's parameters, with `true` for inherited parameters. The type's own parameters come
+    /// Returns a type's parameters, each with `true` if it is inherited. The type's own parameters come
     /// first.
     pub(crate) fn params(&self, sprite: &Sprite<'a>) -> Vec<(&'a str, &'a str, bool)> {
         let mut seen = BTreeSet::new();
@@ -222,7 +221,7 @@ impl<'a> Words<'a> {
         declared.chain(BUILT_IN.map(|(name, _)| name)).filter(|name| seen.insert(*name)).collect()
     }
 
-    /// Returns the LevelMapping lines: each character, and the names that it places.
+    /// Returns the LevelMapping lines, each as a character and the names that it places.
     pub(crate) fn mapping(&self) -> impl Iterator<Item = (&Word<'a>, impl Iterator<Item = &'a str>)> {
         let own = self.lines.iter().filter(|line| line.place == Place::Body(Section::LevelMapping));
         own.filter_map(|line| {
@@ -267,7 +266,7 @@ where
     sprites
 }
 
-/// A parser that assigns roles to the words on a line.
+/// A parser that assigns roles to a line's words.
 struct Reader<'b> {
     place: Place,
     /// The class of the line's sprite type.
@@ -334,7 +333,7 @@ impl Reader<'_> {
         words
     }
 
-    /// Returns the role of a word that follows `count` words on the same side of the arrow.
+    /// Returns the role of a word preceded by `count` words on the same side of the arrow.
     fn role(&self, token: &str, is_past: bool, count: usize) -> Role {
         use Section as S;
         match (self.place, is_past, count) {

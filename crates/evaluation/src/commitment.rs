@@ -6,13 +6,13 @@ use std::str::FromStr;
 
 /// The number of actions that a player commits to at each decision.
 ///
-/// The actions are played one per tick without further decisions. Their effects become visible at the next
-/// decision. The largest commitment with which a player still wins measures how far ahead the player plans.
+/// The actions are played one per tick without further decisions. Their effects become visible only at the
+/// next decision. The largest commitment with which a player still wins measures how far ahead it plans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Commitment {
-    /// A fixed number of actions. With a commitment of one, the player chooses every action separately.
+    /// A fixed number of actions. With a commitment of one, the player chooses each action separately.
     Actions(NonZeroU64),
-    /// All remaining actions, so that an episode consists of a single decision.
+    /// All remaining actions. The episode then consists of a single decision.
     All,
 }
 
@@ -25,7 +25,7 @@ impl Commitment {
         *self == Commitment::ONE
     }
 
-    /// Returns the number of actions in a decision when the episode has `left` ticks remaining.
+    /// Returns the number of actions due at a decision when the episode has `left` ticks remaining.
     pub fn due(self, left: u64) -> u64 {
         match self {
             Commitment::Actions(actions) => left.min(actions.get()),
@@ -33,8 +33,7 @@ impl Commitment {
         }
     }
 
-    /// Returns the commitment in the notation used in results, such as `commit=10`, or `None` for the
-    /// default.
+    /// Returns the commitment in the notation of results, such as `commit=10`, or `None` for the default.
     pub fn aid(self) -> Option<String> {
         (!self.is_one()).then(|| format!("commit={self}"))
     }

@@ -24,12 +24,12 @@ pub enum EvaluationError {
 }
 
 impl EvaluationError {
-    /// Returns the error for a file or folder with invalid content.
+    /// Returns the error for a file or folder whose content is invalid.
     pub(crate) fn malformed(path: &Path, what: impl fmt::Display) -> EvaluationError {
         EvaluationError::Malformed(format!("{}: {what}", path.in_message()))
     }
 
-    /// Returns a closure for `map_err` that converts an I/O error for an operation on a path.
+    /// Returns a closure for `map_err` that converts the I/O error of an operation on a path.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> EvaluationError {
         let path = path.to_owned();
         move |source| EvaluationError::Io { action, path, source }

@@ -1,5 +1,4 @@
-//! The meanings of the characters on a board. Each game has a single table for all levels, states and
-//! episodes.
+//! The meanings of a board's characters. Each game has one table for all its levels, states and episodes.
 
 use crate::direction::direction_name;
 use base::Seed;
@@ -23,12 +22,12 @@ pub struct LegendOptions {
     /// `true` if each avatar state has its own character instead of [`AVATAR`], so that the player must track
     /// the avatar's current character.
     pub tracking: bool,
-    /// The number of the table that replaces all characters with random letters and digits, so that no
+    /// The number of the random table that replaces all characters with letters and digits, so that no
     /// character is meaningful by itself. `None` keeps the original characters.
     pub shuffled: Option<u64>,
 }
 
-/// The role of a sprite type on the board, from a reader's point of view.
+/// The role of a sprite type on the board, from the reader's point of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryRole {
     /// The sprite that the player controls.
@@ -37,14 +36,14 @@ pub enum EntryRole {
     Wall,
     /// The ground under the other sprites, omitted from encodings.
     Floor,
-    /// A stationary type that offers no gain, such as soil, cover, or sprites that shots or other sprites
-    /// break. Lists of its positions would be too long.
+    /// A stationary type with nothing to gain from it, such as soil, cover, or sprites that are broken by
+    /// shots or other sprites. Lists of its positions would be too long.
     Scenery,
     /// Any other type.
     Thing,
 }
 
-/// An entry of the legend for a visible sprite type.
+/// A legend entry for a visible sprite type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
     /// The name of the sprite type.
@@ -62,8 +61,8 @@ pub struct Entry {
 #[derive(Clone, Debug)]
 pub struct Legend {
     looks: Looks,
-    /// The table's entries. The avatar is first, and the other types follow in registry order, so that the
-    /// order does not reveal a type's purpose or importance.
+    /// The table's entries. The avatar is first, and the other types follow in registry order, which reveals
+    /// nothing about a type's purpose or importance.
     entries: Vec<Entry>,
     places: BTreeMap<String, usize>,
 }
@@ -99,7 +98,7 @@ impl Legend {
         Legend { looks, entries, places }
     }
 
-    /// Returns the game's visible sprite types, avatar first.
+    /// Returns the entries of the game's visible sprite types, avatar first.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }
@@ -114,7 +113,7 @@ impl Legend {
         &self.looks
     }
 
-    /// Returns `true` if encodings show the named type. They show every visible type except floors.
+    /// Returns `true` if encodings show the named type. Encodings show every visible type except floors.
     pub(crate) fn is_shown(&self, name: &str) -> bool {
         self.entry(name).is_some_and(|entry| entry.role != EntryRole::Floor)
     }
@@ -152,7 +151,7 @@ impl Legend {
     }
 }
 
-/// Returns `true` if a type is stationary and offers no gain.
+/// Returns `true` if a type is stationary and there is nothing to gain from it.
 fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
     let facts = analysis.facts(stype);
     let is_counted = analysis.goals().iter().any(|goal| goal.condition.types().contains(&stype));
@@ -169,7 +168,7 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let motion = analysis.facts(stype).motion;
     let turns = |effect: &EffectSummary| match effect {
         EffectSummary::Turn => true,
-        // A sprite keeps its direction when it turns into a sprite of a different type.
+        // A sprite keeps its direction when it becomes a sprite of a different type.
         EffectSummary::Become(into) | EffectSummary::BecomeAll(_, into) => *into == stype,
         EffectSummary::BecomeAny(into) => into.contains(&stype),
         _ => false,
@@ -191,7 +190,7 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
 }
 
 /// Assigns the character [`AVATAR`] to all avatar states. A type that already had this character gets one
-/// that has become unused.
+/// that is no longer used.
 fn unite_avatars(entries: &mut [Entry]) {
     let is_avatar = |entry: &&Entry| entry.role == EntryRole::Avatar;
     let Some(free) = entries.iter().find(is_avatar).map(|entry| entry.symbol) else { return };
@@ -204,8 +203,8 @@ fn unite_avatars(entries: &mut [Entry]) {
     }
 }
 
-/// Assigns a new character to each type whose letter differs only in case from an earlier entry's letter. The
-/// new character is a letter from the type's name or a spare character.
+/// Assigns a new character to each type whose letter differs from an earlier entry's letter only in case. The
+/// new character is a letter from the type's name, or a spare character.
 fn separate_cases(entries: &mut [Entry]) {
     for at in 1..entries.len() {
         let own = entries[at].symbol;
@@ -221,7 +220,7 @@ fn separate_cases(entries: &mut [Entry]) {
     }
 }
 
-/// Replaces the characters with random characters. Entries that shared a character still share one.
+/// Replaces the characters with random ones. Entries that shared a character still share one.
 fn shuffle(entries: &mut [Entry], number: u64) {
     let mut pool: Vec<char> = POOL.chars().collect();
     Seed::from_text("shuffled symbols").child("symbols", number).sampler().shuffle(&mut pool);

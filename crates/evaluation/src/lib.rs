@@ -2,7 +2,7 @@
 //!
 //! A [`Subject`] is a game with its levels. An [`Agent`] is shown a [`Turn`], never a state, and answers with
 //! a [`Choice`]. The messages in both directions are recorded in the episode's [`Journal`], an append-only
-//! log of [`Event`]s. Every metric is recomputed from the log, and the episode can be replayed from it
+//! log of [`Event`]s. Every metric is recomputed from the log, from which the episode can also be replayed
 //! exactly. Models are accessed through [`client::Model`].
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 

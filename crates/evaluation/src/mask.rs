@@ -1,4 +1,4 @@
-//! Masks games: replaces all names with meaningless ones, and leaves the rules unchanged.
+//! Masks games: replaces all names with meaningless ones, without changing the rules.
 
 use crate::error::EvaluationError;
 use base::{Digest, Seed};
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub(crate) struct Mask {
     /// The renamed game. The renamed sprite types keep their positions in the registry.
     pub(crate) game: Game,
-    /// `true` if the order of names is also hidden.
+    /// `true` if the order of the names is hidden as well.
     is_neutral: bool,
     names: BTreeMap<String, String>,
 }
@@ -21,8 +21,8 @@ impl Mask {
     /// Comments, colours and images are removed.
     ///
     /// # Errors
-    /// Returns an error if the game does not compile under different names. Such a game contains faults that
-    /// only the reference engine tolerates.
+    /// Returns an error if the game does not compile under different names. Such a game has faults that only
+    /// the reference engine tolerates.
     pub(crate) fn of(game: &Game) -> Result<Mask, EvaluationError> {
         let description = game.description();
         let seed = Seed::from_text(&game.digest().to_string());
@@ -45,12 +45,12 @@ impl Mask {
         Mask { game: game.under_names(&names), is_neutral: true, names }
     }
 
-    /// Returns the number that selects the neutral characters. The number differs between games.
+    /// Returns the number that selects the neutral characters, which is different for each game.
     pub(crate) fn neutral_characters(game: &Game) -> u64 {
         Seed::from_text(&game.digest().to_string()).child("neutral characters", 0).sampler().bits()
     }
 
-    /// Returns the replacement for one of the game's own names.
+    /// Returns the replacement for a name in the game.
     pub(crate) fn name<'a>(&'a self, own: &'a str) -> &'a str {
         self.names.get(own).map_or(own, String::as_str)
     }
@@ -74,7 +74,7 @@ impl Mask {
 }
 
 /// Returns a digest of the rules that ignores type names, level characters, colours, images and comments.
-/// Games with the same lines in the same order under different names have the same digest.
+/// Games with the same lines in the same order have equal digests, even if their names differ.
 pub(crate) fn nameless(description: &Description) -> Digest {
     let own = description.own_names().into_iter().zip(1..);
     let names = own.map(|(name, number)| (name.to_owned(), format!("t{number}"))).collect();
@@ -111,7 +111,7 @@ mod tests {
 
     const GAME: &str = "BasicGame\n  SpriteSet\n    t3 > Immovable\n    bug > RandomNPC\n    avatar > MovingAvatar\n  LevelMapping\n    g > t3\n    b > bug\n  InteractionSet\n    avatar wall > stepBack\n    t3 avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=t3 win=True\n";
 
-    /// Neutral names replace all type names, even names that already look neutral, and nothing else changes.
+    /// Neutral names replace all type names, including names that already look neutral. Nothing else changes.
     #[test]
     fn neutral_names_change_nothing_else() {
         let game = Game::from_source(GAME).unwrap();

@@ -1,4 +1,5 @@
-//! Predictions about the effects of touching each sprite type in a game, and their comparison with the rules.
+//! Predictions about the effects of touching each of a game's sprite types, and their comparison with the
+//! rules.
 
 use crate::prompt::kinds_at_start;
 use crate::subject::Subject;
@@ -9,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 base::named_enum! {
-    /// A predictable fact about touching a sprite type.
+    /// A predictable fact about touching sprites of a type.
     pub enum TouchFact {
         /// Touching the sprite kills the avatar, at least while the avatar holds nothing.
         Kills = "kills",
@@ -34,23 +35,23 @@ pub struct Grade {
     pub right: u64,
     /// The number of pairs of types and facts that the rules determine.
     pub of: u64,
-    /// The insight: a mean over facts. For each fact, the value is the fraction of types predicted among the
-    /// types for which the fact is true, minus the fraction predicted among all other types.
+    /// The insight: a mean over facts. A fact's value is the fraction of types predicted among the types for
+    /// which the fact is true, minus the fraction predicted among all other types.
     ///
-    /// A fact counts only if it is true for some types and false for others. Its range is −1 to 1. The
-    /// insight is 0 for predictions made without knowledge, and 1 for entirely correct predictions. The
-    /// insight is `None` if none of the facts count.
+    /// A fact counts only if it is true for some types and false for others. The insight ranges from −1 to 1.
+    /// It is 0 for predictions made without knowledge, and 1 for entirely correct predictions. It is `None`
+    /// if no fact counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub insight: Option<f64>,
 }
 
-/// A game's sprite types, except avatars and floors, grouped by the effect of a touch. The effects are stated
+/// A game's sprite types, except avatars and floors, grouped by the effect of a touch. The effects are those
 /// for a player who does not know the rules and must learn them by touching.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Trials {
     /// The types that hurt the avatar or cost points when touched.
     pub costly: Vec<String>,
-    /// The types that have an effect when touched only if the avatar holds the required resource.
+    /// The types whose touch has an effect only if the avatar holds the required resource.
     pub gated: Vec<String>,
     /// The decoys: types other than walls and floors that have no effect when touched.
     pub idle: Vec<String>,
@@ -77,8 +78,8 @@ impl Trials {
     }
 }
 
-/// Returns whether a fact is true for a sprite type according to the rules. Returns `None` if the fact
-/// depends on more than the avatar's type and possessions.
+/// Returns `true` or `false` for a fact about a sprite type according to the rules. Returns `None` if the
+/// fact depends on more than the avatar's type and possessions.
 ///
 /// If the avatar can have several types, each type is considered. Returns `None` if the results differ.
 pub fn truth(analysis: &Analysis, kind: SpriteType, fact: TouchFact) -> Option<bool> {
@@ -109,13 +110,13 @@ fn fact_of(touch: &Touch, fact: TouchFact) -> Option<bool> {
     }
 }
 
-/// Grades predictions about sprite types. Ignores names missing from the game, and types missing from the
-/// question.
+/// Grades predictions about sprite types. Ignores names that are not in the game, and types that are not in
+/// the question.
 pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Grade {
     let mut grade = Grade::default();
     let mut insights = Vec::new();
     for fact in TouchFact::ALL {
-        // The numbers of types, indexed by whether the fact is true and whether it was predicted.
+        // The numbers of types, indexed by whether the fact is true and by whether it was predicted.
         let mut counts = [[0_u64; 2]; 2];
         for kind in kinds {
             let Some(stype) = analysis.game().sprite_type(kind) else { continue };
@@ -227,7 +228,7 @@ mod tests {
     fn answers_are_graded() {
         check("KILLS: t3; STOPS: t2; GOES: t1, t2, t4; SCORES: t2, t4.", Ok((15, 15, Some(1.0))));
         check("KILLS: t3\nSTOPS: t2\nGOES: t1, t2, t4\nSCORES: t2, t4", Ok((15, 15, Some(1.0))));
-        // The same prediction for all types shows no insight.
+        // Making the same prediction for all types shows no insight.
         check("KILLS: none\nSTOPS: none\nGOES: none\nSCORES: none", Ok((8, 15, Some(0.0))));
         let all = "t1, t2, t3, t4";
         check(&format!("KILLS: {all}\nSTOPS: {all}\nGOES: {all}\nSCORES: {all}"), Ok((7, 15, Some(0.0))));

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// A game with its levels, and known facts beyond its rules.
+/// A game with its levels, and facts known about it beyond its rules.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// The game's ID in logs and tables. The ID is usable as a file name, without path separators.
+    /// The game's ID in logs and tables. It can be used as a file name, and contains no path separators.
     pub id: String,
     /// The game's source text.
     pub source: String,
@@ -55,8 +55,8 @@ impl Subject {
         Ok(Subject { id: id.to_owned(), source: source.to_owned(), game, analysis, levels, facts })
     }
 
-    /// Returns the hash of a level's first state under a fixed seed. The hashes are equal for the levels of
-    /// renamed games.
+    /// Returns the hash of a level's first state under a fixed seed. Levels of renamed games have equal
+    /// hashes.
     pub(crate) fn first_state(&self, level: &SubjectLevel) -> StateHash {
         let start = || self.game.start(&level.level, Seed::from_text("start")).state_hash();
         *level.first.get_or_init(start)
@@ -94,11 +94,10 @@ pub struct SubjectLevel {
 pub struct SubjectFacts {
     /// The game's title in its own theme.
     pub title: String,
-    /// The kind of game stated by its release or its card, such as `shooter`. The text is empty if the kind
-    /// is unknown.
+    /// The kind of game stated by its release or its card, such as `shooter`. Empty if the kind is unknown.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub kind: String,
-    /// The kind of game according to its rules, with one sentence per aspect of the taxonomy
+    /// The kind of game according to its rules, as one sentence per aspect of the taxonomy
     /// (`engine::describe::Guide::kind`).
     pub taxonomy: Vec<String>,
     /// `true` if the game's faults are tolerated, as in the reference engine.
@@ -122,7 +121,7 @@ pub struct SubjectFacts {
 pub struct LevelMark {
     /// The level number.
     pub level: usize,
-    /// The level's tier, from 1 to 4, which measures how far ahead a winner must look.
+    /// The level's tier, from 1 to 4. It measures how far ahead a winner must look.
     pub tier: u8,
     /// The reference player's name.
     pub player: String,

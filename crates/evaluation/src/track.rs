@@ -10,8 +10,8 @@ base::named_enum! {
         Told = "told",
         /// The rules in English, with meaningless names and characters.
         Masked = "masked",
-        /// Prompts without rules. Several levels of a game are played in one conversation, which shows the
-        /// visible effects of each action and ends with a question about the rules. The first level is for
+        /// Prompts without rules. Several levels of a game are played in one conversation. It shows the
+        /// visible effects of each action, and ends with a question about the rules. The first level is for
         /// practice.
         Discover = "discover",
         /// The rules in English, with the board only as an image.
@@ -67,7 +67,8 @@ impl Track {
         format!("{}@{}", self.name(), self.version())
     }
 
-    /// Returns the difference from players on other tracks as written in results, such as `track=masked@1`.
+    /// Returns the aid that distinguishes the track's players from those on other tracks, as written in
+    /// results, such as `track=masked@1`.
     pub fn aid(self) -> String {
         format!("{AID}{}", self.id())
     }
@@ -94,7 +95,7 @@ pub struct SeriesPlace {
 
 impl SeriesPlace {
     /// Divides `levels` levels into series of at most `most` levels, and returns the position of each level.
-    /// The series are as even as possible, with the longer series first. The position is `None` for a level
+    /// The series are as equal in length as possible, longer series first. The position is `None` for a level
     /// played alone.
     pub(crate) fn all(levels: usize, most: u64) -> Vec<Option<SeriesPlace>> {
         let count = (levels as u64).div_ceil(most.max(1)).max(1);
@@ -104,7 +105,7 @@ impl SeriesPlace {
         lengths.flat_map(of_series).collect()
     }
 
-    /// Returns `true` if the level is played to learn the rules, and does not count in results.
+    /// Returns `true` if the level is played to learn the rules, so that it does not count in results.
     pub fn is_practice(self) -> bool {
         self.index == 0
     }

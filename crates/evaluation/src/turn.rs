@@ -8,7 +8,7 @@ use engine::analysis::Avatar;
 use engine::{Action, Analysis, Game, Observation, State};
 
 /// A player's view at one decision: the facts about the entire episode, and an observation of the current
-/// state. The state itself is never shown, because a player could use it to look into the future.
+/// state. The state itself is never shown, because a player could use it to look ahead.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn<'a> {
     /// The game of the episode. A player may read its rules, but not its levels.
@@ -48,7 +48,7 @@ pub struct SeriesView<'a> {
 pub struct LevelEnd {
     /// The last observation of the level.
     pub last: Observation,
-    /// The second-to-last observation, and the action that followed it.
+    /// The observation before the last one, and the action that followed it.
     pub before: Option<(Observation, Action)>,
     /// The number of actions played in the level.
     pub steps: u64,
@@ -70,7 +70,7 @@ pub struct Before<'a> {
 pub struct Played {
     /// The requested action, or [`Action::Nil`] if the player stated too few actions.
     pub asked: Action,
-    /// `true` if the action was unavailable, so that the player did nothing.
+    /// `true` if the action was unavailable, in which case the player did nothing.
     pub is_unavailable: bool,
     /// The avatar's column and row after the action, if there is an avatar.
     pub avatar: Option<(i32, i32)>,

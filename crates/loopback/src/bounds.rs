@@ -1,21 +1,21 @@
-//! Bounds on the server resources available to clients: connections, time, memory.
+//! Bounds on the server resources available to clients: connections, time and memory.
 
 use std::time::Duration;
 
 base::with_defaults! {
-    /// A server's limits. Beyond these limits, the server waits or rejects requests, and uses no more memory.
+    /// A server's limits. At these limits, the server waits or rejects requests instead of using more memory.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Bounds {
-        /// The maximum number of open connections. If more clients connect, the connection that has been
-        /// silent longest is closed, unless the connection is waiting for a response.
+        /// The maximum number of open connections. If more clients connect, the connection that has been idle
+        /// longest is closed, unless the connection is waiting for a response.
         pub connections: usize = 64,
         /// The maximum size of a request in bytes.
         // The default suffices for a long conversation with an image.
         pub body: usize = 32 << 20,
         /// The maximum total size of all current requests, in bytes.
         pub bodies: usize = 128 << 20,
-        /// The time limit for a client to send the head of a request, including the next request on the same
-        /// connection.
+        /// The time limit for a client to send the head of a request, which also covers the wait for the next
+        /// request on the same connection.
         pub head_time: Duration = Duration::from_secs(20),
         /// The time limit for a client to send the body of a request, including the wait for memory.
         pub body_time: Duration = Duration::from_secs(60),

@@ -1,4 +1,4 @@
-//! HTTP on a port on this machine, within bounds on connections, time and memory.
+//! An HTTP server on a local port, with bounds on connections, time and memory.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod bounds;

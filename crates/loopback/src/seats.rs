@@ -38,8 +38,8 @@ impl Seats {
         asker
     }
 
-    /// Ends the connection that has been silent longest, among the connections that may be closed. Does
-    /// nothing if no connection may be closed.
+    /// Closes the connection that has been idle longest, among the connections that may be closed. Does
+    /// nothing if there is no such connection.
     pub(super) fn free_one(&self) {
         let open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         let leaving = open.values().filter(|asker| !asker.may_stay());
@@ -73,7 +73,7 @@ impl Deref for Asker {
 }
 
 impl Asker {
-    /// Keeps the connection open permanently, regardless of the number of new connections.
+    /// Exempts the connection permanently from being closed, regardless of how many new connections arrive.
     pub fn trust(&self) {
         self.is_trusted.store(true, Ordering::Relaxed);
     }
@@ -104,12 +104,12 @@ impl Drop for Kept {
     }
 }
 
-/// A stream that records when it receives data, and fails if the other end reads nothing for too long.
+/// A stream that records when it receives data, and fails if the other end stops reading for too long.
 pub(super) struct Watched {
     stream: TcpStream,
     asker: Asker,
     write_time: Duration,
-    /// The end of the wait for the other end to read, if the stream is waiting.
+    /// The deadline for the other end to read, if the stream is waiting for it.
     stalled: Option<Pin<Box<Sleep>>>,
 }
 
@@ -118,7 +118,7 @@ impl Watched {
         Watched { stream, asker, write_time, stalled: None }
     }
 
-    /// Ends the wait if data was written. Otherwise starts or continues the wait.
+    /// Ends the wait if data was written. If no data was written, starts or continues the wait.
     fn written<T>(&mut self, context: &mut Context<'_>, polled: Poll<io::Result<T>>) -> Poll<io::Result<T>> {
         if polled.is_ready() {
             self.stalled = None;

@@ -1,4 +1,4 @@
-//! HTTP on a port on this machine, within bounds on connections, time, and the memory for bodies.
+//! An HTTP server on a local port, with bounds on connections, time, and the memory for bodies.
 
 use crate::bounds::Bounds;
 use crate::seats::{Seats, Watched};
@@ -16,10 +16,10 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 /// The pause after a failure to accept a connection because the system has too many open connections.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// The number of bytes in a request body that one permit covers.
+/// The number of bytes of a request body that one permit covers.
 const UNIT: usize = 1024;
 
-/// Binds a port on 127.0.0.1, which only this machine can reach. Port 0 stands for any free port.
+/// Binds a port on 127.0.0.1, which only this machine can reach. Port 0 picks any free port.
 ///
 /// # Errors
 /// Returns an error if the port cannot be bound.
@@ -54,9 +54,9 @@ pub fn answer(
     answered
 }
 
-/// Serves every connection, within the bounds. If the number of connections is at its maximum, a new
-/// connection replaces the connection that has been silent longest. [Kept](crate::Asker::keep) connections
-/// are never replaced. If all connections are kept, new connections wait.
+/// Serves every connection, within the bounds. At the maximum number of connections, a new connection
+/// replaces the one that has been idle longest. [Kept](crate::Asker::keep) connections are never replaced. If
+/// all connections are kept, new connections wait.
 async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
     let places = Arc::new(Semaphore::new(bounds.connections));
     let seats = Arc::new(Seats::default());
@@ -79,7 +79,7 @@ async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bound
             http.timer(TokioTimer::new()).header_read_timeout(bounds.head_time);
             let stream = Watched::new(stream, asker.clone(), bounds.write_time);
             let service = TowerToHyperService::new(router);
-            // A client that disconnects, or is too slow, is not an error of the server.
+            // A client that disconnects, or is too slow, is not a server error.
             tokio::select! {
                 _ = http.serve_connection(TokioIo::new(stream), service) => {}
                 () = asker.leave.notified() => {}
@@ -93,7 +93,7 @@ async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bound
 /// The reasons why a request body could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unread {
-    /// The body is larger than this number of bytes.
+    /// The body exceeds this number of bytes.
     #[error("the request is larger than the limit of {0} bytes")]
     TooLarge(usize),
     /// The connection was interrupted.
@@ -104,7 +104,7 @@ pub enum Unread {
     Late,
 }
 
-/// The memory for bodies of requests in progress.
+/// The memory pool for the bodies of requests in progress.
 #[derive(Clone, Debug)]
 pub struct Bodies {
     bounds: Bounds,
@@ -112,7 +112,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Creates the memory pool for bodies within these bounds.
+    /// Creates the memory pool for bodies with these bounds.
     pub fn new(bounds: Bounds) -> Bodies {
         Bodies { bounds, memory: Arc::new(Semaphore::new(bounds.bodies / UNIT)) }
     }
@@ -125,7 +125,7 @@ impl Bodies {
     pub async fn read(&self, body: Body) -> Result<(Bytes, OwnedSemaphorePermit), Unread> {
         let Bounds { body: most, bodies, body_time, .. } = self.bounds;
         let most = most.min(bodies);
-        // The stated length is reliable: the body cannot have more bytes.
+        // The stated length is reliable: the body cannot be longer.
         let stated = HttpBody::size_hint(&body).upper();
         let size = match stated.map(usize::try_from) {
             Some(Ok(size)) if size <= most => size,

@@ -6,7 +6,7 @@ use std::error::Error;
 /// A report file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
-    /// The path relative to the report's folder, with `/` as the separator.
+    /// The path relative to the report's folder, separated by `/`.
     pub name: String,
     /// The file's content.
     pub bytes: Vec<u8>,

@@ -2,7 +2,7 @@
 //!
 //! `forge` and `evaluation` provide the report data, and this crate converts the data to text and images. The
 //! crate uses neither a clock nor the file system. Every function returns [`File`]s, and the same report
-//! gives the same bytes.
+//! gives identical bytes.
 
 mod evaluation_report;
 mod file;

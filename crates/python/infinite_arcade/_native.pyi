@@ -32,7 +32,7 @@ def seed_from_text(text: str) -> str:
     """Returns the seed derived from a text, as 64 hexadecimal digits."""
 
 def seed_child(seed: str, purpose: str, index: int) -> str:
-    """Derives a seed from ``seed``, ``purpose`` and ``index``. Different purposes give independent seeds."""
+    """Derives a seed from ``seed``, ``purpose`` and ``index``. Distinct purposes give independent seeds."""
 
 def planner_names() -> list[str]: ...
 

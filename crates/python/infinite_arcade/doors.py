@@ -66,7 +66,7 @@ for line in sys.stdin:
 
 @dataclass(frozen=True)
 class Log:
-    """An episode that was recorded by the command line."""
+    """An episode recorded by the command line."""
 
     game: str
     level: int
@@ -89,7 +89,7 @@ class Log:
 
 
 def read_logs(results: Path) -> list[Log]:
-    """Returns the episodes of a results folder, sorted by name."""
+    """Returns the episodes in a results folder, sorted by name."""
     logs = []
     for path in sorted((results / "episodes").glob("*.jsonl")):
         events = [json.loads(line) for line in path.read_text("utf-8").splitlines()]
@@ -116,7 +116,7 @@ def _outcome(value: Any) -> str:
 def record(
     arcade: Path, games: list[str], seed: str, max_steps: int, out: Path, player: str = "random"
 ) -> list[Log]:
-    """Plays one episode on each level of the given games with the command line."""
+    """Uses the command line to play one episode on each level of the given games."""
     command = [str(arcade), "evaluate", *games, "--player", player, "--seed", seed, "--max-steps", str(max_steps)]
     subprocess.run([*command, "--out", str(out), "-q"], check=True, stdout=subprocess.DEVNULL)
     return read_logs(out)
@@ -166,7 +166,7 @@ def by_vector(games: dict[str, Game], logs: list[Log]) -> Iterator[tuple[str, fl
 def by_inspect(
     names: list[str], logs: list[Log], seed: str, max_steps: int, folder: Path
 ) -> Iterator[tuple[str, float, str]]:
-    """Plays the logs of one seed with Inspect. A scripted model answers with the actions of the logs."""
+    """Plays the logs of one seed with Inspect. A scripted model answers with the logs' actions."""
     import inspect_ai
     from inspect_ai.model import ModelOutput, ModelUsage, get_model
 
@@ -231,7 +231,7 @@ def by_ray(logs: list[Log]) -> Iterator[tuple[str, float, str]]:
 def compare(
     arcade: Path, names: list[str], seed: str, *, max_steps: int, folder: Path, with_ray: bool = False
 ) -> dict[str, int]:
-    """Compares one log per level of the given games. Returns the number of logs that each interface has reproduced.
+    """Compares one log per level of the given games. Returns the number of logs that each interface reproduced.
 
     Raises:
         AssertionError: if a hash, a score or an outcome differs.

@@ -64,7 +64,7 @@ class State:
 
     @property
     def size(self) -> tuple[int, int]:
-        """The numbers of columns and rows of the board."""
+        """The board's number of columns and number of rows."""
         return self._native.size
 
     @property
@@ -73,10 +73,10 @@ class State:
         return self._native.actions
 
     def step(self, action: str) -> str:
-        """Plays one tick and returns the outcome. An action that the avatar does not have counts as ``nil``.
+        """Plays one tick and returns the outcome. An action that the avatar does not have is treated as ``nil``.
 
         Raises:
-            ValueError: if there is no action with this name; see :data:`infinite_arcade.ACTIONS`.
+            ValueError: if no action has this name; see :data:`infinite_arcade.ACTIONS`.
         """
         return self._native.step(action)
 
@@ -84,7 +84,7 @@ class State:
         """Plays one action per tick until the episode is over. Returns the state hash after each tick.
 
         Raises:
-            ValueError: if any of the names is not that of an action. In this case, nothing is played.
+            ValueError: if any name is not the name of an action. Nothing is played in this case.
         """
         return self._native.play(list(actions))
 
@@ -99,7 +99,7 @@ class State:
     __copy__ = copy
 
     def fork(self, seed: str) -> State:
-        """Returns a copy of the state with a different random future, which planners can search."""
+        """Returns a copy of the state with a different random future, for planners to search."""
         return State(self._native.fork(seed))
 
     def observe(self) -> dict[str, Any]:
@@ -137,7 +137,7 @@ class State:
         return flat.reshape(height, width, 3)
 
     def png(self, cell: int = 24, *, caption: bool = False, legend: bool = False) -> bytes:
-        """Returns the board as a PNG file. The file has the same bytes on every machine.
+        """Returns the board as a PNG file, whose bytes are identical on every machine.
 
         Raises:
             ValueError: in the same cases as :meth:`rgb`.
@@ -161,7 +161,7 @@ class State:
 
 
 class Level:
-    """A level of one particular game."""
+    """A level of a particular game."""
 
     __slots__ = ("_native", "number", "optimal_ticks")
 
@@ -169,12 +169,12 @@ class Level:
         self._native = native
         #: The index of the level in the game.
         self.number = number
-        #: The number of ticks in the shortest win, if the win is proved to be optimal.
+        #: The number of ticks in the shortest win, if that win is proved to be optimal.
         self.optimal_ticks = optimal_ticks
 
     @property
     def name(self) -> str:
-        """The name of the level in messages."""
+        """The level's name in messages."""
         return self._native.name
 
     @property
@@ -184,7 +184,7 @@ class Level:
 
     @property
     def size(self) -> tuple[int, int]:
-        """The numbers of columns and rows of the level."""
+        """The level's number of columns and number of rows."""
         return self._native.columns, self._native.rows
 
     @property
@@ -193,7 +193,7 @@ class Level:
         return self._native.text
 
     def describe(self) -> list[str]:
-        """Returns the proven facts about the level, one sentence per fact."""
+        """Returns the facts proven about the level, one sentence per fact."""
         return self._native.describe()
 
     def start(self, seed: str) -> State:
@@ -230,7 +230,7 @@ class Episode:
         second. The GIF has the same bytes on every machine.
 
         Raises:
-            ValueError: if any of the names is not that of an action, or the images would be too large.
+            ValueError: if any name is not the name of an action, or the images would be too large.
         """
         return self.level._native.gif(self.seed, list(self.actions), cell, delay, caption)
 
@@ -289,12 +289,12 @@ class Game:
 
     @property
     def name(self) -> str:
-        """The name of the game in messages."""
+        """The game's name in messages."""
         return self._native.name
 
     @property
     def source(self) -> str:
-        """The source text of the game."""
+        """The game's source text."""
         return self._native.source
 
     @property
@@ -316,7 +316,7 @@ class Game:
 
     @property
     def symbols(self) -> dict[str, str]:
-        """The character of each visible type on boards of symbols, which is ``.`` for floors."""
+        """The character that represents each visible type on boards of symbols. Floors have ``.``."""
         return dict(self._native.symbols)
 
     @property
@@ -337,11 +337,11 @@ class Game:
         return self._native.warnings
 
     def describe(self) -> str:
-        """Returns the rules of the game in plain English."""
+        """Returns the game's rules in plain English."""
         return self._native.describe()
 
     def facts(self) -> dict[str, Any]:
-        """Returns the taxonomy of the game, and the proven facts about its rules."""
+        """Returns the game's taxonomy, and the facts proven about its rules."""
         facts: dict[str, Any] = json.loads(self._native.facts())
         return facts
 
@@ -358,7 +358,7 @@ class Game:
 
 @dataclass(frozen=True)
 class CorpusGame:
-    """A hand-written game of the corpus, which is not compiled yet."""
+    """A hand-written corpus game that has not been compiled yet."""
 
     name: str
     source: str = field(repr=False)

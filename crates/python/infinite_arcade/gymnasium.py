@@ -61,7 +61,7 @@ Board = NDArray[np.uint8]
 
 
 class _Lanes:
-    """Lanes, and the buffers to which they write."""
+    """Lanes, with the buffers that they write to."""
 
     def __init__(
         self,
@@ -249,7 +249,7 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
 
 
 class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
-    """Many episodes of a game that are stepped together, outside the interpreter's lock.
+    """Many episodes of a game, stepped together without holding the interpreter lock.
 
     Environment ``i`` plays level ``i % len(levels)``. Observations, rewards and flags are written into arrays that
     are allocated once. With ``copy=False``, these arrays are returned directly. They are read-only, and valid until
@@ -288,7 +288,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
             max_steps: the number of steps after which an episode is truncated; by default the limit of the game.
             max_episode_steps: the name of ``max_steps`` in :func:`gymnasium.make_vec`.
             reward: ``score`` or ``outcome``.
-            autoreset_mode: the time at which the next episode follows a finished episode.
+            autoreset_mode: when the next episode starts after one has finished.
             threads: the number of threads, or 0 for all cores. It does not affect results.
             copy: return copies of observations.
             render_mode: ``rgb_array`` or ``ansi``.
@@ -366,7 +366,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         ``options["seed"]`` holds the seeds of the episodes themselves, one per environment.
 
         Raises:
-            ValueError: if there is not exactly one mask entry and one seed per environment.
+            ValueError: unless there is exactly one mask entry and one seed per environment.
         """
         options = options or {}
         native, lanes = self._lanes.native, self._lanes
@@ -410,7 +410,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         Raises:
             gymnasium.error.ResetNeeded: if no episode was started, or an episode is over and the environment does not
             reset itself (disabled mode).
-            ValueError: if there is not exactly one action per environment.
+            ValueError: unless there is exactly one action per environment.
         """
         lanes = self._lanes
         if not self._has_started:

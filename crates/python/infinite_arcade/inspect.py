@@ -52,7 +52,7 @@ from .snapshots import open_snapshot
 
 __all__ = ["corpus", "game", "play", "points", "samples", "scripted", "snapshot", "starter", "win"]
 
-#: The name under which the logs of a sample are stored.
+#: The name under which a sample's logs are stored.
 LOGS = "infinite_arcade_logs"
 
 #: The reasons why an answer ended, with their names in logs.
@@ -243,7 +243,7 @@ def play(journal: str | None = None) -> Solver:
 
 @scorer(metrics=[mean(), stderr(cluster="game")])
 def win() -> Scorer:
-    """Scores the fraction of levels that were won, by replaying the logs. Practice levels do not count. Standard
+    """Scores the fraction of levels won, by replaying the logs. Practice levels do not count. Standard
     errors are clustered by game.
     """
 
@@ -267,7 +267,7 @@ def win() -> Scorer:
 
 
 def _stop(episode: dict[str, Any]) -> str:
-    """Returns the engine's reason for stopping an episode. Such an episode says nothing about the model."""
+    """Returns the engine's reason for stopping an episode. Such an episode reveals nothing about the model."""
     reason = episode["stopped_by"]
     return "" if reason is None else f" (stopped by the engine: {reason})"
 
@@ -384,7 +384,7 @@ def _answer(series: _native.Series, output: ModelOutput) -> None:
 
 
 def _logs(series: _native.Series) -> list[dict[str, Any]]:
-    """Returns the logs of a series that is over or was aborted."""
+    """Returns the logs of a series that has ended or was aborted."""
     try:
         if series.next_request() is not None:
             series.fail("the sample was cancelled")
@@ -395,7 +395,7 @@ def _logs(series: _native.Series) -> list[dict[str, Any]]:
 
 
 def _replayed(state: TaskState) -> list[dict[str, Any]]:
-    """Returns the results of the logs of a sample. Each log is replayed on its game.
+    """Returns the results of a sample's logs, each of which is replayed on its game.
 
     Raises:
         LogError: if a log differs from its replay, or belongs to a different episode.

@@ -13,7 +13,7 @@ __all__ = ["generate_games", "generate_levels", "validate"]
 
 
 def validate(level: Level, *, budget: int = 1_000_000, seed: str = "validate") -> dict[str, Any]:
-    """Judges a level by the criteria of a release, in the same way as ``arcade validate``.
+    """Judges a level by a release's criteria, like ``arcade validate``.
 
     Args:
         level: the level to judge.
@@ -46,8 +46,8 @@ def generate_levels(
         count: the number of levels.
         seed: the text from which the randomness is derived.
         difficulty: the difficulty label that each level must get, such as ``hard``.
-        size: the numbers of columns and rows.
-        min_solution: the minimum number of ticks in the shortest win that was found.
+        size: the number of columns and the number of rows.
+        min_solution: the minimum number of ticks that the shortest win found must have.
         sprites: the exact numbers of sprites of some types.
 
     Returns:
@@ -81,7 +81,7 @@ def generate_games(
     levels: int = 5,
     seed: str = "games",
 ) -> list[dict[str, Any]]:
-    """Generates games with levels, each of which a planner has won. A game takes some minutes of one core.
+    """Generates games with levels, each of which a planner has won. A game takes some minutes on one core.
 
     Args:
         kinds: the kinds of hand-written kernels from which games are drawn, such as ``shooter``. If empty, rules are

@@ -1,4 +1,4 @@
-"""Planners, which are players that look ahead on copies of the state."""
+"""Planners: players that look ahead on copies of the state."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Planner:
         Args:
             name: one of :data:`PLANNERS`, with or without ``:CALLS``.
             seed: the text from which the random streams are derived.
-            budget: the number of forward-model calls per decision, used if the name does not contain it.
+            budget: the number of forward-model calls per decision, used if the name contains no number.
 
         Raises:
             ValueError: if there is no such planner.

@@ -1,4 +1,4 @@
-"""Mints and evaluates on a Ray cluster. The results have the same bytes as on one machine.
+"""Mints and evaluates on a Ray cluster. The results are byte-identical to those from a single machine.
 
 Work is divided as the command line divides it. A release is divided into shards that are merged, and an evaluation
 into its games. A node returns the files that it wrote. If a node fails, its task is assigned to a different node. The
@@ -56,7 +56,7 @@ class End:
 
 
 def replay(logs: Sequence[ActionLog]) -> list[End]:
-    """Plays logs on the cluster. Returns the final states in the order of the logs.
+    """Plays logs on the cluster. Returns their final states, in the order of the logs.
 
     Raises:
         FileNotFoundError: if a node does not have a game.

@@ -56,16 +56,16 @@ class Release:
 
     @property
     def name(self) -> str:
-        """The name of the release."""
+        """The release's name."""
         return str(self.manifest["name"])
 
     @property
     def root(self) -> str:
-        """The root digest of the release."""
+        """The release's root digest."""
         return str(self.manifest["root"])
 
     def games(self) -> Iterator[SnapshotGame]:
-        """The games of the release, in the order of the manifest."""
+        """The release's games, in manifest order."""
         for item in self.manifest["items"]:
             parts = str(item["path"]).split("/")
             if len(parts) == 3 and parts[0] == "games" and parts[2] == "card.json":
@@ -86,7 +86,7 @@ class Release:
 
 
 def open_snapshot(path: str | Path) -> Release:
-    """Opens the folder of a release after checking the digest of every file.
+    """Opens a release's folder, after checking the digest of every file.
 
     Raises:
         ArcadeError: if the folder is not a release, or a digest is wrong.
@@ -123,7 +123,7 @@ def mint(
     resume: bool = False,
     jobs: int | None = None,
 ) -> dict[str, Any]:
-    """Mints a release, in the same way as ``arcade release``. The same recipe always gives the same bytes.
+    """Mints a release, like ``arcade release``. The same recipe always gives the same bytes.
 
     The folder is either complete or absent. If the mint is interrupted, the finished jobs are kept next to the folder
     for ``resume``.
@@ -132,7 +132,7 @@ def mint(
         recipe: the name of a recipe embedded in the package, or a .toml file.
         out: the folder for the release, which must be absent or empty.
         parent: the folder of the previous release. No content of the previous release is minted again.
-        secret: the secret of a sealed release, as made by ``arcade release --commit``.
+        secret: the secret of a sealed release, as created by ``arcade release --commit``.
         shard: ``K/N`` to mint only the K-th of N shards, for :func:`merge`.
         resume: keep the jobs that an interrupted mint has finished.
         jobs: the number of threads; by default one per core.

@@ -136,7 +136,7 @@ def to_pandas(table: Table) -> Any:
 
 
 def to_polars(table: Table) -> Any:
-    """Returns a Polars data frame over the buffers of the table. Nothing is copied if Polars uses the same layout."""
+    """Returns a Polars data frame over the table's buffers. Nothing is copied if Polars uses the same layout."""
     import polars
 
     return polars.from_arrow(table)

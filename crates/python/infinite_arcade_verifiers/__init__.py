@@ -26,7 +26,7 @@ _PROMPTS = json.dumps({"mode": "contextual", "history_tokens": 1 << 40})
 
 
 class ArcadeConfig(vf.TasksetConfig):
-    """The settings of the taskset."""
+    """The taskset's settings."""
 
     source: str = "corpus"
     """A release's folder, a game's file or folder, the name of a corpus game, or ``corpus``."""
@@ -131,7 +131,7 @@ class ArcadeTaskset(vf.Taskset[ArcadeTask, ArcadeConfig]):
 
 
 def replayed(info: dict[str, Any], log: str) -> dict[str, Any]:
-    """Returns the results of a log, which is replayed on the level of a task.
+    """Returns the results of a log, which is replayed on its task's level.
 
     Raises:
         LogError: if the log differs from its replay, or belongs to a different episode.

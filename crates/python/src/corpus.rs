@@ -1,4 +1,4 @@
-//! The corpus games embedded in the extension, and functions for the file names of other games.
+//! The corpus games embedded in the extension, and functions that interpret the file names of other games.
 
 use include_dir::{Dir, include_dir};
 use pyo3::prelude::*;
@@ -8,8 +8,7 @@ static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../corpora");
 /// A game's name, rules, levels and card.
 type CorpusGame = (String, String, Vec<String>, String);
 
-/// Returns the corpus games. Each game is given by its name, its rules, its levels and the text of its
-/// CARD.toml.
+/// Returns the corpus games, each as its name, its rules, its levels and the text of its CARD.toml.
 #[pyfunction]
 pub(crate) fn corpus() -> Vec<CorpusGame> {
     let mut games = Vec::new();
@@ -24,7 +23,7 @@ pub(crate) fn corpus() -> Vec<CorpusGame> {
     games
 }
 
-/// The name of a game file, followed by its levels with their numbers.
+/// The name of a game file, and the game's levels with their numbers.
 type GameFiles = (String, Vec<(usize, String)>);
 
 /// Finds games in a folder, given the folder's file names.
@@ -40,8 +39,8 @@ pub(crate) fn levels_of_files(source: &str, names: Vec<String>) -> Vec<(usize, S
     engine::layout::levels(source, names.iter().map(String::as_str))
 }
 
-/// Returns the name of the game file for a level, given the file names in the level's folder. Returns `None`
-/// if `level` is not the name of a level file.
+/// Returns the name of the game file to which a level belongs, given the file names in the level's folder.
+/// Returns `None` if `level` is not the name of a level file.
 #[pyfunction]
 pub(crate) fn game_of_level(level: &str, names: Vec<String>) -> Option<String> {
     engine::layout::level_number(level)?;

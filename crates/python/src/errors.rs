@@ -43,7 +43,7 @@ pub(crate) fn invalid(message: impl Display) -> PyErr {
     PyValueError::new_err(message.to_string())
 }
 
-/// Creates a [`VgdlError`] with the problems of a text. `name` identifies the text in messages.
+/// Creates a [`VgdlError`] with a text's problems. `name` identifies the text in messages.
 pub(crate) fn malformed(py: Python<'_>, name: &str, text: &str, problems: &[Diagnostic]) -> PyErr {
     let source = Source { name, text, is_coloured: std::io::stderr().is_terminal() };
     let error = VgdlError::new_err(in_words(source, problems));

@@ -1,5 +1,5 @@
-//! Evaluated episodes. The suite plays the episodes with its own prompts, answer parser and logs, and obtains
-//! the model's answers from Python.
+//! Evaluated episodes. The suite plays them with its own prompts, answer parser and logs, but obtains the
+//! model's answers from Python.
 //!
 //! A series of episodes runs on its own thread. The thread sends each request to Python over a channel, and
 //! waits for the answer.
@@ -40,18 +40,18 @@ struct Order {
     settings: Settings,
     prompts: PromptSettings,
     run: u64,
-    /// The index of the series among those of the same game and run.
+    /// The index of this series among those with the same game and run.
     first: usize,
     reasks: u32,
 }
 
-/// A message from the playing thread to Python.
+/// A message from the thread that plays to Python.
 enum Report {
     Request(ChatRequest),
     Done(Result<Vec<Played>, String>),
 }
 
-/// An ended episode, with its log.
+/// An episode that has ended, with its log.
 struct Played {
     level: usize,
     level_digest: String,
@@ -80,8 +80,8 @@ impl Model for Remote {
     }
 }
 
-/// The episodes in a series played by a model. A series is a single level, or several levels that a track
-/// plays in one conversation.
+/// The episodes of a series played by a model. A series is either a single level, or several levels that a
+/// track plays in one conversation.
 ///
 /// Python repeatedly takes the next request, obtains an answer, and returns it, until there are no further
 /// requests.
@@ -257,7 +257,7 @@ impl Series {
             .name("episode".to_owned())
             .spawn(move || {
                 let played = own.play(&model, place.as_ref());
-                // If there is no receiver, the result is no longer needed.
+                // If the receiver is gone, the result is no longer needed.
                 let _ = sender.send(Report::Done(played));
             })
             .map_err(failed)?;
@@ -271,7 +271,7 @@ impl Series {
         })
     }
 
-    /// Returns the level numbers in each of a game's series, in playing order.
+    /// Returns the level numbers of each of a game's series, in playing order.
     #[staticmethod]
     #[pyo3(signature = (game, id, levels, *, track = None))]
     fn plan(game: &Game, id: &str, levels: Vec<LevelText>, track: Option<&str>) -> PyResult<Vec<Vec<usize>>> {
@@ -296,7 +296,7 @@ impl Series {
     }
 
     /// Returns the next request, or `None` once all episodes have ended. A request is a list of messages,
-    /// each with its role, text and image.
+    /// each consisting of role, text and image.
     fn next_request<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Vec<Message<'py>>>> {
         if self.results.is_some() {
             return Ok(None);
@@ -358,7 +358,7 @@ impl Series {
         }))
     }
 
-    /// Reports that no answer could be obtained. The episode is aborted, and can be resumed later. `kind` is
+    /// Reports that no answer could be obtained. The episode is aborted, but can be resumed later. `kind` is
     /// `infrastructure`, `budget` or `rejected`.
     #[pyo3(signature = (message, *, kind = "infrastructure"))]
     fn fail(&mut self, message: String, kind: &str) -> PyResult<()> {
@@ -415,8 +415,8 @@ fn events(log: &str) -> PyResult<Vec<Event>> {
 }
 
 /// Replays a log on its game, and compares every state hash, score and outcome. If `seed` and `max_steps` are
-/// given, the log must also belong to the specified episode. In this case, the level, the run, the seed for
-/// the game's randomness, the step limit, the commitment and the track are checked.
+/// given, the log must also belong to the specified episode: the level, the run, the seed for the game's
+/// randomness, the step limit, the commitment and the track are checked.
 ///
 /// Returns JSON with the actions, the outcome, the score, the number of steps and the last state hash. A flag
 /// states whether the log is complete.
@@ -474,7 +474,7 @@ pub(crate) fn replay_log(
     serde_json::to_string(&document).map_err(failed)
 }
 
-/// Replays an episode's log, and returns the episode's metrics as JSON, in the format of `arcade report
+/// Replays an episode's log, and returns the episode's metrics as JSON in the format of `arcade report
 /// --json`.
 #[pyfunction]
 pub(crate) fn metrics_of_log(

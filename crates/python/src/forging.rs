@@ -18,10 +18,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
-/// The ranges for the number of columns and the number of rows of a board.
+/// The ranges for a board's number of columns and number of rows.
 type Size = ((usize, usize), (usize, usize));
 
-/// Judges a level by a release's criteria, in the same way as `arcade validate`. Returns the report.
+/// Judges a level by a release's criteria, like `arcade validate`. Returns the report.
 #[pyfunction]
 #[pyo3(signature = (level, *, budget, seed))]
 pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -> PyResult<String> {
@@ -39,8 +39,8 @@ pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -
     })
 }
 
-/// Generates levels for a game, in the same way as `arcade generate levels`. Returns the levels with their
-/// witnesses, and the cost.
+/// Generates levels for a game, like `arcade generate levels`. Returns the levels with their witnesses, and
+/// the cost.
 #[pyfunction]
 #[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, sprites = Vec::new()))]
 #[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
@@ -97,7 +97,7 @@ pub(crate) fn generate_levels(
     })
 }
 
-/// Generates games, in the same way as `arcade generate games`.
+/// Generates games, like `arcade generate games`.
 #[pyfunction]
 #[pyo3(signature = (*, kinds, method, count, levels, seed))]
 pub(crate) fn generate_games(
@@ -146,8 +146,8 @@ pub(crate) fn generate_games(
     })
 }
 
-/// Verifies a release folder or archive, in the same way as `arcade verify`. Checks the digests, the games,
-/// the levels and every witness.
+/// Verifies a release folder or archive, like `arcade verify`. Checks the digests, the games, the levels and
+/// every witness.
 #[pyfunction]
 pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     let verification = py.detach(|| verify_within(&path, &Bounds::RELEASE)).map_err(failed)?;

@@ -13,7 +13,7 @@ use render::{Looks, Symbols};
 use serde_json::json;
 use std::sync::Arc;
 
-/// A game, with everything derived from its rules.
+/// A game, with everything that is derived from its rules.
 pub(crate) struct Rules {
     pub(crate) name: String,
     pub(crate) source: String,
@@ -48,8 +48,8 @@ pub(crate) fn action_named(name: &str) -> PyResult<Action> {
     })
 }
 
-/// Converts a text to a seed. A text of 64 hexadecimal digits is the seed itself. From any other text, a seed
-/// is derived.
+/// Converts a text to a seed. A text of 64 hexadecimal digits is the seed itself, and any other text is
+/// hashed to a seed.
 pub(crate) fn seed_of(text: &str) -> Seed {
     text.parse().unwrap_or_else(|_| Seed::from_text(text))
 }
@@ -134,7 +134,7 @@ impl Game {
         self.0.looks.shown().map(|stype| self.0.game.name(stype)).collect()
     }
 
-    /// The visible sprite types, each with its character on boards of symbols.
+    /// The visible sprite types, each with the character that represents it on boards of symbols.
     #[getter]
     fn symbols(&self) -> Vec<(String, char)> {
         let rules = &self.0;
@@ -162,7 +162,7 @@ impl Game {
         Guide::from_analysis(&self.0.analysis).to_string()
     }
 
-    /// Returns the kind of the game and the proven facts about its rules, as JSON.
+    /// Returns the kind of the game and the facts proven from its rules, as JSON.
     fn facts(&self) -> PyResult<String> {
         let analysis = &self.0.analysis;
         let facts = json!({
@@ -214,7 +214,7 @@ impl Level {
         self.level.to_string()
     }
 
-    /// Returns the proven facts about the level, one sentence per fact.
+    /// Returns the facts proven about the level, one sentence per fact.
     fn describe(&self) -> Vec<String> {
         let analysis = &self.game.0.analysis;
         describe::level(analysis, &self.level, &analysis.reach(&self.level))

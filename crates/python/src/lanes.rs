@@ -1,4 +1,4 @@
-//! Lanes. A lane plays a game's episodes one after another. Many lanes are stepped together, with their
+//! Lanes. A lane plays one episode of a game after another. Many lanes are stepped together, with their
 //! observations in one buffer.
 //!
 //! Each lane plays independently, with its own seed. The results do not depend on the number of threads.
@@ -14,17 +14,17 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// The number of lanes per thread task.
+/// The number of lanes per task in the thread pool.
 const LANES_OF_A_TASK: usize = 64;
 
-/// The rule for starting a new episode in a lane whose episode has ended.
+/// The rule that determines when a lane whose episode has ended starts a new one.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Autoreset {
     /// The next step starts a new episode and ignores its action.
     NextStep,
     /// The step that ends an episode also starts the next episode.
     SameStep,
-    /// A lane whose episode has ended remains idle until it is reset.
+    /// A lane whose episode has ended stays idle until it is reset.
     Disabled,
 }
 
@@ -48,7 +48,7 @@ struct Setting {
     columns: usize,
     rows: usize,
     sight: Sight,
-    /// The sprite types in drawing order, each with its character on boards of symbols.
+    /// The sprite types in drawing order, each with the character that represents it on boards of symbols.
     characters: Vec<(usize, u8)>,
     max_steps: u64,
     autoreset: Autoreset,
@@ -65,13 +65,13 @@ struct Lane {
     current: Seed,
     steps: u64,
     is_over: bool,
-    /// The score and outcome of the last finished episode. Callers need these values if the same step also
-    /// started the next episode.
+    /// The score and outcome of the last finished episode. Callers need them if the step that ended it has
+    /// already started the next episode.
     last: (f64, Outcome),
     drawn: Drawn,
 }
 
-/// The outputs of one lane's step.
+/// The output of one lane's step.
 struct Told<'a> {
     observation: &'a mut [u8],
     reward: &'a mut f64,
@@ -84,7 +84,7 @@ impl Setting {
         &self.game.0
     }
 
-    /// Returns the observation size in bytes.
+    /// Returns the size of an observation, in bytes.
     fn size(&self) -> usize {
         match self.sight {
             Sight::Planes => self.planes.size(),
@@ -188,7 +188,7 @@ pub(crate) struct Lanes {
     lanes: Vec<Lane>,
     /// The actions, in index order.
     actions: Vec<Action>,
-    /// The thread pool, or `None` to use only the calling thread.
+    /// The thread pool, or `None` to use the calling thread only.
     pool: Option<ThreadPool>,
 }
 
@@ -280,7 +280,7 @@ impl Lanes {
         self.setting.planes.types().iter().map(|&stype| game.name(stype)).collect()
     }
 
-    /// The seeds of the lanes' current episodes.
+    /// The seed of each lane's current episode.
     #[getter]
     fn seeds(&self) -> Vec<String> {
         self.lanes.iter().map(|lane| lane.current.to_string()).collect()
@@ -292,26 +292,26 @@ impl Lanes {
         self.lanes.iter().map(|lane| lane.root).collect()
     }
 
-    /// The state hashes of all lanes.
+    /// The state hash of each lane.
     #[getter]
     fn hashes(&self) -> Vec<String> {
         self.lanes.iter().map(|lane| lane.state.state_hash().to_string()).collect()
     }
 
-    /// The current outcomes of all lanes.
+    /// The current outcome of each lane.
     #[getter]
     fn outcomes(&self) -> Vec<&'static str> {
         self.lanes.iter().map(|lane| outcome_name(lane.state.outcome())).collect()
     }
 
-    /// The current scores of all lanes.
+    /// The current score of each lane.
     #[getter]
     fn scores(&self) -> Vec<f64> {
         self.lanes.iter().map(|lane| lane.state.score()).collect()
     }
 
-    /// Returns the score and outcome of the last finished episode in a lane. Needed for lanes that start the
-    /// next episode in the same step.
+    /// Returns the score and outcome of the last finished episode in a lane. They are needed for lanes that
+    /// start the next episode in the same step.
     fn last(&self, lane: usize) -> PyResult<(f64, &'static str)> {
         let found = self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?;
         Ok((found.last.0, outcome_name(found.last.1)))
@@ -323,8 +323,8 @@ impl Lanes {
         Ok(State::new(self.setting.game.clone(), found.state.clone()))
     }
 
-    /// Sets a lane's seed, from which the seeds of its episodes are derived. If `exact` is `true`, the lane's
-    /// next episode uses the seed itself.
+    /// Sets a lane's seed, from which the seeds of its episodes are derived. If `exact` is `true`, the next
+    /// episode uses the seed itself.
     fn seed(&mut self, lane: usize, seed: &str, exact: bool) -> PyResult<()> {
         let found = self.lanes.get_mut(lane).ok_or_else(|| invalid("there is no such lane"))?;
         (found.seed, found.episodes) = (seed_of(seed), 0);
@@ -385,7 +385,7 @@ impl Lanes {
     }
 
     /// Plays one step in every lane. If lanes reset in the same step, `last` receives the last observations
-    /// of the ended episodes. Returns the number of ended episodes.
+    /// of the episodes that ended. Returns the number of episodes that ended.
     #[allow(clippy::too_many_arguments, reason = "each argument is an array")]
     fn step(
         &mut self,
@@ -452,8 +452,8 @@ impl Lanes {
         }))
     }
 
-    /// Plays steps without observations, in order to measure the speed. Draws the same actions as `cargo
-    /// xtask bench --batch`. Returns the number of ended episodes.
+    /// Plays steps without producing observations, in order to measure the speed. Draws the same actions as
+    /// `cargo xtask bench --batch`. Returns the number of episodes that ended.
     fn step_blindly(
         &mut self,
         py: Python<'_>,
@@ -484,7 +484,7 @@ impl Lanes {
     }
 }
 
-/// The output buffers for a step, or the parts of the buffers for one task.
+/// The output buffers for a step, or one task's parts of the buffers.
 struct Buffers<'a> {
     out: &'a mut [u8],
     rewards: &'a mut [f64],

@@ -1,5 +1,5 @@
-//! The extension module of the Python package `infinite_arcade`, with games, states, planners, judges,
-//! snapshots, environments and evaluated episodes.
+//! The extension module of the Python package `infinite_arcade`: games, states, planners, judges, snapshots,
+//! environments and evaluated episodes.
 //!
 //! Every class in this crate is a thin wrapper around the suite's crates. The package's Python files add
 //! names, types and documentation. Long-running functions release the interpreter lock.

@@ -1,5 +1,5 @@
-//! Mints releases, in the same way as `arcade release` and `arcade merge`. Results are returned as JSON, in
-//! the format of the command line.
+//! Mints releases, like `arcade release` and `arcade merge`. Results are returned as JSON, in the format of
+//! the command line.
 
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
@@ -23,7 +23,7 @@ pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
 }
 
-/// Mints a release, or shard `K/N` of a release, from its recipe's text.
+/// Mints a release, or its shard `K/N`, from the text of its recipe.
 #[pyfunction]
 #[pyo3(signature = (recipe, out, *, parent = None, secret = None, shard = None, resume = false, jobs = None))]
 #[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
@@ -87,12 +87,12 @@ fn document(minted: &Minted, recipe: &Recipe, out: &Path) -> String {
     json!({ "out": out, "root": root, "games": games, "card": card, "caveats": recipe.caveats() }).to_string()
 }
 
-/// Returns the tools for minting.
+/// Returns the tools required for minting.
 fn tools(corpus: &Corpus) -> Tools<'_> {
     Tools { corpus, lockfile: Digest::of(LOCKFILE), players: &Players }
 }
 
-/// The players that measure marks, under the names accepted by `arcade evaluate --player`.
+/// The players that measure marks, by the names that `arcade evaluate --player` accepts.
 #[derive(Debug)]
 struct Players;
 

@@ -9,16 +9,16 @@ thread_local! {
     static PAINTER: RefCell<Painter> = RefCell::new(Painter::new());
 }
 
-/// Draws a board without caption or legend, with cells of `cell` pixels.
+/// Draws a board without a caption or a legend, with cells of `cell` pixels.
 pub(crate) fn pixels(looks: &Looks, state: &State, cell: u32) -> Result<Image, RenderError> {
     let picture = render::picture(looks, state, &Style::bare(cell))?;
     PAINTER.with_borrow_mut(|painter| painter.paint(&picture))
 }
 
-/// The maximum number of images used to compute an animation's palette.
+/// The maximum number of images from which an animation's palette is computed.
 const SPECIMENS: usize = 32;
 
-/// Renders an episode as an animated GIF, starting at the given state, with one frame per tick. Each frame
+/// Renders an episode that starts at the given state as an animated GIF with one frame per tick. Each frame
 /// lasts `delay` hundredths of a second.
 pub(crate) fn animation(
     (game, looks): (&Game, &Looks),

@@ -32,7 +32,7 @@ impl Planner {
         Ok(Planner { player: OpenLoop::new(spec.player(seed), budget, seed), spec })
     }
 
-    /// Returns the next actions, and the number of forward-model calls made.
+    /// Returns the next actions, and the number of forward-model calls made to choose them.
     #[pyo3(signature = (state, count = 1))]
     fn plan(&mut self, py: Python<'_>, state: &State, count: u64) -> (Vec<&'static str>, u64) {
         let (game, state, player) = (&state.game.0.game, &state.state, &mut self.player);

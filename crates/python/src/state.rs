@@ -58,7 +58,7 @@ impl State {
         self.state.is_over()
     }
 
-    /// The number of board columns and rows.
+    /// The number of columns and the number of rows of the board.
     #[getter]
     fn size(&self) -> (i32, i32) {
         self.state.size()
@@ -77,7 +77,7 @@ impl State {
         Ok(outcome_name(outcome))
     }
 
-    /// Plays one action per tick, and returns the state hash after each tick. Stops at the end of the episode.
+    /// Plays one action per tick, and returns the state hash after each tick. Stops when the episode ends.
     fn play(&mut self, py: Python<'_>, actions: Vec<String>) -> PyResult<Vec<String>> {
         let actions = actions.iter().map(|name| action_named(name)).collect::<PyResult<Vec<_>>>()?;
         let State { game, state } = self;

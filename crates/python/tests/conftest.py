@@ -48,7 +48,7 @@ def arcade() -> Path:
 
 @pytest.fixture(scope="session")
 def tiny(arcade: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Returns a release that was minted by the command line, and must not be changed."""
+    """Returns a release minted by the command line. Tests must not change it."""
     out = tmp_path_factory.mktemp("releases") / "tiny"
     subprocess.run([arcade, "release", "tiny", "--out", out, "-q"], check=True, stdout=subprocess.DEVNULL)
     return out

@@ -75,7 +75,7 @@ def test_a_scripted_model_wins(tmp_path: Path) -> None:
 
 
 class Server(BaseHTTPRequestHandler):
-    """A server of chat completions whose answers are scripted."""
+    """A server for chat completions, with scripted answers."""
 
     answer: Answer
 
@@ -96,7 +96,7 @@ class Server(BaseHTTPRequestHandler):
 
 @pytest.mark.parametrize("track", [None, "masked", "discover"])
 def test_logs_are_those_of_the_command_line(track: str | None, arcade: Path, tmp_path: Path) -> None:
-    """The same answers give the same log, line by line, with `arcade evaluate` and with Inspect. Prompts, classes,
+    """The same answers give the same log line by line, with `arcade evaluate` and with Inspect. Prompts, classes,
     steps and hashes are equal.
     """
     script = ["ACTION: left", "I do not know", "**Action:** right", "ACTION: right", "ACTION: jump", "ACTION: left"]

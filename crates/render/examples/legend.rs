@@ -1,6 +1,6 @@
 //! Writes `docs/reference/legend.svg` and `docs/reference/figures.svg`, which show all tiles. Run it with
-//! `cargo run -p infinite-arcade-render --example legend`. If a folder is given, also writes the figures to
-//! that folder as PNG.
+//! `cargo run -p infinite-arcade-render --example legend`. If a folder is given, also writes the figures as
+//! PNG files to that folder.
 
 use infinite_arcade_render::{Picture, figures, gallery, png, svg};
 use std::error::Error;

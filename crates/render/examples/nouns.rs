@@ -1,6 +1,6 @@
-//! Draws the pictures of nouns as a numbered sheet. Run it with `cargo run -p infinite-arcade-render
-//! --example nouns -- NOUNS SHEET.png [names]`. NOUNS is a file with one noun per line. The captions are
-//! numbers, or the nouns if `names` is given.
+//! Draws the images for nouns as a numbered sheet. Run it with `cargo run -p infinite-arcade-render --example
+//! nouns -- NOUNS SHEET.png [names]`. NOUNS is a file with one noun per line. The captions are numbers, or
+//! the nouns themselves if `names` is given.
 
 use base::Seed;
 use engine::{Analysis, Game};

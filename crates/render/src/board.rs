@@ -14,19 +14,19 @@ use crate::style::{MAX_CELL, MAX_PIXELS, MIN_CELL, Style};
 use engine::{SpriteRecord, SpriteType, State};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The minimum width, in pixels, of an image with a caption or a legend.
+/// The minimum width of an image with a caption or a legend, in pixels.
 const MIN_WIDTH: u32 = 260;
 
-/// The scale for a sprite drawn over a different sprite in the same rectangle. At this scale, both sprites
-/// are visible.
+/// The scale of a sprite drawn over a different sprite in the same rectangle, chosen so that both sprites are
+/// visible.
 const OVER: f32 = 0.78;
-/// The scale for a sprite in the same rectangle as an avatar.
+/// The scale of a sprite that shares its rectangle with an avatar.
 const BESIDE: f32 = 0.46;
 
-/// The text height of a count, as a fraction of the sprite's height.
+/// The text height of a sprite count, as a fraction of the sprite's height.
 const COUNT: f32 = 0.3;
 
-/// The minimum ratio of length to width at which a sprite is drawn as a plate.
+/// The minimum ratio of the longer to the shorter side at which a sprite is drawn as a plate.
 const LONG: f32 = 1.3;
 
 /// Draws a state. Cost: O(sprites log sprites + cells).
@@ -47,8 +47,8 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
 }
 
 /// Creates an image of a board, to which `draw` adds the sprites. `draw` receives the left edge of the board.
-/// The legend, and the space for a caption above the legend, are added as the style requires. Also returns
-/// the height of the board, below which the caption is placed.
+/// The legend, and the space above it for a caption, are added as the style requires. Also returns the height
+/// of the board, below which the caption is placed.
 pub(crate) fn framed(
     looks: &Looks,
     (columns, rows): (u32, u32),
@@ -70,7 +70,7 @@ pub(crate) fn framed(
     let left = (width - own) / 2;
     ground(&mut picture, left, own, height, cell);
     draw(&mut picture, left);
-    // The margins cover the parts of sprites that leave the board.
+    // The margins cover the parts of sprites that extend beyond the board.
     for (x, w) in [(0, left), (left + own, width - own - left)] {
         if w > 0 {
             picture.rect(Place { x: x as f32, y: 0.0, w: w as f32, h: height as f32 }, INK);
@@ -101,7 +101,7 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
     for (at, stype) in game.drawing_order().into_iter().enumerate() {
         place_in_order[usize::from(stype)] = at;
     }
-    // The sort keeps the order of creation among sprites of one type.
+    // The sort is stable, so sprites of one type stay in order of creation.
     records.sort_by_key(|record| place_in_order[usize::from(record.stype)]);
     records.retain(|record| looks.is_visible(SpriteType(record.stype)));
     let scale = f64::from(cell) / f64::from(state.block().max(1));
@@ -158,8 +158,8 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
     heaps.into_values().filter(|(_, many)| *many > 1).for_each(|(place, many)| count(picture, place, many));
 }
 
-/// Writes the number of sprites of one type in a rectangle into its top left corner, because these sprites
-/// look like a single sprite.
+/// Writes the number of same-type sprites in a rectangle into its top left corner, because they look like a
+/// single sprite.
 fn count(picture: &mut Picture, place: Place, many: usize) {
     let (text, size) = (many.to_string(), place.h * COUNT);
     let plate = Place { w: text_width(&text, size) + size * 0.2, h: size * 1.2, ..place };
@@ -179,14 +179,14 @@ fn corner(place: Place, nth: usize) -> Place {
     Place { x: place.x + x, y: place.y + y, w, h }
 }
 
-/// Returns the rectangle for a sprite drawn over a different sprite.
+/// Returns the rectangle of a sprite drawn over a different sprite.
 pub(crate) fn over(place: Place) -> Place {
     let (dx, dy) = (place.w * (1.0 - OVER) / 2.0, place.h * (1.0 - OVER) / 2.0);
     Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER }
 }
 
-/// Draws a plate with the glyph in the middle, for a sprite that is much wider than high, or much higher than
-/// wide. A stretched glyph would be unrecognisable. Returns the glyph's rectangle.
+/// Draws a plate with the glyph in the middle, for a sprite that is much wider than high or much higher than
+/// wide, because a stretched glyph would be unrecognisable. Returns the glyph's rectangle.
 fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
     let Place { x, y, w, h } = place;
     let side = w.min(h);
@@ -199,11 +199,11 @@ fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
     Place { x: x + (w - side) / 2.0, y: y + (h - side) / 2.0, w: side, h: side }
 }
 
-/// The flag for a killed avatar in [`SpriteRecord::flags`].
+/// The flag in [`SpriteRecord::flags`] for a killed avatar.
 const DISABLED: u16 = 1;
 
-/// Returns the direction of a sprite's front: its orientation or, for crafts without an orientation, its
-/// rotation.
+/// Returns the direction of a sprite's front: its orientation, or its rotation for crafts without an
+/// orientation.
 fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
     if !glyph.turns() && glyph != Glyph::Avatar {
         return None;

@@ -9,9 +9,8 @@ use engine::{Outcome, State};
 /// The number of characters for the outcome, including the gap before it.
 const ENDING: usize = 9;
 
-/// Returns the height of the strip, which is the same for all states. The strip has one row. It has one
-/// additional row if avatars can have resources or health, one if sprite counts decide a win, and one if
-/// there are countdowns.
+/// Returns the height of the strip, which is the same for all states. The strip has one row, plus one row
+/// each if avatars can have resources or health, if sprite counts decide a win, and if there are countdowns.
 pub(crate) fn height(looks: &Looks, style: &Style) -> u32 {
     let prospects = looks.prospects();
     let more = [looks.has_holdings(), prospects.has_goals(), prospects.counts_down()];
@@ -36,7 +35,7 @@ pub(crate) fn draw(picture: &mut Picture, looks: &Looks, state: &State, style: &
     let time = time.map_or(String::new(), |time| format!(" ({time})"));
     let first = format!("tick {}{time}  score {}", state.tick() + 1, state.score());
     let room = letters.saturating_sub(1);
-    // On a narrow board the outcome is more important than the score.
+    // On a narrow board, the outcome takes precedence over the score.
     let whole = first.chars().count() + if word.is_empty() { 0 } else { ENDING } <= room;
     if whole || word.is_empty() {
         picture.text((x, y), size, PAPER, &shortened(&first, room));
@@ -75,7 +74,7 @@ fn ending(outcome: Outcome) -> (&'static str, Colour) {
     }
 }
 
-/// Returns the avatar's resources and health, with the required numbers: `key 2  prize 1 of 3  health 3`.
+/// Returns the avatar's resources and health, with the amounts required: `key 2  prize 1 of 3  health 3`.
 pub fn holdings(looks: &Looks, state: &State) -> String {
     let (game, prospects) = (looks.game(), looks.prospects());
     let mut held = game.held_by_avatar(state);

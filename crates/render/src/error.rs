@@ -21,7 +21,7 @@ pub enum RenderError {
     /// The image has no pixels.
     #[error("an image without pixels cannot be written")]
     Empty,
-    /// The size of an animation frame differs from the size of the first frame.
+    /// An animation frame differs in size from the first frame.
     #[error("a frame of {width} × {height} pixels does not fit an animation of a different size")]
     Frame {
         /// The width of the frame in pixels.

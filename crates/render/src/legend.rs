@@ -1,4 +1,4 @@
-//! The legend for a board: each sprite type visible to players, with its tile.
+//! The legend of a board: each sprite type that players can see, with its tile.
 
 use crate::looks::colour::{GROUND, INK};
 use crate::looks::look::{Look, Looks};
@@ -6,9 +6,9 @@ use crate::picture::{ADVANCE, Picture, Place, shortened, text_width};
 use crate::style::Style;
 use engine::SpriteType;
 
-/// The number of pixels between the edge, the entries and their parts.
+/// The gap between the edge, the entries and their parts, in pixels.
 const GAP: u32 = 8;
-/// The text heights of a name and of the meaning below it, in pixels.
+/// The text height of a name, and of the meaning below it, in pixels.
 const NAME: f32 = 15.0;
 const MEANING: f32 = 11.0;
 
@@ -21,7 +21,7 @@ struct Entry<'a> {
 
 struct Layout {
     columns: u32,
-    /// The distance from one entry to the next.
+    /// The distance between the starts of successive entries.
     step: u32,
     side: u32,
 }

@@ -3,7 +3,7 @@
 //! A [`Picture`] consists of tiles. A tile's drawing depends on the sprite type's role in the rules
 //! ([`Glyph`]) and on its colour in the game
 //! ([`docs/reference/rendering.md`](../../../docs/reference/rendering.md) shows all tiles). Both back-ends,
-//! [`svg`] and [`png`], draw the same shapes. The same state yields the same bytes on every machine.
+//! [`svg`] and [`png`], draw the same shapes. The same state yields identical bytes on every machine.
 //!
 //! ```
 //! # use base as infinite_arcade_base;

@@ -11,7 +11,7 @@ use engine::{MoverView, Observation};
 
 /// Draws an observation without adding any information. Sprites fill the cells that they overlap, and only
 /// the avatar and signs show a front. The avatar is drawn once, in the cell that contains its centre. The
-/// image has no caption, even if the style requests a caption. Cost: O(cells).
+/// image has no caption, even if the style requests one. Cost: O(cells).
 ///
 /// # Errors
 ///
@@ -44,7 +44,7 @@ pub fn observed(looks: &Looks, observation: &Observation, style: &Style) -> Resu
                     |mover: &&MoverView| mover.name == *name && (mover.column, mover.row) == (column, row);
                 let front = match own.filter(|avatar| turns && avatar.name == *name) {
                     Some(avatar) => unit((avatar.facing.x, avatar.facing.y)),
-                    // Signs that have been turned are among the movers.
+                    // Signs that have been turned are listed among the movers.
                     None if matches!(look.glyph, Glyph::Sign | Glyph::Pointer) => {
                         let set = observation.movers.iter().find(is_here);
                         set.map_or(looks.front(stype), |mover| unit((mover.facing.x, mover.facing.y)))

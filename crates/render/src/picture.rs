@@ -1,5 +1,4 @@
-//! Images made of tiles, and the rectangles where the tiles are stamped. Both back-ends draw the stamps in
-//! the same order.
+//! Images made of tiles that are stamped into rectangles. Both back-ends draw the stamps in the same order.
 
 use crate::looks::art;
 use crate::looks::colour::Colour;
@@ -9,10 +8,10 @@ use crate::looks::shape::{Outline, Paint, Point, Shape};
 use engine::SpriteType;
 use std::collections::BTreeMap;
 
-/// The width of a character with its gap, as a fraction of the text height.
+/// The width of a character including its gap, as a fraction of the text height.
 pub(crate) const ADVANCE: f32 = 0.56;
 
-/// A rectangle in an image. Its coordinates are in pixels, not necessarily whole.
+/// A rectangle in an image. Its coordinates are in pixels, but need not be whole numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// The left edge.
@@ -50,12 +49,12 @@ impl Tile {
     }
 }
 
-/// Returns the edge of the unit square.
+/// Returns the outline of the unit square.
 fn whole() -> Outline {
     Outline::rect(0.0, 0.0, 1.0, 1.0)
 }
 
-/// A tile in a rectangle.
+/// A tile stamped into a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stamp {
     /// The index of the tile in [`Picture::tiles`].
@@ -75,7 +74,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Creates an empty image of this size in pixels.
+    /// Creates an empty image of the given size in pixels.
     pub(crate) fn new(width: u32, height: u32) -> Picture {
         Picture { width, height, ..Picture::default() }
     }
@@ -140,7 +139,7 @@ impl Picture {
         }
     }
 
-    /// Adds a scaled copy of another image, with its top left corner at `(x, y)`. Stamps that lie completely
+    /// Adds a scaled copy of another image, with its top left corner at `(x, y)`. Stamps that lie entirely
     /// outside are omitted.
     pub(crate) fn inset(&mut self, other: &Picture, (x, y): (f32, f32), scale: f32) {
         let mut here = vec![0; other.tiles.len()];
@@ -165,7 +164,7 @@ impl Picture {
     }
 }
 
-/// Returns a sprite type's tile for legends and palettes. Only signs have a direction.
+/// Returns a sprite type's tile for legends and palettes. Only signs have a direction there.
 pub fn sprite_tile(looks: &Looks, stype: SpriteType) -> Tile {
     Tile {
         shapes: art::tile(looks.look(stype), looks.front(stype)),
@@ -178,7 +177,7 @@ pub(crate) fn text_width(text: &str, size: f32) -> f32 {
     text.chars().count() as f32 * size * ADVANCE
 }
 
-/// Shortens a text to at most `letters` characters. In a shortened text, the last two characters are dots.
+/// Shortens a text to at most `letters` characters. A shortened text ends with two dots.
 pub(crate) fn shortened(text: &str, letters: usize) -> String {
     if text.chars().count() <= letters {
         return text.to_owned();

@@ -1,4 +1,4 @@
-//! A contact sheet: several images in one, each with a caption.
+//! A contact sheet, which combines several images into one, each with a caption.
 
 use crate::error::RenderError;
 use crate::looks::colour::{Colour, GREEN, GROUND, INK, ORANGE, PAPER, PURPLE, SKY, VERMILION, YELLOW};
@@ -18,9 +18,9 @@ const LEADING: u32 = 19;
 const LINES: usize = 4;
 
 /// Arranges images in rows of `columns`. Each image is shrunk, but never enlarged, to fit a square of `side`
-/// pixels, with its caption below. The first line of a caption is shortened to fit. The text after a line
-/// feed is broken into up to three more lines. The height of a row is the height of its highest image plus
-/// the height of its longest caption.
+/// pixels, and its caption is placed below. The first line of a caption is shortened to fit. The text after a
+/// line feed is broken into up to three more lines. A row is as high as its highest image plus its longest
+/// caption.
 ///
 /// # Errors
 ///
@@ -65,7 +65,7 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
 }
 
 /// Returns the lines of a caption, at least one. Overlong words are shortened to the length of a line. If
-/// there are too many lines, the last line is shortened, too.
+/// there are too many lines, the last line is shortened as well.
 fn broken(caption: &str, letters: usize) -> Vec<String> {
     let (first, rest) = caption.split_once('\n').unwrap_or((caption, ""));
     let mut lines = vec![first.to_owned()];
@@ -91,7 +91,7 @@ pub fn gallery(columns: usize) -> Picture {
     shelves(&entries, columns, 290)
 }
 
-/// Returns every figure with its name, in rows of `columns`, in colours that games use.
+/// Returns every figure with its name, in rows of `columns`, drawn in colours that games use.
 pub fn figures(columns: usize) -> Picture {
     const COLOURS: [Colour; 6] = [ORANGE, SKY, GREEN, YELLOW, VERMILION, PURPLE];
     let look = |(form, at): (Form, usize)| {

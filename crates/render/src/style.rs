@@ -1,4 +1,4 @@
-//! The style of an image, and its limits.
+//! The style of an image, and the limits of styles.
 
 /// The minimum cell size in pixels. In smaller cells, tiles would be mere dots.
 pub const MIN_CELL: u32 = 4;
@@ -19,12 +19,13 @@ pub struct Style {
 }
 
 impl Style {
-    /// Returns a style that shows only the board, with this cell size in pixels.
+    /// Returns a style that shows only the board, with the given cell size in pixels.
     pub fn bare(cell: u32) -> Style {
         Style { cell, caption: false, legend: false }
     }
 
-    /// Returns a cell size of 8 to 40 pixels such that the longer side of the board has about 900 pixels.
+    /// Returns a cell size from 8 to 40 pixels, chosen so that the longer side of the board has about 900
+    /// pixels.
     pub fn cell_for(columns: u32, rows: u32) -> u32 {
         (900 / columns.max(rows).max(1)).clamp(8, 40)
     }

@@ -1,10 +1,10 @@
-//! Tests the words of legends with small games, one for each kind of note.
+//! Tests of the wording of legends, with a small game for each kind of note.
 
 use engine::{Analysis, Game};
 use infinite_arcade_render::{Glyph, Looks};
 
-/// Returns a game with these sprite lines, rules and terminations. A level character places the sprites of
-/// each line.
+/// Returns a game with the given sprite lines, rules and terminations. A level character places the sprites
+/// of each line.
 fn game(sprites: &[&str], rules: &[&str], ends: &[&str]) -> Game {
     let mut source = String::from("BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n");
     sprites.iter().for_each(|line| source += &format!("    {line}\n"));

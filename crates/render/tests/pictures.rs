@@ -1,4 +1,5 @@
-//! Pictures of a small board, compared with recorded digests and read back by independent decoders.
+//! Tests of images of a small board. The images are compared with recorded digests, and read back by
+//! independent decoders.
 
 use base::{Digest, Seed};
 use engine::{Action, Analysis, Game, Level, State};
@@ -309,7 +310,7 @@ fn a_gif_has_a_frame_for_the_start_and_one_for_each_tick() {
         }
         frames += 1;
     }
-    // The frames add up to the last picture, except for blends that did not fit into the palette.
+    // The frames add up to the last image, except for blends that did not fit into the palette.
     for (got, wanted) in canvas.iter().zip(&last.pixels) {
         let off = got.iter().zip(wanted.0).map(|(a, b)| a.abs_diff(b)).max();
         assert!(off <= Some(40), "{got:?} for {wanted:?}");
@@ -364,8 +365,8 @@ fn the_page_names_every_form() {
     }
 }
 
-/// A sign and a set of points beside it both show their direction, on boards and in observations. Points that were turned show
-/// the new direction.
+/// A sign and a set of (railway) points beside it both show their direction, on boards and in observations.
+/// Points that have been turned show the new direction.
 #[test]
 fn signs_point_as_they_are_set() {
     let source = |ways: [&str; 2]| {

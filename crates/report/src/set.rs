@@ -1,9 +1,9 @@
-//! Reports on sets of levels or games, as data. A report consists of questions answered by figures, and of
-//! additional tables.
+//! Reports on sets of levels or games, as data. A report consists of questions, which are answered by
+//! figures, and of additional tables.
 //!
 //! Each figure is defined once, with a name for people and a key for programs. The page shows the name, and
-//! [`SetReport::to_json`] writes the key. Programs that read the JSON can rely on the keys, whereas the names
-//! may be reworded.
+//! [`SetReport::to_json`] writes the key. Programs that read the JSON can rely on the keys, whereas names may
+//! be reworded.
 
 use crate::{Mean, Quantiles, Share, Table};
 use base::canonical::{CanonicalError, Node};
@@ -17,7 +17,7 @@ pub struct SetReport {
     pub headlines: Vec<Figure>,
     /// The questions, in page order.
     pub sections: Vec<Section>,
-    /// The tables outside all questions.
+    /// The tables that belong to no question.
     pub tables: Vec<Table>,
     data: Data,
 }
@@ -41,7 +41,7 @@ pub struct Section {
 /// A figure shown on a page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// The value's key in the JSON. The key is empty for figures shown only on the page.
+    /// The value's key in the JSON. Empty for figures shown only on the page.
     pub key: &'static str,
     /// The name shown on the page.
     pub name: String,
@@ -62,7 +62,7 @@ pub enum Value {
     Quantiles(Quantiles),
     /// A number of items.
     Count(u64),
-    /// A number of items out of a total, with the name for items in the total.
+    /// A number of items out of a total, with the name of the items in the total.
     CountOf(u64, u64, &'static str),
     /// A fraction between 0 and 1, without an interval.
     Expected(f64),
@@ -100,7 +100,7 @@ impl SetReport {
         self
     }
 
-    /// Adds a question. If the question does not apply, its key in the JSON has the value `null`.
+    /// Adds a question. If the question does not apply, the value of its key in the JSON is `null`.
     #[must_use]
     pub fn section(self, key: &str, section: impl Into<Option<Section>>) -> SetReport {
         let Some(section) = section.into() else { return self.data(key, &()) };
@@ -112,15 +112,15 @@ impl SetReport {
         report
     }
 
-    /// Adds a table outside all questions.
+    /// Adds a table that belongs to no question.
     #[must_use]
     pub fn table(mut self, table: impl Into<Option<Table>>) -> SetReport {
         self.tables.extend(table.into());
         self
     }
 
-    /// Adds figures to the top of the page under different names. Each figure is given by its section and its
-    /// key. Nonexistent figures are omitted.
+    /// Adds figures to the top of the page under different names. Each figure is identified by its section
+    /// and key. Nonexistent figures are omitted.
     #[must_use]
     pub fn headlines(mut self, figures: &[(&str, &str, &str)]) -> SetReport {
         for (section, key, name) in figures {
@@ -147,7 +147,7 @@ impl SetReport {
     /// Returns the report as canonical JSON, with a line feed at the end.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite. Only a game's scores can cause this error.
+    /// Returns an error if a number is not finite. Only a game's scores can cause this.
     pub fn to_json(&self) -> Result<String, CanonicalError> {
         match &self.data.fault {
             Some(fault) => Err(fault.clone()),
@@ -207,8 +207,7 @@ impl Section {
         self.data(key, &count).figure(key, name, Value::Count(count))
     }
 
-    /// Adds the number of times that each item occurs. If a total is given, fractions are added instead of
-    /// counts.
+    /// Adds the number of times that each item occurs. If a total is given, adds fractions instead of counts.
     #[must_use]
     pub fn tally(self, key: &str, name: &str, counts: &BTreeMap<String, u64>, of: Option<u64>) -> Section {
         counts.iter().fold(self.data(key, counts), |section, (thing, &count)| {

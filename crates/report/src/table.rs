@@ -19,8 +19,7 @@ pub struct Table {
     pub rows: Vec<Vec<TableCell>>,
 }
 
-/// A column of a table with one row per `R`. A column consists of a heading, and a function that returns the
-/// cell for a row.
+/// A column of a table with one row per `R`: a heading, and a function that returns the cell for a row.
 pub type Column<'a, R> = (&'a str, &'a dyn Fn(&R) -> TableCell);
 
 /// A cell of a [`Table`].
@@ -31,7 +30,7 @@ pub enum TableCell {
     Missing,
     /// A text.
     Text(String),
-    /// A text with numbers, aligned like a number.
+    /// A text that contains numbers and is aligned like a number.
     Figure(String),
     /// A count.
     Count(u64),
@@ -74,7 +73,7 @@ impl TableCell {
     }
 
     /// Creates a number cell, or a missing cell if there is no value. Integers are shown without decimal
-    /// places. Other numbers have up to two decimal places, depending on their size.
+    /// places, and other numbers with up to two, depending on their size.
     pub fn short(value: impl Into<Option<f64>>) -> TableCell {
         let digits = |value: f64| match value.abs() {
             size if value.fract() == 0.0 || size >= 100.0 => 0,
@@ -148,7 +147,7 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// Returns `true` if a column contains text, so that it is left-aligned.
+    /// Returns `true` if a column contains text and should therefore be left-aligned.
     fn is_words(&self, column: usize) -> bool {
         self.rows.iter().any(|row| row[column].is_words())
     }
@@ -181,7 +180,7 @@ impl Table {
     }
 
     /// Formats the table as CSV. Numbers are written with all digits, unknown values are empty fields, and
-    /// intervals span three columns. Text that a spreadsheet would interpret as a formula gets a leading
+    /// intervals span three columns. Text that spreadsheets would interpret as a formula gets a leading
     /// apostrophe.
     ///
     /// ```
@@ -273,7 +272,7 @@ pub fn in_markdown(text: &str) -> String {
 }
 
 /// Returns `true` if a character is a control character, or changes the direction or line structure of the
-/// surrounding text. Such characters could make a name look like a different name.
+/// surrounding text. Such characters could make one name look like another.
 pub fn is_invisible(character: char) -> bool {
     let turns = ['\u{61c}', '\u{200e}', '\u{200f}', '\u{2028}', '\u{2029}'];
     character.is_control()
@@ -315,7 +314,7 @@ fn spelt_out(text: &str, is_spelt: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// Formats text for a CSV field, on one line ([`visible`]). A leading apostrophe prevents spreadsheets from
+/// Formats text as a CSV field on one line ([`visible`]). A leading apostrophe prevents spreadsheets from
 /// interpreting the text as a formula (OWASP, *CSV Injection*).
 pub fn in_csv(text: &str) -> String {
     let starts =
@@ -334,7 +333,7 @@ fn latex(text: &str) -> String {
             '~' => out += "\\textasciitilde{}",
             '^' => out += "\\textasciicircum{}",
             '&' | '%' | '$' | '#' | '_' | '{' | '}' => out.extend(['\\', character]),
-            // At the start of a row, LaTeX would interpret a bracket as an option of the previous line.
+            // At the start of a row, LaTeX would interpret a bracket as an option to the previous line break.
             '[' => out += "{[}",
             ']' => out += "{]}",
             '<' => out += "\\textless{}",
@@ -376,8 +375,8 @@ mod tests {
         check("a\n# b\u{1b}[2J", "a\\\\n# b\\\\u{1b}\\[2J");
     }
 
-    /// Names from files neither break lines nor change the direction of text, and terminals do not interpret
-    /// them.
+    /// Names from files neither break lines nor change the direction of text, and are not interpreted by
+    /// terminals.
     #[test]
     fn invisible_characters_are_spelt_out_everywhere() {
         let name = "a\nb\u{1b}[2J\u{9b}\u{202e}\u{2028}";

@@ -1,5 +1,5 @@
-//! Writes the twins of a folder of games, hand-made or generated:
-//! `cargo run --release -p infinite-arcade-snapshots --example twins -- renamed GAMES OUT`.
+//! Writes the twins of the games in a folder, whether hand-made or generated: `cargo run --release -p
+//! infinite-arcade-snapshots --example twins -- renamed GAMES OUT`.
 
 use infinite_arcade_snapshots::twin::{Twin, of_game};
 use std::error::Error;

@@ -1,4 +1,4 @@
-//! The crate's error type. Errors concern operations, and never a VGDL file.
+//! The crate's error type. Errors concern operations, never a VGDL file.
 
 use base::MessagePath;
 use std::io;
@@ -22,13 +22,13 @@ pub enum SnapshotError {
         /// The operating system's error.
         source: io::Error,
     },
-    /// The output path is occupied.
+    /// The output path is already occupied.
     #[error("`{}` exists and is not an empty folder: choose another --out", .0.in_message())]
     Occupied(PathBuf),
-    /// A parent folder of the output path is a file.
+    /// The output path lies below a file.
     #[error("`{}` cannot be created: a folder above it is a file; choose another --out", .0.in_message())]
     BelowFile(PathBuf),
-    /// A folder ending with `.partial` was not left by a killed run.
+    /// A folder whose name ends in `.partial` was not left by a killed run.
     #[error("`{}` was not made by arcade: choose another --out or move it away", .0.in_message())]
     Foreign(PathBuf),
     /// The output path contains the work of an interrupted run.
@@ -47,7 +47,7 @@ pub enum SnapshotError {
     /// A file of a shard differs from the shard's list.
     #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.in_message())]
     Altered(PathBuf),
-    /// A file that should contain a sealed release's secret does not.
+    /// A file that should contain a sealed release's secret does not contain one.
     #[error("`{}` is not the secret of a sealed release: {source}", .path.in_message())]
     NotASecret {
         /// The file without a secret.
@@ -101,7 +101,7 @@ pub enum SnapshotError {
     /// The folder has no manifest, or the file is not an archive.
     #[error("`{}` has no MANIFEST.json: pass a snapshot folder or its .tar.zst", .0.in_message())]
     NotASnapshot(PathBuf),
-    /// A file was given, but a folder is required.
+    /// A single file was given, but a folder is required.
     #[error("`{}` is not a folder: pass the snapshot's folder; unpack an archive first, for example with tar \
              -xf", .0.in_message())]
     NotAFolder(PathBuf),
@@ -127,12 +127,12 @@ pub enum SnapshotError {
         /// The position of the error, and the expected content.
         source: serde_json::Error,
     },
-    /// The manifest contradicts itself or its limits.
+    /// The manifest contradicts itself or exceeds its limits.
     #[error("`{}` is not a valid manifest: {message}", .path.in_message())]
     Manifest {
         /// The manifest's path.
         path: PathBuf,
-        /// The problem, with the item's name.
+        /// The problem, including the item's name.
         message: String,
     },
     /// A folder being searched for releases contains too many entries.
@@ -181,8 +181,7 @@ pub enum SnapshotError {
     DuplicatePath(#[from] DuplicatePath),
 }
 
-/// Returns, for messages, the final name of an unfinished folder: the path itself or the unfinished folder that
-/// contains it.
+/// Returns the final name of an unfinished folder for messages, given the folder itself or a path inside it.
 fn finished(unfinished: &Path) -> String {
     let draft = unfinished.ancestors().find(|folder| folder.extension().is_some_and(|end| end == "partial"));
     draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").in_message().to_string())
@@ -194,7 +193,7 @@ impl SnapshotError {
         move |source| SnapshotError::Io { action, path: path.to_path_buf(), source }
     }
 
-    /// Returns the same error with `place` as the path of the manifest, because manifests are parsed from bytes
+    /// Returns the same error with `place` as the manifest's path, because manifests are parsed from bytes
     /// without a path.
     pub(crate) fn in_manifest(self, place: &Path) -> SnapshotError {
         let path = place.to_path_buf();
@@ -234,7 +233,7 @@ mod tests {
         assert!(error.source().is_some());
     }
 
-    /// A path from a manifest may contain any character, so terminals must not receive it unescaped.
+    /// A path from a manifest may contain any character, so it must be escaped before it reaches a terminal.
     #[test]
     fn control_characters_are_escaped() {
         let path = "a\u{1b}[2Jb".to_string();

@@ -1,11 +1,11 @@
 //! Releases: minted from a recipe, frozen into a folder, read without trusting them, and reproduced from their seed.
 //!
-//! A release folder contains files and one `MANIFEST.json`. The [`Manifest`] lists every file with its size and
-//! [`Digest`], and states the root of a [`merkle`] tree over the files. A single file can therefore be proved without
-//! the rest, and each release can state the root of its predecessor. A [`Draft`] writes a folder that is either
-//! complete or absent. [`check_integrity`] reads a folder and reports every [`Problem`] together. [`archive`] packs a
-//! release into one file, [`proof`] proves one of its files or games, and [`chain`] follows the roots from release to
-//! release.
+//! A release folder contains files and one `MANIFEST.json`. The [`Manifest`] lists every file with its size
+//! and [`Digest`], and states the root of a [`merkle`] tree over the files. A single file can therefore be
+//! proved without the rest, and each release can state the root of its predecessor. A [`Draft`] writes a
+//! folder that is either complete or absent. [`check_integrity`] reads a folder and reports all [`Problem`]s
+//! together. [`archive`] packs a release into one file, [`proof`] proves one of its files or games, and
+//! [`chain`] follows the roots from release to release.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -1,4 +1,4 @@
-//! The parsed games of a verified release: the input for exports and comparisons.
+//! The parsed games of a verified release, which are the input for exports and comparisons.
 
 use crate::Digest;
 use crate::check::{Verification, verify};
@@ -37,7 +37,7 @@ pub struct ReleasedGame {
     pub game: Game,
     /// The levels, in card order.
     pub levels: Vec<ReleasedLevel>,
-    /// The sibling withheld by a coin, if it exists and was revealed.
+    /// The sibling that a coin withheld, if it exists and has been revealed.
     pub sibling: Option<ReleasedSibling>,
 }
 
@@ -61,13 +61,13 @@ pub struct ReleasedLevel {
     pub level: Level,
     /// A winning episode, if the release contains one.
     pub witness: Option<Episode>,
-    /// The win withheld by a coin, if it exists and was revealed.
+    /// The win that a coin withheld, if it exists and has been revealed.
     pub second: Option<Episode>,
 }
 
 impl ReleasedLevel {
-    /// Returns the beginnings that distinguish the published win from the withheld win. The two beginnings
-    /// differ, and have the same length of at most [`PREFIX`] actions. Returns `None` if either win is missing.
+    /// Returns the beginnings that distinguish the published win from the withheld win. They differ, and have
+    /// the same length of at most [`PREFIX`] actions. Returns `None` if either win is missing.
     pub fn beginnings(&self) -> Option<[Vec<Action>; 2]> {
         let (published, withheld) = (&self.witness.as_ref()?.actions, &self.second.as_ref()?.actions);
         let common = PREFIX.min(published.len()).min(withheld.len());
@@ -123,7 +123,7 @@ impl Released {
 }
 
 fn read_game(contents: &Contents, manifest: &Manifest, folder: &str) -> Result<ReleasedGame, ReleasedError> {
-    // All files were well-formed during verification, and the digest detects later changes.
+    // All files were well-formed when they were verified, and the digest detects later changes.
     let read = |path: String| -> Result<Option<String>, ReleasedError> {
         let Some(item) = manifest.item(&path) else { return Ok(None) };
         // A listed file is absent only if it is withheld.

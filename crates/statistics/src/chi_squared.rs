@@ -39,7 +39,7 @@ pub fn chi_squared_p(value: f64, df: u64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The expected values come from scipy 1.17, `chi2.sf`.
+    /// The expected values come from `chi2.sf` in scipy 1.17.
     #[test]
     fn known_values() {
         for (value, df, expect) in [

@@ -1,5 +1,5 @@
-//! Simulations of players that replay published solutions, and of players without memory. The simulations
-//! measure how often [`coin_test`] flags each kind of player.
+//! Simulations of players that replay published solutions, and of players without memory. They measure how
+//! often [`coin_test`] flags each kind of player.
 
 use crate::comparisons::contamination::{Memoriser, coin_test};
 use crate::planning::design::{Spread, logistic};
@@ -10,8 +10,8 @@ use crate::planning::draws::Draws;
 pub struct MemoryTrial {
     /// The simulated player.
     pub player: Memoriser,
-    /// The decrease in ability caused by new names, in logits. Both siblings have different names than the
-    /// games known to the player.
+    /// The decrease in ability caused by new names, in logits. Neither sibling has the names used in the
+    /// games that the player knows.
     pub hurt: f64,
     /// The standard deviation, in logits, of the ability decrease between different sets of names for the
     /// same game.
@@ -22,7 +22,7 @@ pub struct MemoryTrial {
 
 impl MemoryTrial {
     /// Returns the power of the sibling test: the fraction of `trials` in which the test has p ≤ `alpha`.
-    /// There are `pairs` coins, each with one pair of siblings and one episode per side.
+    /// There are `pairs` coin tosses, each with one pair of siblings and one episode per side.
     pub fn siblings(&self, pairs: usize, alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
         let ability = self.spread.ability(self.player.clean);
@@ -38,7 +38,7 @@ impl MemoryTrial {
         flagged(trials, alpha, || (0..pairs).map(|_| pair()).collect())
     }
 
-    /// Returns the power of the sibling test if each coin decides over several pairs of episodes. `pairs`
+    /// Returns the power of the sibling test if each coin toss decides for several pairs of episodes. `pairs`
     /// contains each coin's number of pairs. A coin's pairs are the levels of a game, which share its
     /// difficulty and its names.
     pub fn sibling_games(&self, pairs: &[u64], alpha: f64, trials: u64, seed: u64) -> f64 {

@@ -1,4 +1,4 @@
-//! Simulated evaluations under the model in [`Design`], which measure the coverage of intervals and the error
+//! Simulates evaluations under the model in [`Design`] to measure the coverage of intervals and the error
 //! rates of tests. `cargo xtask simulate` prints full tables, and this crate's tests run small simulations.
 
 use crate::comparisons::stratified::{Stratum, stratified};
@@ -141,7 +141,7 @@ mod tests {
         Simulation::new(Design { games, levels: 5, runs: 5 }, Spread { matches, ..Spread::default() }, 30)
     }
 
-    /// A fraction of 95% over a thousand evaluations has a standard error of 0.7 percentage points.
+    /// With a thousand evaluations, a fraction of 95% has a standard error of 0.7 percentage points.
     #[test]
     fn intervals_cover_from_six_games_on() {
         for (rate, games) in [(0.07, 6), (0.07, 18), (0.5, 6), (0.5, 18), (0.9, 6), (0.9, 30)] {
@@ -151,8 +151,8 @@ mod tests {
         }
     }
 
-    /// The limit is five percentage points plus two standard errors of 0.7 points. The test within levels
-    /// makes claims only about the played levels.
+    /// The limit is 5% plus two standard errors of 0.7 percentage points. The test within levels makes claims
+    /// only about the levels played.
     #[test]
     fn equal_players_are_seldom_told_apart() {
         for (games, episodes) in [(6, Episodes::Independent), (18, Episodes::Copies)] {

@@ -1,14 +1,14 @@
 //! Student's t distribution ("Student", "The probable error of a mean", 1908).
 //!
-//! P-values come from a library that uses the platform's logarithm, so their last digits may differ between
-//! machines. P-values are intended for reports, and must not be used in minted content. Quantiles for
+//! The p-values come from a library that uses the platform's logarithm, so their last digits may differ
+//! between machines. They are intended for reports and must not be used in minted content. Quantiles for
 //! intervals are the same on every machine (see [`student_quantile`]).
 
 use statrs::function::beta::beta_reg;
 
 /// Returns the two-sided p-value for `t`: the probability that a t variable with `df` degrees of freedom is
-/// at least as far from 0. Tiny values retain their relative precision. Returns NaN if `t` is NaN, or if `df`
-/// is not positive and finite. Cost: O(1).
+/// at least as far from 0 as `t`. Tiny values retain their relative precision. Returns NaN if `t` is NaN, or
+/// if `df` is not positive and finite. Cost: O(1).
 ///
 /// ```
 /// use infinite_arcade_statistics::student_p;
@@ -30,7 +30,7 @@ pub fn student_p(t: f64, df: f64) -> f64 {
 /// not within 0..1, or if `df` is not positive and finite.
 ///
 /// The result is bit-identical on every machine for an integer `df` up to a million and a `p` of at least
-/// 0.0001. The intervals in releases are within this range, in which the result comes from the finite series
+/// 0.0001. All intervals in releases are within this range. There, the result comes from the finite series
 /// for integer degrees of freedom (M. Abramowitz and I. A. Stegun, *Handbook of Mathematical Functions*,
 /// 1964, 26.7.3 and 26.7.4). The series loses digits for smaller `p`. Cost: about sixty evaluations of
 /// [`student_p`], or O(`df`).
@@ -49,7 +49,7 @@ pub fn student_quantile(p: f64, df: f64) -> f64 {
     while tail(high) > p && high < f64::MAX / 4.0 {
         high *= 2.0;
     }
-    // The bisection ends when the middle equals one of the ends.
+    // The bisection ends when the midpoint equals one of the ends.
     let mut low = 0.0;
     loop {
         let middle = (low + high) / 2.0;
@@ -95,8 +95,8 @@ mod tests {
         assert!((found - expect).abs() <= 1e-8 * expect, "t {t}, df {df}: {found}, not {expect}");
     }
 
-    /// The test vectors come from `spec/06` §3.1 (0.00488943 and 0.234674). More digits were computed with
-    /// decimal arithmetic.
+    /// The test vectors come from `spec/06` §3.1 (0.00488943 and 0.234674). The additional digits were
+    /// computed with decimal arithmetic.
     #[test]
     fn published_vectors() {
         check(2.83, 400.0, 0.00488943350331646);
@@ -150,7 +150,7 @@ mod tests {
             (1.9, 10_000.0, 0.0574618568273861),
         ] {
             let found = series(t, df);
-            // Each term adds its rounding error.
+            // Each term adds its own rounding error.
             assert!((found - expect).abs() < 1e-16 * (10.0 + df), "t {t}, df {df}: {found}, not {expect}");
         }
     }

@@ -20,7 +20,7 @@ pub struct Summary {
 
 impl Summary {
     /// Returns the summary of `values`. Returns `None` if there are no values, or if a value is not finite,
-    /// because no summary would be correct.
+    /// because then no summary would be correct.
     ///
     /// The mean is the sum divided by the count. The values are added one by one from the smallest to the
     /// largest (`f64::total_cmp`). Values are expected to be small enough for a finite sum. If the sum is
@@ -35,7 +35,8 @@ impl Summary {
         let (min, max) = (*sorted.first()?, *sorted.last()?);
         let count = sorted.len();
         let sum = sorted[1..].iter().fold(min, |sum, value| sum + value);
-        // A mean beyond the extremes is a rounding error. For example, three times 0.1 exceeds 0.3.
+        // A computed mean can lie beyond the extremes because of rounding. For example, 0.1 + 0.1 + 0.1
+        // exceeds 0.3.
         let mean = (sum / count as f64).clamp(min, max);
         let (below, above) = (sorted[(count - 1) / 2], sorted[count / 2]);
         let median = if count % 2 == 1 { below } else { ((below + above) / 2.0).clamp(below, above) };
@@ -81,7 +82,7 @@ mod tests {
             turned.reverse();
             assert_eq!(Summary::of(&turned), Some(expect));
         }
-        // If the values are summed from the smallest, -1e16 absorbs the small values one by one. In the given
+        // When summing from the smallest value up, -1e16 absorbs the small values one by one. In the given
         // order, the sum would be 1.8.
         assert_eq!(expect.mean, 0.0);
     }

@@ -1,4 +1,4 @@
-//! The handling of requests. Bodies are read within limits, and a bounded number of threads does the work.
+//! Handling of requests. Bodies are read within limits, and a bounded number of threads does the work.
 
 use crate::lines::{Ended, Lines};
 use crate::refusal::Refusal;
@@ -41,7 +41,7 @@ impl Serving {
         }
     }
 
-    /// Runs the work on a thread for short responses.
+    /// Runs work on one of the threads for short responses.
     async fn answer<O: Serialize>(
         self,
         work: impl FnOnce(&Studio) -> Result<O, Refusal> + Send + 'static,
@@ -50,7 +50,7 @@ impl Serving {
         self.answer_in(short, work).await
     }
 
-    /// Runs the work on one of `threads`, as soon as a thread is free.
+    /// Runs work on one of `threads` as soon as a thread is free.
     async fn answer_in<O: Serialize>(
         self,
         threads: Arc<Semaphore>,
@@ -59,7 +59,7 @@ impl Serving {
         let Ok(place) = threads.acquire_owned().await else { return broken() };
         let studio = self.studio;
         let done = tokio::task::spawn_blocking(move || {
-            // The JSON is written here too, because it may be as much work as the rest.
+            // The JSON is written here too, because that may be as much work as the rest.
             let answer = work(&studio).map(|answer| serde_json::to_vec(&answer));
             drop(place);
             answer
@@ -105,7 +105,7 @@ pub(crate) fn of_game<O: Serialize + 'static>(
     })
 }
 
-/// Returns the route for a request about a part of a game.
+/// Returns the route for a request about part of a game.
 pub(crate) fn of_part<O: Serialize + 'static>(
     work: fn(&Studio, &str, &str) -> Result<O, Refusal>,
 ) -> MethodRouter<Serving> {
@@ -114,7 +114,7 @@ pub(crate) fn of_part<O: Serialize + 'static>(
     })
 }
 
-/// Returns the route for a request with this method that changes a part of a game.
+/// Returns the route for a request with the given method that changes part of a game.
 pub(crate) fn change_part<I: DeserializeOwned + Send + 'static, O: Serialize + 'static>(
     method: MethodFilter,
     work: fn(&Studio, &str, &str, I) -> Result<O, Refusal>,
@@ -153,7 +153,7 @@ impl Asker {
     }
 }
 
-/// A waiting client. The server drops this value when the connection closes, and the drop sets the flag.
+/// A waiting client. The server drops this value when the connection closes, and dropping it sets the flag.
 struct Waiting(Arc<AtomicBool>);
 
 impl Drop for Waiting {
@@ -180,7 +180,7 @@ pub(crate) fn awaited<I: DeserializeOwned + Send + 'static, O: Serialize + 'stat
 }
 
 /// A request whose response is sent line by line. `page` identifies the page that sent the request, if the
-/// page identifies itself.
+/// page states it.
 pub(crate) struct Asked<I> {
     pub(crate) body: I,
     pub(crate) page: Option<String>,

@@ -1,4 +1,4 @@
-//! A cache of compiled games, keyed by their text, because a page sends the same text many times.
+//! A cache of compiled games by their text, because a page sends the same text many times.
 
 use engine::{Analysis, Diagnostics, Game, Level};
 use render::Looks;
@@ -12,7 +12,7 @@ use axum::http::StatusCode;
 /// The maximum number of games in the cache.
 const KEPT: usize = 16;
 
-/// A game that compiles, with all data derived from its rules.
+/// A compiled game, with all data derived from its rules.
 pub(crate) struct Compiled {
     pub(crate) source: String,
     pub(crate) game: Game,
@@ -55,7 +55,7 @@ impl Cache {
         Ok(fresh)
     }
 
-    /// Returns the compiled game like [`Cache::find`], but returns a refusal instead of problems. For
+    /// Returns the compiled game like [`Cache::find`], but returns a refusal instead of problems, for
     /// requests that need a game without problems.
     pub(crate) fn need(&self, source: &str) -> Result<Arc<Compiled>, Refusal> {
         self.find(source).map_err(|problems| refused("the game", source, &problems))

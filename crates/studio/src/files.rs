@@ -1,4 +1,4 @@
-//! A game's files, which are read within limits and written whole.
+//! A game's files, which are read within limits and written as a whole.
 
 use crate::refusal::Refusal;
 use disk::Access;
@@ -21,18 +21,18 @@ const MAX_LEVELS: usize = 1000;
 /// The maximum total size of a game's levels, in bytes.
 const MAX_ALL_LEVELS: usize = 4 << 20;
 
-/// Returns the number of the level with this name on pages. For example, `lvl3.txt` is level 3. Each number
-/// has exactly one such name, regardless of the level's file name.
+/// Returns the number of the level that has this name on pages. For example, `lvl3.txt` is level 3. Each
+/// number has exactly one such name, regardless of the level's file name.
 pub(crate) fn level_number(name: &str) -> Option<usize> {
     let digits = name.strip_prefix("lvl")?.strip_suffix(".txt")?;
     let number: usize = digits.parse().ok()?;
     (number < MAX_LEVELS && number.to_string() == digits).then_some(number)
 }
 
-/// Returns a game's levels in a folder, each with its number and file name, in order.
+/// Returns the levels of a game in a folder, in order, each with its number and file name.
 pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, String)>, Refusal> {
     let listed = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
-    // As in all commands, a link stands for its target, and a folder is not a level.
+    // As in all commands, a link stands for its target, and folders are not levels.
     let files = listed.flatten().filter(|entry| !entry.path().is_dir());
     let names: Vec<String> = files.filter_map(|entry| entry.file_name().into_string().ok()).collect();
     let mut levels = engine::layout::levels(source, names.iter().map(String::as_str));
@@ -41,7 +41,7 @@ pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, Str
     Ok(levels)
 }
 
-/// Returns a game's levels in a folder, in order, with their names on pages.
+/// Returns the levels of a game in a folder, in order, with their names on pages.
 pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refusal> {
     let mut left = MAX_ALL_LEVELS;
     let read = |(number, file): (usize, String)| {
@@ -57,7 +57,7 @@ pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refu
     level_files(folder, source)?.into_iter().map(read).collect()
 }
 
-/// Returns the path of the game's level with this number. If the file does not exist, returns a path for a
+/// Returns the path of the game's level with this number. If there is no such file, returns the path for a
 /// new file, named like the existing levels.
 pub(crate) fn level_path(folder: &Path, source: &str, number: usize) -> Result<PathBuf, Refusal> {
     let levels = level_files(folder, source)?;
@@ -89,7 +89,7 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
     match fs::symlink_metadata(file) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(unreadable(file, &error)),
-        // Writing would replace a link by a file, without changing the link's target.
+        // Writing would replace the link with a file, without changing the link's target.
         Ok(found) if !found.is_file() => {
             Err(Refusal::forbidden(format_args!("{} is not a regular file", shown(file)))
                 .help("replace the link or device with a regular file to change it here"))
@@ -98,7 +98,7 @@ pub(crate) fn content(file: &Path) -> Result<Option<String>, Refusal> {
     }
 }
 
-/// Rejects a folder that is a link, because writing to the link would change a different folder.
+/// Rejects a folder that is a link, because writing to it would change a different folder.
 pub(crate) fn check_folder(folder: &Path) -> Result<(), Refusal> {
     match fs::symlink_metadata(folder) {
         Ok(found) if found.is_symlink() => {

@@ -1,4 +1,4 @@
-//! States as frames: tiles, and the rectangles where they are stamped, in cells.
+//! States as frames, which consist of tiles and of the rectangles (in cells) where the tiles are stamped.
 
 use crate::compiled::Compiled;
 use crate::refusal::Refusal;
@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::ser::{SerializeTuple, Serializer};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
-/// The cell size in pixels for drawing frames. The size affects only how thin lines are.
+/// The cell size for drawing frames, in pixels. It affects only how thin lines are.
 const CELL: u32 = 32;
 
 /// A tile in the page's format.
@@ -18,7 +18,7 @@ pub(crate) struct TileSvg {
     svg: String,
 }
 
-/// The tiles of a game or a session. Each tile is sent once.
+/// The tiles of a game or a session. Each tile is sent only once.
 #[derive(Default)]
 pub(crate) struct Tiles {
     known: Vec<Tile>,
@@ -26,10 +26,10 @@ pub(crate) struct Tiles {
 }
 
 impl Tiles {
-    /// Returns the index of a tile, and adds the tile if it is new.
+    /// Returns the index of a tile, adding the tile if it is new.
     pub(crate) fn number(&mut self, tile: &Tile) -> usize {
         self.known.iter().position(|known| known.shapes == tile.shapes).unwrap_or_else(|| {
-            // Names of sprites stay out of the images, which consist only of numbers and colours.
+            // Sprite names are kept out of the images, which consist only of numbers and colours.
             self.known.push(Tile { shapes: tile.shapes.clone(), name: None });
             self.known.len() - 1
         })
@@ -50,7 +50,7 @@ fn whole(tile: &Tile) -> String {
     )
 }
 
-/// A tile in a rectangle, given by its left, top, width and height in thousandths of a cell.
+/// A tile in a rectangle given by its left edge, top edge, width and height in thousandths of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Mark {
     tile: usize,
@@ -62,7 +62,7 @@ impl Serialize for Mark {
         let mut tuple = serializer.serialize_tuple(5)?;
         tuple.serialize_element(&self.tile)?;
         for part in self.place {
-            // Most values are whole numbers, which are shorter without a decimal point.
+            // Most values are whole numbers, which are shorter when written without a decimal point.
             match part % 1000 {
                 0 => tuple.serialize_element(&(part / 1000))?,
                 _ => tuple.serialize_element(&(f64::from(part) / 1000.0))?,
@@ -75,14 +75,14 @@ impl Serialize for Mark {
 /// A change to a list of marks: the index of the change, the number of marks to remove there, and the marks to insert.
 type Splice = (usize, usize, Vec<Mark>);
 
-/// A state's board, and the texts beside the board.
+/// A state's board, and the texts beside it.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Frame {
     width: i32,
     height: i32,
     #[serde(skip_serializing_if = "Option::is_none")]
     marks: Option<Vec<Mark>>,
-    /// The difference from the previous frame, which replaces the marks.
+    /// The difference from the previous frame, which takes the place of the marks.
     #[serde(skip_serializing_if = "Option::is_none")]
     change: Option<Vec<Splice>>,
     caption: Vec<String>,
@@ -103,7 +103,7 @@ impl Frame {
         Frame::with_looks(&compiled.looks, state, tick, tiles)
     }
 
-    /// Draws a state with the given looks.
+    /// Draws a state, using the given looks.
     pub(crate) fn with_looks(
         looks: &Looks,
         state: &State,
@@ -132,12 +132,13 @@ impl Frame {
 const PLAIN: usize = 200_000;
 /// The maximum number of marks in a list of frames.
 const MOST: usize = 1_000_000;
-/// The maximum length of two lists of marks for computing a minimal difference. The cost grows with the
-/// product of the lengths.
+/// The maximum length of two lists of marks for which a minimal difference is computed. The cost grows with
+/// the product of the lengths.
 const COMPARED: usize = 4_000;
 
-/// The frames of an episode. A few frames are stored unchanged, and many frames as differences between successive
-/// frames. Neither memory nor responses then grow with the product of the board size and the number of ticks.
+/// The frames of an episode. If there are few frames, they are stored unchanged. If there are many, they are
+/// stored as differences between successive frames, so that neither memory nor responses grow with the
+/// product of the board size and the number of ticks.
 pub(crate) struct Frames {
     all: Vec<Frame>,
     last: Vec<Mark>,
@@ -153,12 +154,12 @@ impl Frames {
         Frames { all: Vec::new(), last: Vec::new(), marks: 0, plain: PLAIN }
     }
 
-    /// Creates an empty list for a file, in which all frames except the first are differences.
+    /// Creates an empty list for a file. All frames except the first are stored as differences.
     pub(crate) fn of_changes() -> Frames {
         Frames { plain: 0, ..Frames::new() }
     }
 
-    /// Adds a frame. Returns `false`, and adds nothing, if the list is full. Cost: O(marks · changes).
+    /// Adds a frame. If the list is full, returns `false` and adds nothing. Cost: O(marks · changes).
     pub(crate) fn push(&mut self, mut frame: Frame) -> bool {
         let marks = frame.marks.take().unwrap_or_default();
         let change = (!self.all.is_empty() && self.marks + marks.len() > self.plain)
@@ -184,8 +185,7 @@ impl Frames {
     }
 }
 
-/// Returns the splices that turn one frame's marks into the next frame's marks, from the end to the
-/// beginning.
+/// Returns the splices that turn one frame's marks into the next frame's, from the end to the beginning.
 fn change(from: &[Mark], to: &[Mark]) -> Vec<Splice> {
     let same = |(a, b): &(&Mark, &Mark)| a == b;
     let start = from.iter().zip(to).take_while(same).count();
@@ -220,8 +220,8 @@ fn marks(drawn: &Picture, cell: u32, tiles: &mut Tiles) -> Vec<Mark> {
     drawn.stamps().iter().map(mark).collect()
 }
 
-/// Returns the lines with the avatar's resources. If the game was stopped, also returns a line with the
-/// exceeded limit.
+/// Returns the lines that show the avatar's resources. If the game was stopped, also returns a line that
+/// states the exceeded limit.
 fn caption(looks: &Looks, state: &State) -> Vec<String> {
     let mut lines = Vec::new();
     if looks.has_holdings() {
@@ -258,7 +258,7 @@ pub(crate) fn action_name(action: Action) -> String {
     format!("ACTION_{}", action.name().to_ascii_uppercase())
 }
 
-/// Parses an action from either the reference's name or this suite's name.
+/// Parses an action's name, which may be the reference's or this suite's.
 pub(crate) fn action(name: &str) -> Result<Action, Refusal> {
     let ours = || Action::ALL.into_iter().find(|action| action.name() == name);
     Action::from_reference(name).or_else(ours).ok_or_else(|| {
@@ -332,7 +332,7 @@ mod tests {
         let (mut few, mut many) = (Frames::new(), Frames::new());
         assert!((0..10).all(|at| few.push(frame(at, 10))));
         assert!(few.finish().iter().all(|frame| frame.marks.is_some()));
-        // Every mark of every frame is different, so the list is full before the memory is.
+        // Every mark in every frame is different, so the list fills up before the memory does.
         let pushed = (0..1000).take_while(|&at| many.push(frame(at * 50_000, 50_000))).count();
         let frames = many.finish();
         assert_eq!((frames.len(), pushed), (pushed, frames.len()));

@@ -1,5 +1,5 @@
-//! A release as a folder of static files. The files show the same page without the studio's server, from a
-//! disk or any web server.
+//! A release as a folder of static files, which show the same page without the studio's server, from a disk
+//! or from any web server.
 //!
 //! The data files are scripts, because a page opened from `file://` can load only scripts. The release's
 //! content cannot become code in these scripts, as [`script`] explains.
@@ -29,12 +29,12 @@ impl From<Refusal> for GalleryError {
     }
 }
 
-/// The gallery for the release that is open in a studio.
+/// The gallery of the release that is open in a studio.
 #[derive(Clone, Copy, Debug)]
 pub struct Gallery<'a>(&'a Studio);
 
 impl<'a> Gallery<'a> {
-    /// Creates the gallery for the release that is open in `studio`.
+    /// Creates the gallery of the release that is open in `studio`.
     pub fn of(studio: &'a Studio) -> Gallery<'a> {
         Gallery(studio)
     }
@@ -44,7 +44,7 @@ impl<'a> Gallery<'a> {
         self.0.workspace.games().iter().map(|game| game.id.clone()).collect()
     }
 
-    /// Returns the page's files and the release-wide data, with their paths.
+    /// Returns the page's files and the release-wide data, each with its path.
     ///
     /// # Errors
     ///
@@ -130,8 +130,8 @@ fn witnesses(
     Ok(shown)
 }
 
-/// Returns a script that passes data to the page. Escapes characters that could end the script, or a string
-/// in the script, so that data cannot become code.
+/// Returns a script that passes data to the page. Characters that could end the script, or a string in it,
+/// are escaped, so that data cannot become code.
 fn script(name: &str, data: &Value) -> String {
     let plain = |value: &Value| {
         let mut text = String::new();

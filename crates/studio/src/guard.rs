@@ -1,9 +1,10 @@
-//! Checks before every response. Only the page that this server served, opened with its token, may send requests.
+//! Checks made before every response. Only the page served by this server and opened with its token may send
+//! requests.
 //!
-//! A page from any website can make a browser send requests to 127.0.0.1, and so can every program on this
-//! machine. Requests from foreign pages are recognised by the requested host name (which DNS rebinding cannot
-//! hide), by the origin, and by the site that the browser reports. Foreign pages and other programs do not
-//! know the token, which is only in the address printed by `arcade studio`.
+//! A page from any website can make a browser send requests to 127.0.0.1, and any program on this machine can
+//! send them, too. Requests from foreign pages are recognised by the requested host name (which DNS rebinding
+//! cannot hide), by the origin, and by the site that the browser reports. Foreign pages and other programs do
+//! not know the token, which is only in the address printed by `arcade studio`.
 
 use crate::refusal::Refusal;
 use axum::extract::{Request, State};
@@ -18,12 +19,12 @@ use std::sync::Arc;
 const TOKEN: HeaderName = HeaderName::from_static("x-arcade-token");
 const FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 
-/// The page's content security policy, which allows the page to load only its own files and images created
-/// from data.
+/// The page's content security policy. It allows the page to load only its own files, and images created from
+/// data.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
                       connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// The host names and the token required in requests.
+/// The host names and the token that requests must have.
 #[derive(Clone, Debug)]
 pub(crate) struct Guard {
     /// The accepted hosts: `127.0.0.1:PORT` and `localhost:PORT`.
@@ -32,7 +33,7 @@ pub(crate) struct Guard {
 }
 
 impl Guard {
-    /// Creates a guard for this port with a fresh token.
+    /// Creates a guard for the given port, with a fresh token.
     pub(crate) fn of(port: u16) -> std::io::Result<Guard> {
         let mut bytes = [0; 24];
         getrandom::fill(&mut bytes).map_err(std::io::Error::other)?;
@@ -48,7 +49,8 @@ impl Guard {
         &self.token
     }
 
-    /// Returns the reason for rejecting a request with these headers, or `None` if the request is accepted.
+    /// Returns the reason for rejecting a request with the given headers, or `None` if the request is
+    /// accepted.
     fn problem(&self, path: &str, headers: &HeaderMap) -> Option<Refusal> {
         let all = |name: &HeaderName| -> Vec<&str> {
             headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default()).collect()
@@ -77,7 +79,7 @@ impl Guard {
     }
 }
 
-/// Compares two texts in a time independent of the position of the first difference.
+/// Compares two texts in a time that does not depend on the position of their first difference.
 fn equal(one: &str, other: &str) -> bool {
     let differences = one.bytes().zip(other.bytes()).fold(0, |seen, (a, b)| seen | (a ^ b));
     one.len() == other.len() && differences == 0
@@ -89,7 +91,7 @@ pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Ne
         None => {
             let path = request.uri().path();
             let is_asked = path == "/api" || path.starts_with("/api/");
-            // A client with the token is not disconnected in favour of a client that may not have the token.
+            // A client with the token is not disconnected in favour of a client that may not have it.
             if let Some(asker) = request.extensions().get::<Asker>().filter(|_| is_asked) {
                 asker.trust();
             }
@@ -108,7 +110,7 @@ pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Ne
     response
 }
 
-/// Rejects a method that a path does not support.
+/// Rejects a method that the path does not support.
 pub(crate) async fn no_method() -> Response {
     Refusal::new(StatusCode::METHOD_NOT_ALLOWED, "this path does not support the method").into_response()
 }

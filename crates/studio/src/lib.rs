@@ -3,8 +3,8 @@
 //!
 //! A [`Workspace`] contains the opened games. A [`Studio`] handles requests about a workspace. A [`Server`]
 //! accepts these requests only from a page on this machine
-//! ([details](../../../docs/reference/studio-server.md#security)). Results of long work are sent line by
-//! line, and the work ends when the page is closed.
+//! ([details](../../../docs/reference/studio-server.md#security)). Results of long-running work are sent line
+//! by line, and the work ends when the page is closed.
 
 mod answers;
 mod api;

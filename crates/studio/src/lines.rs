@@ -14,10 +14,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::task::{Context, Poll};
 use tokio::sync::mpsc::{Receiver, Sender, channel};
 
-/// The maximum number of lines waiting for a client to read them.
+/// The maximum number of lines that wait for a client to read them.
 const WAITING: usize = 256;
 
-/// The error for a client that no longer waits, so that the work can end.
+/// The error for a client that is no longer waiting, so the work can end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gone;
 
@@ -38,7 +38,7 @@ impl Lines {
         (Lines { sender, superseded: Arc::default() }, response)
     }
 
-    /// Sends one line, and waits while the client reads slowly. The call blocks, so it must not run on the
+    /// Sends one line, and waits if the client reads slowly. The call blocks, so it must not run on the
     /// runtime's thread.
     pub(crate) fn send(&self, line: &impl Serialize) -> Result<(), Gone> {
         self.check()?;
@@ -51,12 +51,12 @@ impl Lines {
         self.sender.blocking_send(bytes.into()).map_err(|_| Gone)
     }
 
-    /// Returns an error once the client no longer waits.
+    /// Returns an error once the client is no longer waiting.
     pub(crate) fn check(&self) -> Result<(), Gone> {
         if self.sender.is_closed() || self.superseded.load(Ordering::Relaxed) { Err(Gone) } else { Ok(()) }
     }
 
-    /// Returns the switch that ends this response in favour of a newer response.
+    /// Returns the switch that ends this response in favour of a newer one.
     pub(crate) fn switch(&self) -> Arc<AtomicBool> {
         self.superseded.clone()
     }

@@ -1,4 +1,4 @@
-//! Text positions in a page's units: UTF-16 code units from 0, and lines and columns from 1.
+//! Text positions in the units that pages use: UTF-16 code units from 0, and lines and columns from 1.
 
 use editor::Problem;
 use editor::positions::utf16_of_byte;

@@ -5,7 +5,7 @@ use axum::response::{IntoResponse, Json, Response};
 use serde_json::{Map, Value, json};
 use std::fmt;
 
-/// The reason why a request fails.
+/// The reason why a request has failed.
 #[derive(Debug)]
 pub(crate) struct Refusal {
     status: StatusCode,
@@ -25,7 +25,7 @@ impl Refusal {
         Refusal::new(StatusCode::BAD_REQUEST, error)
     }
 
-    /// Creates a refusal for a request whose item does not exist.
+    /// Creates a refusal for a request about an item that does not exist.
     pub(crate) fn missing(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::NOT_FOUND, error)
     }
@@ -35,7 +35,7 @@ impl Refusal {
         Refusal::new(StatusCode::FORBIDDEN, error)
     }
 
-    /// Creates a refusal for a failure of the machine, such as an I/O or memory failure.
+    /// Creates a refusal for a failure of the machine, such as an I/O error or a lack of memory.
     pub(crate) fn failed(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, error)
     }

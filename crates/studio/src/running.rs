@@ -1,4 +1,4 @@
-//! The verdicts in progress. Only a few verdicts run at a time, and newer verdicts take precedence.
+//! The verdicts in progress. Only a few run at a time, and newer verdicts take precedence.
 
 use crate::lines::Lines;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -43,9 +43,9 @@ pub(crate) struct Place<'a> {
 }
 
 impl Running {
-    /// Begins a verdict. The verdict supersedes the previous verdict of the same page and kind, and the
-    /// oldest verdicts of the kind if there are too many. A verdict on a level also supersedes the same
-    /// page's verdict on the whole game, which has changed or can wait.
+    /// Begins a verdict. It supersedes the previous verdict of the same page and kind and, if there are too
+    /// many, the oldest verdicts of that kind. A verdict on a level also supersedes the same page's verdict
+    /// on the whole game, which has changed or can wait.
     pub(crate) fn begin(&self, work: Work, page: Option<String>, lines: &Lines) -> Place<'_> {
         let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let switch = lines.switch();
@@ -88,7 +88,7 @@ mod tests {
         let _again = running.begin(Work::Game, page(), &again);
         let _newest = running.begin(Work::Game, page(), &newest);
         assert_eq!([&level, &again, &newest, &other].map(is_ended), [false, true, false, false]);
-        // Among verdicts of other pages, the oldest is ended.
+        // Among the verdicts of other pages, the oldest is ended.
         let (last, _six) = ask();
         let _last = running.begin(Work::Game, None, &last);
         assert_eq!([&other, &newest, &last, &level].map(is_ended), [true, false, false, false]);

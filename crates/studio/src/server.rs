@@ -1,4 +1,4 @@
-//! The server, with a port on this machine, the page, and the API.
+//! The server, with its port on this machine, its page and its API.
 
 use crate::answers::Serving;
 use crate::guard::{self, Guard};
@@ -43,7 +43,7 @@ pub struct Server {
 pub struct Stop(#[allow(dead_code, reason = "dropping it is the signal")] oneshot::Sender<()>);
 
 impl Server {
-    /// Binds a port on 127.0.0.1, and draws a token. If `port` is 0, any free port is bound.
+    /// Binds the given port on 127.0.0.1, or any free port if `port` is 0, and draws a token.
     ///
     /// # Errors
     ///
@@ -59,7 +59,7 @@ impl Server {
         self.port
     }
 
-    /// Returns the token required in every request.
+    /// Returns the token that every request must contain.
     pub fn token(&self) -> &str {
         self.guard.token()
     }
@@ -100,7 +100,7 @@ impl Server {
     }
 }
 
-/// Returns a page file.
+/// Returns one of the page's files.
 async fn page(uri: Uri) -> Response {
     let path = uri.path();
     if path == "/api" || path.starts_with("/api/") {

@@ -1,4 +1,4 @@
-//! Games in progress, with undo for single ticks and a limit on each game's memory.
+//! Games in progress. Single ticks can be undone, and the memory of each game is limited.
 
 use crate::compiled::Compiled;
 use crate::frames::{Frame, TileSvg, Tiles, action_name};
@@ -11,9 +11,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The maximum number of sessions. Beyond this limit, the oldest session is dropped.
 const MOST: usize = 32;
-/// The maximum number of states stored in a session.
+/// The maximum number of states stored per session.
 const KEPT: usize = 64;
-/// The maximum total size in bytes of the states stored in a session.
+/// The maximum total size of the states stored per session, in bytes.
 const KEPT_BYTES: usize = 8 << 20;
 /// The maximum number of forward-model calls per planner decision.
 const MOST_CALLS: u64 = 10_000;
@@ -29,7 +29,7 @@ pub(crate) struct Session {
     /// The state after the first `at` actions.
     state: State,
     at: usize,
-    /// The number of ticks between two stored states. The number is doubled when there are too many states.
+    /// The number of ticks between two stored states, which doubles when there are too many states.
     stride: usize,
     /// The states after 0, `stride`, 2 × `stride`, … ticks.
     kept: Vec<State>,
@@ -37,7 +37,7 @@ pub(crate) struct Session {
     planner: Option<(String, Player)>,
 }
 
-/// The response to a session request: the new tiles, the board, and the action that led to the board.
+/// The response to a session request: the new tiles, the board, and the action that led to it.
 pub(crate) struct Shown {
     pub(crate) tiles: Vec<TileSvg>,
     pub(crate) frame: Frame,
@@ -59,8 +59,8 @@ impl Session {
         Ok(Shown { tiles: self.tiles.fresh(), frame, action: action.map(action_name) })
     }
 
-    /// Plays a tick, and drops the ticks previously played after this point. The call has no effect if the
-    /// game is over.
+    /// Plays a tick, dropping the ticks previously played after this point. Has no effect if the game is
+    /// over.
     pub(crate) fn act(&mut self, action: Action) {
         if self.state.is_over() {
             return;
@@ -104,7 +104,7 @@ impl Session {
         Ok(player.plan(&self.compiled.game, &self.state, Budget(calls)).0)
     }
 
-    /// Jumps to a tick that has been played. Cost: up to `stride` ticks of play.
+    /// Jumps to a tick that has already been played. Cost: playing up to `stride` ticks.
     pub(crate) fn seek(&mut self, tick: usize) {
         self.at = tick.min(self.episode.actions.len());
         let from = (self.at / self.stride).min(self.kept.len() - 1);

@@ -1,4 +1,4 @@
-//! The server's state: the opened games, and the work in progress.
+//! The server's state: the opened games and the work in progress.
 
 use crate::compiled::Cache;
 use crate::judging::Judging;
@@ -9,7 +9,7 @@ use snapshots::Verification;
 use std::fmt;
 use std::sync::{Arc, Mutex};
 
-/// A server's state for handling requests about a workspace.
+/// The state with which a server handles requests about a workspace.
 pub struct Studio {
     pub(crate) workspace: Workspace,
     pub(crate) version: String,
@@ -25,7 +25,7 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// Creates a studio for a workspace, with the version to show and the manual pages.
+    /// Creates a studio for a workspace, with the version to display and the manual pages.
     pub fn new(
         workspace: Workspace,
         version: impl Into<String>,
@@ -55,11 +55,11 @@ impl Studio {
 }
 
 /// A check of a verified release's root, for example by its signatures. Returns a sentence about the
-/// evidence, or the problems.
+/// evidence, or the problems found.
 type Vouch = Box<dyn Fn(&Verification) -> Result<String, Vec<String>> + Send + Sync>;
 
 impl Studio {
-    /// Adds a check of the opened release's root, which runs whenever the release is verified.
+    /// Adds a check of the opened release's root, to be made whenever the release is verified.
     pub fn vouched(
         self,
         check: impl Fn(&Verification) -> Result<String, Vec<String>> + Send + Sync + 'static,

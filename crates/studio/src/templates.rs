@@ -1,5 +1,4 @@
-//! Templates for new games. There is one template for each of a few genres, with a commented game and two
-//! levels.
+//! Templates for new games, one per genre for a few genres. Each has a commented game and two levels.
 
 use crate::files;
 use std::fs;
@@ -13,8 +12,8 @@ pub struct Template {
     pub genre: &'static str,
     /// The player's task, as a sentence without a full stop.
     pub about: &'static str,
-    /// The files with their names. The game comes last, so that a folder that lacks some of its levels is not
-    /// a game.
+    /// The files with their names. The game comes last, so that a folder in which some levels are still
+    /// missing is not a game.
     pub files: [(&'static str, &'static str); 3],
 }
 
@@ -54,7 +53,8 @@ impl Template {
     ///
     /// # Errors
     ///
-    /// Returns [`ErrorKind::AlreadyExists`] if the path is a file or a folder that is not empty, and otherwise any I/O error.
+    /// Returns [`ErrorKind::AlreadyExists`] if the path is a file or a non-empty folder, and other I/O errors
+    /// unchanged.
     pub fn begin(&self, folder: &Path) -> io::Result<()> {
         match fs::create_dir(folder) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {

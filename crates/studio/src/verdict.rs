@@ -1,5 +1,5 @@
-//! The verdict on a level while the level is being edited. The cheapest results come first, and each result
-//! is sent as soon as it is known.
+//! The verdict on a level while it is being edited. The cheapest results come first, and each result is sent
+//! as soon as it is known.
 
 use crate::compiled::Compiled;
 use crate::lines::{Ended, Lines};
@@ -15,17 +15,17 @@ use validators::{
     PlayerResult, Verdict,
 };
 
-/// The numbers of forward-model calls for the successive searches for a win. The first search immediately
-/// decides most levels.
+/// The numbers of forward-model calls of the successive searches for a win. The first search decides most
+/// levels immediately.
 const SEARCHES: [u64; 4] = [20_000, 100_000, 400_000, 2_000_000];
-/// The maximum number of calls specified by a request.
+/// The maximum number of calls that a request can specify.
 const MOST_CALLS: u64 = 50_000_000;
-/// The memory limit of a search, in bytes.
+/// The memory limit for a search, in bytes.
 pub(crate) const BYTES: usize = 256 << 20;
-/// The fraction of the calls for a search that foresees the randomness of one episode. Without foresight,
-/// some games would never be won.
+/// The fraction of a search's calls that is spent on foreseeing the randomness of one episode. Without
+/// foresight, some games would never be won.
 pub(crate) const FORESIGHT: f64 = 0.4;
-/// The number of forward-model calls divided among the criteria.
+/// The number of forward-model calls that the criteria share.
 const CRITERIA: u64 = 300_000;
 
 /// A level to judge.
@@ -33,7 +33,7 @@ pub(crate) struct Subject<'a> {
     pub(crate) compiled: &'a Compiled,
     pub(crate) level: &'a Level,
     pub(crate) seed: Seed,
-    /// The maximum number of calls for finding a win.
+    /// The maximum number of calls to spend on finding a win.
     pub(crate) budget: Option<u64>,
 }
 
@@ -57,13 +57,14 @@ impl Subject<'_> {
                 Solution::Won { episode, .. } => witness = Some(*episode),
                 Solution::Impossible { states, .. } => {
                     lines.check()?;
-                    // The proof was cheap enough to be repeated, this time with an explanation.
+                    // The proof was cheap enough to repeat, this time with an explanation.
                     let budget = SEARCHES[SEARCHES.len() - 1].max(states.saturating_mul(8)).min(MOST_CALLS);
                     lines.send(&criterion(&self.why_not(budget)?, source))?;
                 }
                 Solution::Unknown => {
                     lines.check()?;
-                    // Nothing is proved, but a win in a game that differs in one line shows where to look.
+                    // Nothing has been proved, but a win in a game that differs in only one line shows where
+                    // to look.
                     let judged = self.why_not(CRITERIA)?;
                     if !judged.finding.evidence.is_empty() {
                         lines.send(&criterion(&judged, source))?;
@@ -72,7 +73,8 @@ impl Subject<'_> {
             },
         }
         let is_open = impossible.is_none() && witness.is_some();
-        // It is already known whether the level can be won, or the search took more calls than are available here.
+        // Either it is already known whether the level can be won, or the search took more calls than are
+        // available here.
         let answered = CriterionSet::of(&[Criterion::Winnable]);
         let of_wins = CriterionSet::of(&[Criterion::Length, Criterion::Skill]);
         let skipped = if is_open { answered } else { answered.with(of_wins) };
@@ -128,9 +130,9 @@ impl Subject<'_> {
     }
 }
 
-/// Searches for a win with an increasing number of calls, up to `most` per search, until `gone` returns
-/// `true`. After each search without an answer, `tell` receives the number of calls spent, and can stop the
-/// work by returning `false`. Returns the answer and the number of calls spent.
+/// Searches for a win with increasing numbers of calls, up to `most` per search, until `gone` returns `true`.
+/// After each search without an answer, `tell` receives the number of calls spent, and can stop the work by
+/// returning `false`. Returns the answer and the number of calls spent.
 pub(crate) fn look_for_win(
     analysis: &Analysis,
     level: &Level,
@@ -159,12 +161,11 @@ pub(crate) fn look_for_win(
     (Solution::Unknown, spent)
 }
 
-/// The roles of sprites that the player wants to reach in their initial positions.
+/// The roles of sprites whose initial positions the player wants to reach.
 const WANTED: [Role; 6] =
     [Role::Exit, Role::Key, Role::Collectable, Role::Pushable, Role::Portal, Role::Breakable];
 
-/// Returns the types that the avatar can reach, the types that it cannot reach, and the cells where the
-/// avatar can be.
+/// Returns the types that the avatar can reach, those that it cannot reach, and the cells where it can be.
 fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> Value {
     let game = analysis.game();
     let cell = |at: usize| json!([at % level.columns(), at / level.columns()]);
@@ -193,8 +194,8 @@ fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> 
     })
 }
 
-/// Returns evidence in the page's format. Cells are counted from 0, and rules are given by their positions in
-/// the text.
+/// Returns evidence in the page's format. Cells are counted from 0, and rules are identified by their
+/// positions in the text.
 fn evidence(seen: &[Evidence], source: &str) -> Vec<Value> {
     seen.iter()
         .map(|seen| {

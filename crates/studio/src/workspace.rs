@@ -33,8 +33,8 @@ pub enum Place {
         /// The levels, in order.
         levels: Vec<NamedText>,
     },
-    /// The files are in a folder, with the levels beside the game. The levels are `lvl0.txt` …, or `NAME_lvl0.txt` …
-    /// beside `NAME.txt`.
+    /// The files are in a folder, with the levels beside the game. The levels are named `lvl0.txt`,
+    /// `lvl1.txt` and so on, or `NAME_lvl0.txt` and so on if the game is `NAME.txt`.
     Folder {
         /// The folder with the files.
         folder: PathBuf,
@@ -66,14 +66,13 @@ pub struct WitnessEntry {
 /// A game in a workspace.
 #[derive(Clone, Debug)]
 pub struct GameEntry {
-    /// The ID with which the page requests the game. The ID is unique in the workspace.
+    /// The ID under which the page requests the game, unique in the workspace.
     pub id: String,
-    /// The title to show.
+    /// The title to display.
     pub title: String,
     /// The location of the files.
     pub place: Place,
-    /// The card, which describes the game. In a release, the card also contains the results from the game's
-    /// judges.
+    /// The card, which describes the game. In a release, it also contains the results from the game's judges.
     pub card: Option<Value>,
     /// A sentence about the game.
     pub summary: String,
@@ -86,7 +85,7 @@ pub struct GameEntry {
 pub struct Workspace {
     /// The kind of the workspace.
     pub kind: Kind,
-    /// The name to show.
+    /// The name to display.
     pub name: String,
     /// The folder for copies of games.
     pub copies: PathBuf,
@@ -94,18 +93,18 @@ pub struct Workspace {
     pub root: Option<PathBuf>,
     /// The folders with results, one per player.
     pub results: Vec<PathBuf>,
-    /// The release, if a release is open and its verification succeeds.
+    /// The release, if one is open and its verification has succeeded.
     pub released: Option<Arc<Released>>,
-    /// The release to compare with the opened release, and its path.
+    /// The release with which to compare the opened release, and its path.
     pub against: Option<(PathBuf, Arc<Released>)>,
-    /// Additional paths to search for the releases before the opened release: releases, and folders of
-    /// releases.
+    /// Additional paths in which to search for the releases before the opened one. Each is a release or a
+    /// folder of releases.
     pub chain: Vec<PathBuf>,
     games: RwLock<Vec<Arc<GameEntry>>>,
 }
 
 impl Workspace {
-    /// Creates a workspace with these games. If several games have the same ID, a number is appended.
+    /// Creates a workspace with the given games. If several games have the same ID, a number is appended.
     pub fn new(kind: Kind, name: impl Into<String>, copies: PathBuf, games: Vec<GameEntry>) -> Workspace {
         let workspace = Workspace {
             kind,
@@ -176,7 +175,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns the number of the game's levels, without reading the level files.
+    /// Returns the number of the game's levels without reading the level files.
     pub(crate) fn count(&self) -> usize {
         match &self.place {
             Place::Texts { levels, .. } => levels.len(),
@@ -187,7 +186,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns a file's path by name. The file is the game itself or a level.
+    /// Returns the path of a file by its name. The file is the game itself or one of its levels.
     pub(crate) fn path_of(&self, name: &str) -> Result<PathBuf, Refusal> {
         let unknown = |help: &str| Refusal::missing("the game has no file with this name").help(help);
         match &self.place {

@@ -1,4 +1,4 @@
-//! A state as terminal cells. Each board cell has two columns and shows the uppermost sprite.
+//! A state as terminal cells. Each cell of the board has two columns, and shows its topmost sprite.
 
 use engine::{SpriteType, State};
 use ratatui::style::{Color, Modifier, Style};
@@ -22,9 +22,9 @@ pub(crate) struct Signs {
 }
 
 impl Signs {
-    /// Chooses each type's symbol by its glyph. If several types have the same symbol, the symbol's second
-    /// column is replaced by the type's own character, so that the types differ in more than colour. Unicode
-    /// symbols that fill both columns are left unchanged.
+    /// Chooses each type's symbol by its glyph. If several types have the same symbol, its second column is
+    /// replaced by each type's own character, so that the types differ in more than colour. Unicode symbols
+    /// that fill both columns are left unchanged.
     pub(crate) fn of(looks: &Looks, symbols: &Symbols, ascii: bool) -> Signs {
         let sign = |glyph: Glyph| if ascii { glyph.ascii() } else { glyph.unicode() };
         let text = |stype: SpriteType| {
@@ -44,15 +44,15 @@ impl Signs {
         Signs { texts, fallen: sign(Glyph::Fallen), ascii }
     }
 
-    /// Returns the cell for a sprite type over the background below it.
+    /// Returns the cell that shows a sprite type over the background below it.
     pub(crate) fn drawn(&self, looks: &Looks, stype: SpriteType, below: Color) -> Cell<'_> {
         let look = looks.look(stype);
         Cell { text: &self.texts[stype.index()], style: style(look, below, self.ascii) }
     }
 }
 
-/// Returns the cells, row by row. A sprite is drawn in the cell that contains its centre. A large sprite is
-/// drawn in all cells whose centre it covers. The avatar is never covered.
+/// Returns the cells, row by row. A sprite is drawn in the cell that contains its centre, and a large sprite
+/// in all cells whose centres it covers. The avatar is never covered.
 pub(crate) fn cells<'a>(looks: &Looks, signs: &'a Signs, state: &State) -> Vec<Cell<'a>> {
     let game = looks.game();
     let (columns, rows) = (state.size().0.max(1), state.size().1.max(1));
@@ -104,8 +104,8 @@ fn style(look: Look, below: Color, ascii: bool) -> Style {
 }
 
 /// Returns the range of columns or rows, out of `limit`, that a sprite covers. A sprite covers the column or
-/// row that contains its centre. A sprite larger than a cell covers all columns or rows whose centre it
-/// covers.
+/// row that contains its centre. A sprite larger than a cell covers all columns or rows whose centres it
+/// reaches.
 fn covered(from: i32, size: i32, block: i32, limit: i32) -> Range<i32> {
     let middle = from.saturating_add(size / 2).div_euclid(block);
     let first = from.saturating_add(block / 2).div_euclid(block).min(middle);
@@ -115,7 +115,7 @@ fn covered(from: i32, size: i32, block: i32, limit: i32) -> Range<i32> {
     first.clamp(0, limit)..end.clamp(0, limit)
 }
 
-/// Returns a version of the colour that is light enough for a dark background.
+/// Returns the colour, lightened if necessary to stand out on a dark background.
 fn light(Colour(parts): Colour) -> Color {
     let brightest = parts.into_iter().max().unwrap_or(0);
     let lift = 160_u8.saturating_sub(brightest);

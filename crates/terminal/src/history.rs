@@ -1,10 +1,9 @@
-//! An episode in progress, with undo for single ticks.
+//! An episode in progress, in which single ticks can be undone.
 
 use base::Seed;
 use engine::{Action, Episode, Game, Level, State};
 
-/// The number of ticks between two stored states, which is also the maximum number of ticks replayed by an
-/// undo.
+/// The number of ticks between two stored states, and thus the maximum number of ticks that an undo replays.
 const STRIDE: usize = 32;
 
 /// The actions played so far, and the resulting state.
@@ -32,7 +31,7 @@ impl History {
         }
     }
 
-    /// Undoes the last tick, or does nothing at the start. The random state is undone, too, so the same
+    /// Undoes the last tick. Does nothing at the start. The random state is undone as well, so the same
     /// action leads to the same state again.
     pub(crate) fn take_back(&mut self, game: &Game) {
         let Some(ticks) = self.ticks().checked_sub(1) else { return };

@@ -1,8 +1,7 @@
-//! Playing a level in a terminal: by hand, by a planner, or as a replay of a recorded episode.
+//! Playing a level in a terminal: by hand, by a planner, or as the replay of a recorded episode.
 //!
-//! A [`Session`] contains the episode and applies commands, and a [`View`] draws the session. `Session`
-//! and `View` do not use a terminal, a clock or a file. [`play`] connects session and view to the
-//! terminal.
+//! A [`Session`] contains the episode and applies commands, and a [`View`] draws the session. `Session` and
+//! `View` do not use a terminal, a clock or a file. [`play`] connects them to the terminal.
 
 mod board;
 mod history;

@@ -1,4 +1,4 @@
-//! The terminal, which provides keys, displays frames, and is restored afterwards.
+//! The terminal, which reads keys, displays frames, and is restored afterwards.
 
 use super::session::{Command, Session};
 use super::view::{MIN_SIZE, View};
@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// The time to wait for a key if the clock is not running.
 const IDLE: Duration = Duration::from_millis(500);
 
-/// The reason why play is impossible.
+/// The reason why playing is impossible.
 #[derive(Debug, thiserror::Error)]
 pub enum PlayError {
     /// Standard input or standard error is not a terminal.
@@ -30,7 +30,7 @@ pub enum PlayError {
         /// The terminal's number of rows.
         rows: u16,
     },
-    /// A terminal I/O error.
+    /// An I/O error of the terminal.
     #[error("the terminal cannot be used")]
     Io(#[from] std::io::Error),
 }
@@ -52,8 +52,7 @@ pub fn play(session: &mut Session, view: &View) -> Result<(), PlayError> {
     Ok(screen.run(session, view)?)
 }
 
-/// The time since the last tick. Episodes do not depend on this time, because they record ticks and not the
-/// times of ticks.
+/// The time since the last tick. Episodes do not depend on it, because they record ticks rather than times.
 struct Since(Instant);
 
 impl Since {
@@ -63,8 +62,8 @@ impl Since {
     }
 }
 
-/// A terminal in raw mode that shows its alternate screen. The terminal is restored when `Screen` is dropped,
-/// and before a panic is reported.
+/// A terminal in raw mode that shows its alternate screen. It is restored when `Screen` is dropped, and
+/// before a panic is reported.
 struct Screen(Terminal<CrosstermBackend<Stderr>>);
 
 impl Screen {
@@ -74,7 +73,7 @@ impl Screen {
             restore();
             told(panic);
         }));
-        // From here on, a failure drops the screen, which restores the terminal.
+        // From here on, any failure drops the screen, which restores the terminal.
         let screen = Screen(Terminal::new(CrosstermBackend::new(std::io::stderr()))?);
         terminal::enable_raw_mode()?;
         execute!(std::io::stderr(), terminal::EnterAlternateScreen, cursor::Hide)?;

@@ -14,11 +14,11 @@ const PAGE: u16 = 8;
 pub enum Player {
     /// The user at the keyboard.
     Person,
-    /// A planner, which the user watches.
+    /// A planner whose play the user watches.
     Planner {
         /// The planner's name on the screen.
         name: String,
-        /// The planner, which retains its plans from tick to tick.
+        /// The planner, which keeps its plans from tick to tick.
         planner: Box<dyn Planner + Send>,
         /// The budget for each decision.
         budget: Budget,
@@ -34,7 +34,7 @@ pub enum Command {
     Act(Action),
     /// Pauses or resumes the clock.
     Pause,
-    /// Plays one tick, then pauses the clock.
+    /// Plays one tick, and then pauses the clock.
     Step,
     /// Restarts the level.
     Restart,
@@ -44,7 +44,7 @@ pub enum Command {
     Faster,
     /// Decreases the number of ticks per second.
     Slower,
-    /// Switches between waiting for keys and running the clock.
+    /// Switches between turn-based play and a running clock.
     TurnBased,
     /// Scrolls the rules down.
     Down,
@@ -61,7 +61,7 @@ pub struct Session {
     seed: Seed,
     pub(crate) player: Player,
     history: History,
-    /// `true` if a tick is played only when a key chooses an action.
+    /// `true` if ticks are played only when a key chooses an action.
     pub(crate) turn_based: bool,
     pub(crate) paused: bool,
     /// The number of ticks per second while the clock is running.
@@ -103,7 +103,7 @@ impl Session {
         &self.history.episode
     }
 
-    /// Returns `true` if the clock triggers the next tick, instead of a key.
+    /// Returns `true` if the next tick is triggered by the clock rather than by a key.
     #[must_use]
     pub fn runs(&self) -> bool {
         !self.paused && !self.turn_based && !self.is_at_end()
@@ -156,8 +156,8 @@ impl Session {
         }
     }
 
-    /// Plays a tick, if a tick is possible. If the player is a person who has not chosen an action, the
-    /// action is [`Action::Nil`].
+    /// Plays a tick if one is possible. If the player is a person who has not chosen an action, the action is
+    /// [`Action::Nil`].
     pub fn tick(&mut self) {
         if self.is_at_end() {
             return;
@@ -249,7 +249,7 @@ BasicGame
         }
         whole.handle(Command::Undo);
         assert!(whole.episode().actions.is_empty() && whole.episode().hashes.is_empty());
-        // After an undo, playing forwards again gives the same states and an episode that replays.
+        // After an undo, playing forward again gives the same states and an episode that replays.
         (0..100).for_each(|tick| whole.handle(Command::Act(action(tick))));
         assert!(whole.episode().replay(&whole.game, &whole.level).is_ok());
     }

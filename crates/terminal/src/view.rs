@@ -1,4 +1,4 @@
-//! A session's screen: the board, with the resources, the legend and the rules beside it and the keys below
+//! A session's screen: the board, with the resources, the legend and the rules beside it, and the keys below
 //! it.
 
 use super::board::{self, Cell, GROUND, Signs};
@@ -17,7 +17,7 @@ pub(crate) const MIN_SIZE: (u16, u16) = (36, 10);
 /// The minimum and maximum number of columns in the panel beside the board.
 const PANEL: (u16, u16) = (32, 64);
 
-/// The parts of the screen that do not change during a session.
+/// The parts of the screen that stay the same during a session.
 pub struct View {
     looks: Looks,
     signs: Signs,
@@ -27,7 +27,7 @@ pub struct View {
 }
 
 impl View {
-    /// Creates the view for a game with a title. Uses only ASCII symbols if `ascii` is `true`.
+    /// Creates the view of a game with the given title. If `ascii` is `true`, it uses only ASCII symbols.
     #[must_use]
     pub fn new(analysis: &Analysis, title: String, ascii: bool) -> View {
         let looks = Looks::of(analysis);
@@ -56,7 +56,7 @@ impl View {
             self.board(session, frame, tall);
             self.panel(session, frame, right);
         } else {
-            // If there is no room beside the board, the status goes above it, as far as the board leaves space.
+            // If there is no room beside the board, the status goes above it, as far as there is space.
             let status = self.status(session);
             let lines = (status.len() as u16).min(main.height / 3);
             let [top, rest] = Layout::vertical([Constraint::Length(lines), Constraint::Min(1)]).areas(main);
@@ -166,14 +166,14 @@ fn size(session: &Session) -> (u16, u16) {
     (side(columns), side(rows))
 }
 
-/// Styles a line in the rules. Headings are bold.
+/// Styles a line of the rules. Headings are bold.
 fn rule(line: &str) -> Line<'_> {
     let heading = !line.starts_with(' ') && line.ends_with(':');
     let style = if heading { Style::new().add_modifier(Modifier::BOLD) } else { Style::new() };
     Line::styled(line, style)
 }
 
-/// Returns a text about the player and the timing of the next tick.
+/// Returns a text that describes the player and what triggers the next tick.
 fn manner(session: &Session) -> String {
     let ticks = session.episode().actions.len();
     let who = match &session.player {
@@ -245,7 +245,7 @@ BasicGame
         (Session::begin((game, level), Seed::from_text("view"), Player::Person, true, 8), view)
     }
 
-    /// Draws the view on a terminal of this size, and returns the text.
+    /// Draws the view on a terminal of the given size, and returns the text.
     fn drawn((session, view): &(Session, View), (width, height): (u16, u16)) -> String {
         let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
         terminal.draw(|frame| view.draw(session, frame)).unwrap();

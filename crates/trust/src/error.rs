@@ -18,18 +18,18 @@ pub enum TrustError {
         /// The file system's error.
         source: io::Error,
     },
-    /// A text is not a key.
+    /// The text is not a key.
     #[error("{0}")]
     Key(String),
-    /// A document is malformed.
+    /// The document is malformed.
     #[error("`{place}`: {fault}")]
     Document {
         /// The document's name.
         place: String,
-        /// A sentence about the fault, with the recommended next step.
+        /// A sentence that describes the fault and the recommended next step.
         fault: String,
     },
-    /// A request cannot be fulfilled.
+    /// The request was rejected.
     #[error("{0}")]
     Refused(String),
 }

@@ -8,11 +8,11 @@ use std::io::Cursor;
 /// The maximum size of a key or signature file, in bytes.
 pub const MAX_KEY_FILE: u64 = 4096;
 
-/// A public key for verifying signatures.
+/// A public key, which verifies signatures.
 #[derive(Clone, PartialEq, Eq)]
 pub struct PublicKey(minisign::PublicKey);
 
-/// A decrypted secret key for signing.
+/// A decrypted secret key, which signs messages.
 #[derive(Clone)]
 pub struct SecretKey(minisign::SecretKey);
 
@@ -43,7 +43,7 @@ pub fn generate(password: Option<&str>) -> Result<NewKey, TrustError> {
 }
 
 impl PublicKey {
-    /// Parses a public key file's content, or only its base64 line.
+    /// Parses the content of a public key file, or just its base64 line.
     ///
     /// # Errors
     /// Returns an error if the text is not a minisign public key.
@@ -68,7 +68,7 @@ impl PublicKey {
         id(self.0.keynum())
     }
 
-    /// Returns the public key file's base64 line.
+    /// Returns the base64 line of the public key file.
     pub fn to_base64(&self) -> String {
         self.0.to_base64()
     }
@@ -78,10 +78,10 @@ impl PublicKey {
         format!("untrusted comment: minisign public key {}\n{}\n", self.id(), self.to_base64())
     }
 
-    /// Checks a message's minisign signature, and returns the signature's trusted comment.
+    /// Verifies a message's minisign signature, and returns the signature's trusted comment.
     ///
     /// # Errors
-    /// Returns a sentence about the fault.
+    /// Returns a sentence that describes the fault.
     pub fn verify(&self, message: &[u8], signature: &str) -> Result<String, String> {
         let found = parse_signature(signature)?;
         minisign::verify(&self.0, &found, Cursor::new(message), true, false, false)
@@ -111,7 +111,7 @@ impl fmt::Debug for PublicKey {
 const NOT_PUBLIC: &str = "not a minisign public key: use the file `NAME.pub` that `arcade trust keygen` or \
                           `minisign -G` wrote";
 
-/// Parses a signature. Only one textual form is accepted for each signature.
+/// Parses a signature. Accepts only one textual form of each signature.
 fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     if text.len() as u64 > MAX_KEY_FILE {
         return Err("it is not a minisign signature: the text is too long".to_owned());
@@ -124,7 +124,7 @@ fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     }
 }
 
-/// Returns the identifier of the key named by a signature, without checking the signature.
+/// Returns the identifier of the key that a signature names, without verifying the signature.
 pub(crate) fn signer_of(signature: &str) -> Option<String> {
     parse_signature(signature).ok().map(|found| id(found.keynum()))
 }
@@ -136,7 +136,7 @@ fn id(keynum: &[u8]) -> String {
 /// Returns `true` if a secret file's content is encrypted.
 ///
 /// # Errors
-/// Returns an error if the content does not come from a secret key file.
+/// Returns an error if the content is not that of a secret key file.
 pub fn is_encrypted(secret_file: &str) -> Result<bool, TrustError> {
     let bytes = secret_bytes(secret_file)?;
     Ok(bytes[2..4] == *b"Sc")
@@ -166,7 +166,7 @@ impl SecretKey {
     /// Decrypts a secret key from its file's content.
     ///
     /// # Errors
-    /// Returns an error if the content does not come from a secret key file, if the key is encrypted and no
+    /// Returns an error if the content is not that of a secret key file, if the key is encrypted and no
     /// password is given, or if the password is wrong.
     pub fn open(secret_file: &str, password: Option<&str>) -> Result<SecretKey, TrustError> {
         let bytes = secret_bytes(secret_file)?;

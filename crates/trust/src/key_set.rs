@@ -2,8 +2,8 @@
 //! revoked.
 //!
 //! A set is stored in a file `keys-N.json` of canonical JSON. Each set contains the digest of the previous
-//! set, and must be signed by sufficiently many keys from both sets. Therefore, a reader who trusts one set
-//! can verify all later sets.
+//! set, and must be signed by sufficiently many keys from both sets. A reader who trusts one set can
+//! therefore verify all later sets.
 
 use crate::error::TrustError;
 use crate::key::PublicKey;
@@ -100,7 +100,7 @@ impl KeySet {
         Ok(set)
     }
 
-    /// Checks the set's values, and returns a sentence about the first fault.
+    /// Checks the set's values. Returns an error that describes the first fault.
     fn check(&self) -> Result<(), String> {
         if self.format != FORMAT {
             return Err(format!("has format {}; this arcade reads format {FORMAT}", self.format));
@@ -148,7 +148,7 @@ impl KeySet {
         Ok(())
     }
 
-    /// Returns the bytes of the set's file. These bytes are signed.
+    /// Returns the bytes of the set's file. Signatures cover these bytes.
     ///
     /// # Errors
     /// Never returns an error for a set parsed or created by this module.
@@ -171,7 +171,7 @@ impl KeySet {
     }
 
     /// Returns the names of this set's keys that have signed a message. Each key counts once. Also returns
-    /// the faults in invalid signatures that name a key from this set.
+    /// the faults in invalid signatures by keys from this set.
     pub fn signers(&self, message: &[u8], signatures: &[String]) -> Signers {
         let mut signers = Signers::default();
         for NamedKey { name, key } in &self.keys {
@@ -209,7 +209,7 @@ impl KeySet {
     /// `next`.
     ///
     /// # Errors
-    /// Returns the reasons why the set may not follow.
+    /// Returns the reasons why `next` may not follow.
     pub fn admits(&self, next: &KeySet, signatures: &[String]) -> Result<(), Vec<String>> {
         let mut problems = Vec::new();
         let place = next.file();
@@ -240,7 +240,7 @@ impl KeySet {
     }
 }
 
-/// The result of checking all of a message's signatures.
+/// The result of checking all signatures for a message.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Signers {
     /// The names of the keys with valid signatures.

@@ -21,7 +21,7 @@ const MAX_DOCUMENT: u64 = 1 << 16;
 /// The file name suffix of signature files.
 const SIGNATURE_END: &str = ".minisig";
 
-/// A root of trust, which a user must obtain from a different source than the signed documents.
+/// A root of trust, which a user must obtain from elsewhere than the signed documents.
 #[derive(Clone, Debug)]
 pub enum Anchor {
     /// A single key, which must sign every release.
@@ -31,7 +31,7 @@ pub enum Anchor {
 }
 
 impl Anchor {
-    /// Parses a public key or a key set.
+    /// Parses an anchor: a public key or a key set.
     ///
     /// # Errors
     /// Returns an error if the bytes are neither a public key nor a key set.
@@ -61,18 +61,17 @@ impl Anchor {
 /// The result of checking a root's signatures.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Signed {
-    /// The names of the signing keys, or the identifier of a single key.
+    /// The names of the signing keys, or the identifier if the anchor is a single key.
     pub signers: Vec<String>,
     /// The number of keys that must sign.
     pub threshold: u32,
-    /// The number of the newest trusted key set, if the anchor is a set.
+    /// The version number of the newest trusted key set, if the anchor is a set.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keys: Option<u32>,
     /// The source code commit, as stated in the signed statement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The digest of `Cargo.lock`, as stated in the signed statement. `Cargo.lock` is not covered by any
-    /// root.
+    /// The digest of `Cargo.lock`, as stated in the signed statement. No root covers `Cargo.lock`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lockfile: Option<Digest>,
     /// The reasons why the root is not signed as required, or an empty list.
@@ -114,8 +113,8 @@ impl Signatures {
             let path = folder.join(&name);
             let bytes = read_bounded(&path, MAX_DOCUMENT)?;
             if let Some(signed) = name.strip_suffix(SIGNATURE_END) {
-                // Names of signature files have the form NAME.json.IDENTIFIER.minisig, or the form
-                // NAME.json.minisig that minisign uses.
+                // Signature files are named NAME.json.IDENTIFIER.minisig, or NAME.json.minisig as minisign
+                // does.
                 let end = signed.find(".json").map_or(signed.len(), |at| at + ".json".len());
                 let text = String::from_utf8_lossy(&bytes).into_owned();
                 found.signatures.entry(signed[..end].to_owned()).or_default().push(text);
@@ -130,8 +129,8 @@ impl Signatures {
         Ok(found)
     }
 
-    /// Returns the files for all key sets up to the number `newest`, with their signatures. The files are in
-    /// a suitable order for copying, because each set comes after its signatures.
+    /// Returns the files for all key sets up to the number `newest`, with their signatures. The order is safe
+    /// for copying, because each set comes after its signatures.
     ///
     /// # Errors
     /// Returns an error if the folder or a file cannot be read.
@@ -162,7 +161,8 @@ impl Signatures {
         self.signatures.get(file).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the key set with the given number. The set is not trusted, because anyone may have written it.
+    /// Returns the key set with the given number. The set must not be trusted as it is, because anyone may
+    /// have written it.
     pub fn set(&self, version: u32) -> Option<&KeySet> {
         self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
     }
@@ -202,7 +202,7 @@ impl Signatures {
         (set.version == version && set.digest().ok()? == digest).then_some(set)
     }
 
-    /// Checks whether a release's root is signed as required by the given anchor.
+    /// Checks that a release's root is signed as the given anchor requires.
     pub fn judge(&self, release: &str, root: &Digest, anchor: &Anchor) -> Signed {
         let mut faults = Vec::new();
         let mut best: Option<Signed> = None;
@@ -246,7 +246,7 @@ impl Signatures {
         most.map(|(_, statement)| Ok(Digest::of(&statement.to_bytes()?))).transpose()
     }
 
-    /// Checks a single statement in the folder, in the same way as [`Signatures::judge`].
+    /// Checks a single statement in the folder, in the way that [`Signatures::judge`] does.
     pub fn judge_file(&self, file: &str, anchor: &Anchor) -> Signed {
         match self.statements.get(file) {
             Some(Ok(statement)) => self.judge_statement(file, statement, anchor),
@@ -350,10 +350,10 @@ fn single(key: &PublicKey) -> KeySet {
     KeySet { format: 1, version: 1, threshold: 1, keys, revoked: Vec::new(), previous: None }
 }
 
-/// Signs a document with each of the keys, and writes the document to a folder. Returns the names of the
-/// written files.
+/// Signs a document with each of the keys, and writes the document and its signatures to a folder. Returns
+/// the names of the written files.
 ///
-/// The signatures are written before the document. Therefore, an existing document has all signatures from
+/// The signatures are written before the document. A document that exists therefore has all signatures from
 /// the run that wrote it. Existing valid signatures are kept.
 ///
 /// # Errors

@@ -77,7 +77,7 @@ impl Statement {
         }
     }
 
-    /// Returns the bytes of the statement's file. These bytes are signed.
+    /// Returns the bytes of the statement's file. Signatures cover these bytes.
     ///
     /// # Errors
     /// Never returns an error, because a statement is plain data.
@@ -86,8 +86,8 @@ impl Statement {
         Ok(text.into_bytes())
     }
 
-    /// Returns the name of the statement's file, which includes the statement's digest. Therefore, different
-    /// statements have different files, and a signature cannot be mistaken for that of a different statement.
+    /// Returns the name of the statement's file, which includes the statement's digest. Distinct statements
+    /// therefore have distinct files, and a signature cannot be mistaken for another statement's.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`Statement::to_bytes`].

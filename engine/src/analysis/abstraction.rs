@@ -1,5 +1,4 @@
-//! State abstractions: parts of the state that a search can ignore when it compares the successors of a
-//! state.
+//! State abstractions, which state the parts of a state that a search can ignore when it compares successors.
 
 use super::Analysis;
 use super::futures::PossibleFutures;
@@ -14,9 +13,10 @@ use crate::world::SearchKey;
 
 /// The state abstraction for a search that starts from one state, the root state.
 ///
-/// In addition to the parts that [`State::search_key`] omits, the key omits
-/// - sprites of types that nothing changes, creates or removes, because they are the same in all successors;
-/// - the order of sprites of one type, and their orientation, if the rules cannot distinguish them;
+/// In addition to the parts that [`State::search_key`] omits, the key omits:
+/// - sprites of types that nothing changes, creates or removes, because these sprites are the same in all
+///   successors;
+/// - the order of a type's sprites, and their orientation, if the rules cannot distinguish them;
 /// - the random state, if it has no effect after the root state;
 /// - the phases of spawners that can no longer appear;
 /// - the tick, if only a losing Timeout reads it: see [`StateAbstraction::earlier_is_better`].
@@ -35,9 +35,9 @@ pub struct StateAbstraction {
 
 impl StateAbstraction {
     /// Returns `true` if keys omit the tick even though the game can be lost by reaching some tick. In that
-    /// case, if two states have the same key and the later state can win, the earlier state can win, too. A
-    /// search that visits states in tick order, such as breadth-first search, loses nothing by dropping the
-    /// later state.
+    /// case, if two states have the same key and the later state can be won, so can the earlier one. A search
+    /// that visits states in tick order, such as breadth-first search, therefore loses nothing by dropping
+    /// the later state.
     pub fn earlier_is_better(&self) -> bool {
         self.earlier_is_better
     }
@@ -68,7 +68,7 @@ impl StateAbstraction {
         state.key_left_out(&analysis.game.0, self)
     }
 
-    /// Returns the 64-bit words that [`StateAbstraction::key`] hashes, for the detection of hash collisions.
+    /// Returns the 64-bit words that [`StateAbstraction::key`] hashes, for detecting hash collisions.
     pub fn words(&self, analysis: &Analysis, state: &State) -> Vec<u64> {
         state.words_left_out(&analysis.game.0, self)
     }

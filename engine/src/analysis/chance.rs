@@ -1,7 +1,7 @@
 //! Proofs that randomness has no effect: no draw with an uncertain outcome can ever occur.
 //!
 //! A draw with a certain outcome only advances the generator. Examples are the draws of a SpawnPoint with
-//! `prob=1` and of a Spreader with `spreadprob=1`. A PathChaser and a PathAltChaser draw only while they have
+//! `prob=1` and of a Spreader with `spreadprob=1`. PathChasers and PathAltChasers draw only while they have
 //! no target (`spec/02` §7), so their draws have no effect if a target always exists.
 
 use super::Analysis;
@@ -36,7 +36,7 @@ impl Analysis {
     /// Returns `true` only if randomness provably has no effect in a level. Cost: starting the level, and one
     /// call of [`Analysis::is_deterministic_from`].
     pub fn is_deterministic_in(&self, level: &Level) -> bool {
-        // The start draws no random numbers.
+        // Starting a level draws no random numbers.
         self.is_deterministic() || self.is_deterministic_from(&self.game.start(level, Seed::from_text("any")))
     }
 
@@ -61,7 +61,7 @@ pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<
 }
 
 /// The maximum number of target types to examine, and the maximum number of rounds per examination. Beyond
-/// these limits, no proof is found.
+/// these limits, the search for a proof gives up.
 const MAX_TARGETS: usize = 16;
 const MAX_ROUNDS: usize = 16;
 
@@ -70,7 +70,7 @@ fn is_open(prob: f64) -> bool {
     prob > 0.0 && prob < 1.0
 }
 
-/// The possible futures of a state, or of any level.
+/// The possible futures of a state, or of the start of any level.
 #[derive(Clone, Copy)]
 struct Outlook<'a> {
     rules: &'a Rules,
@@ -88,7 +88,7 @@ impl<'a> Outlook<'a> {
         self.rules.types.get(stype.index()).map_or(&[], |info| &info.tree)
     }
 
-    /// Returns the executable effects, with the types of their two sides as written.
+    /// Returns the effects that can run, with the types of their two sides as written.
     fn effects(self) -> impl Iterator<Item = (Option<SpriteType>, Option<SpriteType>, &'a Summary)> {
         let summary = move |effect: u16| &*self.rules.effects[usize::from(effect)].summary;
         let met = self.futures.encounters().iter().zip(&self.futures.live).filter(|(_, live)| **live);
@@ -124,7 +124,7 @@ impl<'a> Outlook<'a> {
             (C::PathAltChaser | C::RandomPathAltChaser, _) => {
                 let strays = class == C::RandomPathAltChaser && traits.epsilon > 0.0;
                 targets.extend(&traits.stypes);
-                // The sprite draws one of several types, or one of several targets.
+                // The sprite draws randomly among several types or targets.
                 strays || traits.random_target || traits.stypes.len() != 1
             }
             (_, Family::Npc | Family::Walker) => true,
@@ -192,9 +192,9 @@ impl<'a> Outlook<'a> {
     }
 
     /// Returns `true` only if a sprite of the type or of its relatives exists whenever sprites are updated.
-    /// Such a sprite must exist now. Sprites of the type must either stay, or end the game when the last of
-    /// them is removed. Sprites are removed only after the updates of a tick, just before terminations are
-    /// checked.
+    /// Such a sprite must exist now. Its type's sprites must either stay, or end the game when the last of
+    /// them is removed. This suffices because sprites are removed only after a tick's updates, just before
+    /// terminations are checked.
     fn is_always_there(&self, stype: SpriteType) -> bool {
         let family = self.tree(stype);
         let lasting = self.lasting(family);
@@ -202,7 +202,7 @@ impl<'a> Outlook<'a> {
             || self.ends_without(family) && self.is_there_now(&|one| family.contains(&one))
     }
 
-    /// Returns `true` only if a sprite of a type accepted by `fits` exists now or, without a state, at the
+    /// Returns `true` only if a sprite of a type that `fits` accepts exists now or, without a state, at the
     /// start of any level.
     fn is_there_now(&self, fits: &dyn Fn(SpriteType) -> bool) -> bool {
         let mut types = (0u16..).map(SpriteType).take(self.rules.types.len());

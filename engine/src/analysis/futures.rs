@@ -7,8 +7,8 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};
 
-/// An over-approximation of the possible sprites, resources and interactions from some start. The
-/// over-approximation assumes that any two possible types can collide.
+/// An over-approximation of the sprites, resources and interactions that are possible from some start. It
+/// assumes that any two possible types can collide.
 #[derive(Clone, Debug)]
 pub(super) struct PossibleFutures<'a> {
     rules: &'a Rules,
@@ -25,9 +25,10 @@ pub(super) struct PossibleFutures<'a> {
     pub(super) live: Vec<bool>,
     /// For each timed effect, whether the effect is or can be scheduled.
     pub(super) timed: Vec<bool>,
-    /// For each type, whether sprites of the type or a relative can exist, so that rules on the type apply.
+    /// For each type, whether sprites of the type or of a related type can exist, so that rules on the type
+    /// can apply.
     applicable: Vec<bool>,
-    /// For each type, whether the amount held as a resource can exceed its limit.
+    /// For each type, whether sprites can hold more of it as a resource than its limit.
     unlimited: Vec<bool>,
 }
 
@@ -36,8 +37,7 @@ pub(super) struct PossibleFutures<'a> {
 pub(super) struct Start {
     /// The types with existing sprites.
     pub(super) existing: Vec<SpriteType>,
-    /// The types that existing sprites create, in addition to the types that follow from the sprites' own
-    /// types.
+    /// The types that existing sprites create beyond those that follow from the sprites' own types.
     pub(super) making: Vec<SpriteType>,
     /// The scheduled timed effects.
     pub(super) scheduled: Vec<u16>,
@@ -181,7 +181,7 @@ impl<'a> PossibleFutures<'a> {
     }
 
     /// Records that a sprite can hold this amount of a resource, if the resource's limit allows it. Returns
-    /// `true` if the record is new.
+    /// `true` if this was not known before.
     fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
         let fits = resource != SpriteType::NONE && self.is_within(resource, amount);
         let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };
@@ -221,7 +221,7 @@ impl<'a> PossibleFutures<'a> {
     }
 
     /// Returns `true` if sprites of a type leave behind sprites of type 0, regardless of their parameters.
-    /// All sprites of such a type do so, except the first.
+    /// All sprites of such a type except the first do so.
     fn leaves_walls(&self, stype: usize) -> bool {
         self.rules.types[stype].class == Some(SpriteClass::OngoingTurningAvatar) && self.made[stype]
     }
@@ -229,7 +229,8 @@ impl<'a> PossibleFutures<'a> {
     /// Returns the resource that an avatar needs to create sprites of its `kind`-th type.
     fn ammo(&self, maker: usize, kind: usize) -> Option<SpriteType> {
         let traits = &self.rules.types[maker].traits;
-        // Facts leave out undeclared types, so the lists of made types and of ammunition do not match if there is one.
+        // The type facts omit undeclared types, so if there is one, the lists of created types and of
+        // ammunition do not correspond.
         let matched = !traits.stypes.contains(&SpriteType::NONE);
         traits.ammo.get(kind).copied().filter(|&ammo| matched && ammo != SpriteType::NONE)
     }
@@ -254,7 +255,7 @@ impl<'a> PossibleFutures<'a> {
     }
 }
 
-/// Returns, for each type, whether some rule or the use as ammunition can give the type as a resource
+/// Returns, for each type, whether some rule, or its use as ammunition, can give the type as a resource
 /// regardless of its limit.
 pub(super) fn unlimited(rules: &Rules) -> Vec<bool> {
     let mut unlimited = vec![false; rules.types.len()];

@@ -1,11 +1,12 @@
 //! Static analysis of a game's rules, derived once from the compiled rules and shared by all generators,
-//! validators and texts.
+//! validators and text writers.
 //!
-//! The analysis never runs the game. The analysis covers:
+//! The analysis never runs the game. It covers:
 //!
 //! - the winning and losing terminations
-//! - the types that block, harm, open, transform, create or push other types, or can be collected
-//! - the resources, and the amounts needed
+//! - the types that block, harm, open, transform, create or push other types, and the types that can be
+//!   collected
+//! - the resources, and the amounts that the rules require
 //! - the [`Role`] of every type
 //!
 //! A rule on a parent type also applies to all its subtypes. Every result of the analysis takes this into
@@ -73,8 +74,8 @@ pub struct Analysis {
 
 impl Analysis {
     /// Analyses a game. Cost: O(types × types + interactions × relatives) with a factor of
-    /// [`MAX_RULES_PER_PAIR`]. The analysis takes well below a millisecond for typical games, and some tenths
-    /// of a second for the largest games that compile.
+    /// [`MAX_RULES_PER_PAIR`]. It takes well below a millisecond for typical games, and some tenths of a
+    /// second for the largest games that compile.
     pub fn of(game: &Game) -> Analysis {
         let rules = &*game.0;
         let encounters = interactions::encounter::encounters(rules);
@@ -157,9 +158,9 @@ impl Analysis {
         })
     }
 
-    /// Returns a sign's direction as a unit vector. A sign is a motionless type with an orientation that
-    /// turns the sprites that touch it, for example into its own direction. Rules may also turn the sign
-    /// itself. Cost: O(encounters).
+    /// Returns a sign's direction as a unit vector. A sign is a motionless, oriented type that turns the
+    /// sprites that touch it, for example into its own direction. Rules may also turn the sign itself. Cost:
+    /// O(encounters).
     pub fn sign(&self, stype: SpriteType) -> Option<Direction> {
         let traits = &self.game.0.types[stype.index()].traits;
         let faces = traits.is_oriented && traits.orientation != Direction::NONE;
@@ -206,9 +207,9 @@ impl Analysis {
         self.game.sprite_types().filter(move |&stype| self.role(stype) == role && self.facts(stype).possible)
     }
 
-    /// Returns `false` only if no level can ever contain a sprite of the type, as proved from the rules.
-    /// Unlike [`Facts::possible`], the result also covers levels that use `w` or `A` although the game does
-    /// not use that character.
+    /// Returns `false` only if the rules prove that no level can ever contain a sprite of the type. Unlike
+    /// [`Facts::possible`], the result also covers levels that use `w` or `A` although the game does not use
+    /// that character.
     pub fn can_exist(&self, stype: SpriteType) -> bool {
         self.exists[stype.index()]
     }
@@ -220,7 +221,7 @@ impl Analysis {
     }
 
     /// Returns the avatar at the start of episodes, or `None` if no level contains an avatar. If levels can
-    /// place several avatars, returns the first avatar.
+    /// place several avatar types, returns the first one.
     pub fn start_avatar(&self) -> Option<&Avatar> {
         self.avatars.first().filter(|avatar| avatar.starts)
     }
@@ -245,8 +246,8 @@ impl Analysis {
         self.source[stype.index()]
     }
 
-    /// Returns `true` if a sprite of `obstacle` blocks a sprite of `mover`: either the blocked sprite or
-    /// every sprite moves back. Cost: O(encounters).
+    /// Returns `true` if a sprite of `obstacle` blocks a sprite of `mover`: that is, the blocked sprite, or
+    /// every sprite, moves back. Cost: O(encounters).
     pub fn blocks(&self, obstacle: SpriteType, mover: SpriteType) -> bool {
         let undone = |encounter: &Encounter| {
             encounter.does(|effect| matches!(effect, EffectSummary::Undo(spare) if !spare.contains(&mover)))
@@ -273,7 +274,7 @@ impl Analysis {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }
 
-    /// Returns the type and direction of the sprites that a maker launches, if they move in a straight line.
+    /// Returns the type and direction of the sprites that a type launches, if they move in a straight line.
     pub fn launches(&self, maker: SpriteType) -> Option<(SpriteType, Direction)> {
         let made = *self.facts(maker).makes.first()?;
         let Motion::Straight(own) = self.facts(made).motion else { return None };
@@ -289,7 +290,7 @@ impl Analysis {
         (!unset(direction)).then_some((made, direction))
     }
 
-    /// Returns the types that avatars push.
+    /// Returns the types that avatars can push.
     pub fn pushables(&self) -> &[Pushable] {
         &self.pushables
     }
@@ -307,7 +308,7 @@ impl Analysis {
             || timed.iter().any(|(_, effects)| effects.iter().any(&wanted))
     }
 
-    /// Returns `true` if some rule, or use as ammunition, gives a resource regardless of its limit. Cost:
+    /// Returns `true` if some rule, or its use as ammunition, gives a resource regardless of its limit. Cost:
     /// O(interactions).
     pub fn can_exceed_limit(&self, resource: SpriteType) -> bool {
         futures::unlimited(&self.game.0)[resource.index()]
@@ -323,13 +324,13 @@ impl Analysis {
         &self.requirements
     }
 
-    /// Returns `true` if any effect is timed, either from the start or after some interaction.
+    /// Returns `true` if any effect is timed, whether scheduled from the start or by an interaction.
     pub fn has_timed_effects(&self) -> bool {
         !self.game.0.timed.is_empty()
     }
 
-    /// Returns `true` if the arrow keys move sprites of an avatar type from cell to cell: four ways or along a line,
-    /// with grid physics, one whole cell per step.
+    /// Returns `true` if the arrow keys move sprites of an avatar type from cell to cell: in four directions
+    /// or along a line, with grid physics, one whole cell per step.
     pub fn moves_by_whole_cells(&self, avatar: SpriteType) -> bool {
         let traits = &self.game.0.types[avatar.index()].traits;
         let avatar = self.avatars.iter().find(|known| known.stype == avatar);
@@ -343,7 +344,7 @@ impl Analysis {
         let idle = |stype: SpriteType| {
             let facts = self.facts(stype);
             !facts.possible
-                // If levels place such a sprite, it is not always a shot.
+                // A sprite that levels can place is not always a shot.
                 || self.role(stype) == Role::Shot && facts.symbols.is_empty()
                 || match facts.motion {
                     Motion::Still => facts.makes.is_empty() && !self.is_set_off(stype),
@@ -357,13 +358,13 @@ impl Analysis {
         if self.changes_at_rest() {
             return false;
         }
-        // Timed effects that are scheduled from the start also change things without an action of the player.
+        // Timed effects that are scheduled from the start also change things without player action.
         let clock = self.game.0.timed.iter().any(|timed| timed.first_due.is_some());
         !clock && self.game.sprite_types().all(idle)
     }
 
-    /// Returns `true` if sprites that overlap when a level starts, or extend into the next cell, may change
-    /// after the first tick although no sprite moves.
+    /// Returns `true` if sprites may change after the first tick although no sprite moves, because they
+    /// overlap when a level starts or extend into the next cell.
     fn changes_at_rest(&self) -> bool {
         let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
         let lie_together = |encounter: &Encounter, stack: &[SpriteType]| {
@@ -398,7 +399,7 @@ impl Analysis {
             let is_near = is_large(encounter.first) || encounter.second.is_some_and(is_large);
             is_near && (repeats(encounter) || !becomes(encounter).is_empty())
         };
-        // The sprites that result from the first tick take part in other rules.
+        // Sprites that result from the first tick take part in further rules.
         let within = |stack: &[SpriteType]| {
             let first = || self.encounters.iter().filter(|encounter| lie_together(encounter, stack));
             let next = [stack.to_vec(), first().flat_map(becomes).collect()].concat();

@@ -33,7 +33,7 @@ impl Analysis {
         let rules = &*self.game.0;
         let existing: Vec<SpriteType> =
             self.game.sprite_types().filter(|&stype| state.world.group(stype).count > 0).collect();
-        // A rule may have made a spawn point's sprite spawn a different type.
+        // A rule may have changed the type that a spawn point's sprite spawns.
         let spawning = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
         let spawners = existing.iter().filter(|stype| rules.types[stype.index()].class.is_some_and(spawning));
         let making = spawners

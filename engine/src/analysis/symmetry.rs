@@ -12,8 +12,8 @@ impl Analysis {
     /// Returns, for each type, whether exchanging two of its sprites changes nothing but their identity.
     ///
     /// Sprites of a type are interchangeable under three conditions. Each sprite's update affects only that
-    /// sprite. Nothing searches for the nearest sprite of the type. Every rule that involves the type gives
-    /// the same result regardless of the order in which it processes the sprites.
+    /// sprite; nothing searches for the nearest sprite of the type; and every rule that involves the type
+    /// gives the same result whatever the order in which it processes the sprites.
     pub(super) fn interchangeable(&self) -> Vec<bool> {
         let rules = &*self.game.0;
         let types = rules.types.len();
@@ -54,8 +54,8 @@ impl Analysis {
                 };
             }
         }
-        // A type that turns into sprites whose order matters creates them in its own order, so that this order matters,
-        // too.
+        // If a type turns into sprites whose order matters, it creates them in its own order, so its order
+        // matters, too.
         loop {
             let mut changed = false;
             for encounter in &self.encounters {
@@ -151,8 +151,8 @@ fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
     encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
 }
 
-/// Returns `true` if an effect has a certain property in an interaction. `property` is the condition for
-/// having it.
+/// Returns `true` if an effect has a certain property in an interaction. `property` is the condition for the
+/// property.
 fn holds(property: Provided, rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     let provided = match property {
         Provided::Never => false,

@@ -1,6 +1,6 @@
 //! The taxonomy of games: time, space and genre, derived from the rules alone.
 //!
-//! Every term has exactly one definition. Names do not matter: a game with renamed sprites has the same
+//! Every term has exactly one definition. Names do not matter: renaming a game's sprites does not change its
 //! taxonomy.
 
 use super::Analysis;
@@ -26,8 +26,8 @@ const MANY: i32 = 3;
 pub struct Taxonomy {
     /// The game's pace: turn-based or real-time.
     pub time: Time,
-    /// The player's greatest spatial freedom across all avatar types that can occur, compared in variant
-    /// order.
+    /// The greatest spatial freedom that any possible avatar type gives the player, in the order of the
+    /// variants.
     pub spatiality: Spatiality,
     /// The genres, starting with the main genre. Empty if no genre fits.
     pub genres: Vec<Genre>,
@@ -40,8 +40,8 @@ pub struct Taxonomy {
 base::named_enum! {
     /// The game's pace: turn-based or real-time.
     pub enum Time {
-        /// Nothing moves, appears or disappears unless the player acts. Exceptions are short effects of an
-        /// action (a shot, a puff of smoke), sprites without rules, and a limit on the number of ticks.
+        /// Nothing moves, appears or disappears unless the player acts. Exceptions are short-lived effects of
+        /// an action (a shot, a puff of smoke), sprites without rules, and a limit on the number of ticks.
         TurnBased = "turn-based",
         /// Something changes without an action by the player.
         RealTime = "real-time",
@@ -88,7 +88,7 @@ base::named_enum! {
         /// The avatar must collect motionless sprites: all sprites of a type, or many of a resource that an
         /// exit requires.
         Collect = "collect",
-        /// A lock must be opened, and its key must be found.
+        /// A lock must be opened, for which a key must be found.
         Adventure = "adventure",
         /// Touching an exit wins: a door, something that is dangerous to touch, or the only type that must be
         /// touched while other types merely give points.
@@ -235,8 +235,8 @@ impl Analysis {
     }
 
     /// Returns `true` if the game depends on who reaches something first. In such a game, a type that moves
-    /// by itself loses the game by touching the type that the avatar must touch to win. Alternatively, a
-    /// touch by the moving type can cause either result.
+    /// by itself loses the game by touching the type that the avatar must touch to win. Alternatively, the
+    /// moving type's touch can cause either result.
     fn is_race(&self) -> bool {
         let (wins, losses) = (&self.aims.create, &self.aims.prevent);
         let runs = |stype: &SpriteType| {

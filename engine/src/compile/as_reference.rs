@@ -82,9 +82,9 @@ pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, D
 
 /// The result of reading a line in reference mode.
 struct Usable {
-    /// The line with the partners before the first rejected partner, or `None` if no partner is left.
+    /// The line with only the partners before the first rejected one, or `None` if no partner is left.
     line: Option<InteractionLine>,
-    /// The number of messages that the reference logs about parameters.
+    /// The number of messages about parameters that the reference logs.
     messages: u32,
     /// `true` if the reference stops reading at this line.
     aborts: bool,

@@ -1,4 +1,4 @@
-//! A game's rules as plain clauses, for comparing games: names are resolved, inherited values are included,
+//! A game's rules as plain clauses, for comparing games. Names are resolved, inherited values are included,
 //! and default values are omitted.
 
 use super::Names;
@@ -18,7 +18,7 @@ use crate::syntax::{InteractionLine, Param, Word};
 pub enum Term {
     /// `True` or `False`.
     Flag(bool),
-    /// A number, either an integer or not.
+    /// A number, which may be an integer or a float.
     Number(f64),
     /// A list with one number per counter in the game.
     Numbers(Vec<f64>),
@@ -95,7 +95,7 @@ pub struct TerminationClause {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clauses {
     /// The parameters of the whole game. The cell size in pixels is included only for games with continuous
-    /// physics, which measures distances in pixels.
+    /// physics, because it measures distances in pixels.
     pub header: Terms,
     /// The sprite types' clauses, by type.
     pub types: Vec<TypeClause>,
@@ -174,7 +174,7 @@ fn type_clause(rules: &Rules, stype: SpriteType, info: &TypeInfo) -> TypeClause 
         macro_rules! fields {
             ($($field:ident)*) => { $(note(&mut terms, stringify!($field), own.$field, default.$field);)* };
         }
-        // These are all fields except image fields and fields that the class determines.
+        // These are all fields except those for images and those that the class determines.
         fields! {
             speed cooldown orientation is_oriented rotate_in_place is_static only_active stationary solid width_factor
             height_factor health max_health limit_health time_to_live portal is_npc is_from_avatar last_move is_first_tick
@@ -313,7 +313,7 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// Returns the parameter with this name. If several parameters have this name, returns the last one.
+    /// Returns the parameter with this name. If the name is duplicated, returns the last parameter.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }

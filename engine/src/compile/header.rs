@@ -76,7 +76,7 @@ impl Header {
     }
 }
 
-/// Returns the problem with a feature that neither policy supports.
+/// Returns the diagnostic for a feature that neither policy supports.
 fn unsupported(param: &Param, message: String) -> Diagnostic {
     let problem = Diagnostic::error("unsupported", param.span(), message);
     problem.help(format!("remove `{}`", param.key.text)).remove(param.span(), &param.key.text)

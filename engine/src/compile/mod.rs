@@ -1,5 +1,5 @@
-//! Compiles a syntax tree into rules: resolves names, checks parameter types, and lays out interactions as a flat
-//! program.
+//! Compiles a syntax tree into rules: resolves names, checks parameter types, and flattens interactions into
+//! a program.
 
 mod as_reference;
 mod clauses;
@@ -35,7 +35,7 @@ use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-/// The handling of faults.
+/// The way in which faults are handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Policy {
     /// Strict mode: faults are errors.
@@ -44,7 +44,7 @@ enum Policy {
     Reference,
 }
 
-/// The context for reading all lines after the first line.
+/// The context for reading the lines after the first.
 #[derive(Clone, Copy, Debug)]
 struct Setting {
     policy: Policy,
@@ -118,8 +118,8 @@ fn compile_with(
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
     let referenced = referenced(description, &types);
-    // The reference makes one sprite of each resource to read its limit, and also logs messages about its parameters
-    // then.
+    // To read a resource's limit, the reference creates a sprite of it, and also logs messages about its
+    // parameters then.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
     let messages = fate.messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
     let of_class = |is: &'static dyn Fn(SpriteClass) -> bool| {
@@ -233,9 +233,9 @@ fn too_many(description: &Description, what: &str, count: usize, most: usize) ->
     problem.help("split the game into several games")
 }
 
-/// Reports undeclared names that are similar to a declared but unused name. The declaration counts as
-/// misspelt if the undeclared name is used more than once. Otherwise, either the declaration or its use may
-/// be misspelt.
+/// Reports undeclared names that are similar to a declared but unused name. If the undeclared name is used
+/// more than once, the declaration counts as misspelt. If it is used only once, either the declaration or the
+/// use may be misspelt.
 fn misspelt_declarations(description: &Description, problems: &mut Vec<Diagnostic>) {
     let lines = || description.sprite_lines().into_iter().map(|(_, line)| line);
     let params = lines().flat_map(|line| &line.params);
@@ -310,7 +310,8 @@ fn report_sprites_that_never_exist(
     }
 }
 
-/// Reports types without an image that levels can place, although a parameter selects among their images.
+/// Reports types that levels can place and that have no image, although a parameter selects among their
+/// images.
 fn report_missing_images(
     types: &[TypeInfo],
     mapping: &[SmallVec<[SpriteType; 4]>],
@@ -324,7 +325,8 @@ fn report_missing_images(
     }
 }
 
-/// Returns the problem with a sprite without an image whose `autotiling` or `randomtiling` selects an image.
+/// Returns the diagnostic for a sprite that has no image, although its `autotiling` or `randomtiling` selects
+/// one.
 pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     let message =
         format!("`{name}` has no image that its tiling could choose: the reference engine crashes on it");
@@ -358,8 +360,8 @@ fn aliases(description: &Description, problems: &mut Vec<Diagnostic>) -> Aliases
     found
 }
 
-/// Returns the sprites that each level character places, by character code, and the characters that are
-/// mapped to an undeclared sprite. A level that uses such a character does not load.
+/// Returns the sprites that each level character places, by character code, and the characters mapped to an
+/// undeclared sprite. A level that uses such a character does not load.
 fn mapping(
     description: &Description,
     names: Names<'_>,
@@ -368,7 +370,7 @@ fn mapping(
 ) -> (Vec<SmallVec<[SpriteType; 4]>>, BTreeSet<u8>) {
     let mut unusable = BTreeSet::new();
     let mut mapping = vec![SmallVec::new(); 128];
-    // These mappings exist in every game that does not map the characters itself (`spec/01` §1.7).
+    // Every game that does not map these characters itself has these mappings (`spec/01` §1.7).
     mapping[usize::from(b'w')] = SmallVec::from_slice(&[SpriteType(0)]);
     mapping[usize::from(b'A')] = SmallVec::from_slice(&[SpriteType(1)]);
     let mut seen = BTreeSet::new();
@@ -424,7 +426,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the sprite type given by a parameter's value, or by one entry in the value.
+    /// Returns the sprite type that a parameter's value, or one entry in it, names.
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
@@ -440,7 +442,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the problem with a name that is neither a sprite name nor in `others`. `found` is the number
+    /// Returns the diagnostic for a name that is neither a sprite name nor in `others`. `found` is the number
     /// of earlier problems.
     fn unknown(self, name: &Word, others: &[&str], found: usize) -> Diagnostic {
         let message = format!("no sprite named `{}`", name.text);
@@ -459,14 +461,14 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Returns the leaf types below a type that have a class, limited to [`SUBTYPES_SHOWN`].
+    /// Returns up to [`SUBTYPES_SHOWN`] leaf types below a type that have a class.
     fn subtypes(self, stype: SpriteType) -> Vec<&'a str> {
         let leaves = self.types.iter().filter(|info| info.leaf && info.class.is_some());
         let below = leaves.filter(|info| info.path.contains(&stype));
         below.map(|info| info.name.as_str()).take(SUBTYPES_SHOWN).collect()
     }
 
-    /// Returns `true` if sprites of the type can be created. Otherwise, reports a problem.
+    /// Returns `true` if sprites of the type can be created. Reports a problem if not.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {
@@ -474,7 +476,7 @@ impl<'a> Names<'a> {
             let of_it =
                 self.types.iter().filter(|other| other.path.contains(&stype) && other.class.is_some());
             let below: Vec<&str> = of_it.map(|other| other.name.as_str()).take(shown).collect();
-            // If no subtype has a class, the problem is already reported for the type's own line.
+            // If no subtype has a class, the problem has already been reported for the type's own line.
             if !below.is_empty() {
                 let message = format!("`{}` has no class, so no sprite of this type can exist", name.text);
                 let problem = Diagnostic::error("no-class", name.span, message);

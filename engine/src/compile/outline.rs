@@ -20,12 +20,12 @@ const HIDES_MAPPING: [&str; 9] = [
     "too-long",
 ];
 
-/// A faulty game reduced to the mapping of its level characters.
+/// A faulty game, reduced to its level characters and the sprites that they place.
 pub(crate) struct Outline {
     pub(crate) description: Description,
     /// `true` if the outline contains all characters that the game maps.
     pub(crate) knows_characters: bool,
-    /// `true` if the avatar-placing characters are known with certainty.
+    /// `true` if it is certain which characters place avatars.
     pub(crate) knows_avatars: bool,
 }
 
@@ -70,7 +70,7 @@ pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Opt
 struct Sprites {
     lines: Vec<SpriteLine>,
     names: BTreeSet<String>,
-    /// `true` if the avatars among the sprites are known with certainty.
+    /// `true` if it is certain which sprites are avatars.
     sure: bool,
 }
 

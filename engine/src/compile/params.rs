@@ -71,7 +71,7 @@ impl Expected {
     }
 }
 
-/// Returns the problem with a value of the wrong type. The reference silently ignores such a value.
+/// Returns the diagnostic for a value of the wrong type. The reference silently ignores such a value.
 pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     let value = param.value.text.as_str();
     let message = format!("`{}` takes {}, not `{value}`", param.key.text, expected.words());
@@ -100,14 +100,13 @@ pub(super) fn wrong_type(param: &Param, expected: Expected) -> Diagnostic {
     }
 }
 
-/// Returns the problem with a missing parameter that should give the name of something that the subject
-/// needs.
+/// Returns the diagnostic for a missing parameter, which should name something that the subject needs.
 pub(super) fn missing_name(subject: &str, span: Span, key: &str, thing: &str) -> Diagnostic {
     let message = format!("{subject} needs `{key}=`, the name of {thing}");
     Diagnostic::error("missing-parameter", span, message).help(format!("add `{key}=` and the name"))
 }
 
-/// Returns the number at the start of a value: for example, `5` from `5x`.
+/// Returns the number at the start of a value, such as `5` in `5x`.
 fn leading_number(value: &str) -> Option<&str> {
     let end = value.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(value.len());
     Some(&value[..end]).filter(|number| number.parse::<i32>().is_ok())
@@ -160,8 +159,8 @@ pub const BASE: &[&str] = &[
     "on_ground",
 ];
 
-/// Fields in the reference that a parameter can set without effect, because they are overwritten, or only
-/// used for drawing.
+/// Fields of the reference that a parameter can set without effect, because they are overwritten or only used
+/// for drawing.
 const BOOK_KEEPING: &[&str] =
     &["spriteID", "bucket", "bucketSharp", "name", "images", "frameRemaining", "currentFrame"];
 
@@ -170,7 +169,7 @@ pub(super) fn takes(class: SpriteClass, key: &str) -> bool {
     BASE.contains(&key) || BOOK_KEEPING.contains(&key) || class.parameters().contains(&key)
 }
 
-/// Returns the problem with a parameter that the class does not accept. `found` is the number of earlier
+/// Returns the diagnostic for a parameter that the class does not accept. `found` is the number of earlier
 /// problems.
 pub(super) fn unknown_parameter(class: SpriteClass, param: &Param, found: usize) -> Diagnostic {
     let key = param.key.text.as_str();
@@ -205,7 +204,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
     };
     let boolean = || if let Value::Bool(bool) = value { Ok(bool) } else { Err(fail(Expected::Bool)) };
     let direction = || if let Value::Direction(d) = value { Ok(d) } else { Err(fail(Expected::Direction)) };
-    // `hidden` and `invisible` are lists with one entry per player. In this engine, there is only one player.
+    // `hidden` and `invisible` are lists with one entry per player, but this engine has only one player.
     let switch = || {
         let text = param.value.text.as_str();
         let first = text.split(',').next().unwrap_or_default();
@@ -260,7 +259,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "lastmove" => traits.last_move = int()?,
         "isFirstTick" => traits.is_first_tick = boolean()?,
         "on_ground" => traits.on_ground = boolean()?,
-        // Only a text is usable: a number, a boolean or a constant is lost.
+        // Only text is usable: a number, a boolean or a constant is lost.
         "orientedImg" => traits.oriented_image = matches!(value, Value::Text(_)),
         "singleton" | "is_stochastic" | "draw_arrow" | "autotiling" => drop(boolean()?),
         "hidden" => traits.hidden = switch()?,
@@ -294,7 +293,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "spreadprob" => traits.spread_probability = number()?,
         "cons" => traits.cons = int()?,
         "fleeing" => traits.fleeing = boolean()?,
-        // The field has 32 bits in the reference.
+        // The reference's field has 32 bits.
         "maxDistance" => traits.max_distance = f64::from(int()? as f32),
         "prob" => traits.prob = number()?,
         "total" => traits.total = int()?,
@@ -307,7 +306,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         _ => unreachable!("every parameter of the tables is matched: {key}"),
     }
     match value {
-        // The reference would continue with such a value.
+        // The reference would carry on with such a value.
         Value::Double(double) if !double.is_finite() => Err(fail(Expected::Number)),
         _ => Ok(()),
     }

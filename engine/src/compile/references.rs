@@ -1,4 +1,4 @@
-//! The sprite types referenced by a type's parameters: the types that it creates, follows, spends, is
+//! The sprite types that a type's parameters refer to: the types that it creates, follows, spends, is
 //! collected as or leads to.
 
 use super::Names;
@@ -10,7 +10,7 @@ use crate::rules::class::SpriteClass;
 use crate::syntax::{Param, Word};
 use smallvec::SmallVec;
 
-/// The sprite types referenced by a type's parameters. [`SpriteType::NONE`] stands for an undeclared name.
+/// The sprite types that a type's parameters refer to. [`SpriteType::NONE`] stands for an undeclared name.
 pub(super) struct References {
     pub(super) stypes: SmallVec<[SpriteType; 2]>,
     pub(super) ammo: SmallVec<[SpriteType; 2]>,
@@ -38,7 +38,7 @@ pub(super) fn references(
     use SpriteClass as C;
     let class = sprite.class;
     let shoots = class.is_a(C::ShootAvatar) || class == C::WizardAvatar;
-    // The parameter with the types that a class makes or follows.
+    // The parameter that names the types that a class creates or follows.
     let (key, many) = if class == C::SpawnPointMultiSprite {
         ("stypes", true)
     } else if class == C::BomberRandomMissile {
@@ -70,7 +70,7 @@ pub(super) fn references(
     if shoots || produces || matches!(class, C::FlakAvatar | C::Spreader) {
         sprite.makes(key, &stypes, names, problems);
     }
-    // A spawn point without a type fails only when it spawns.
+    // A spawn point that lacks a type fails only when it spawns.
     let incomplete = nameless || missing && (many || !produces);
     References { stypes, ammo, behind, resource, incomplete }
 }
@@ -80,7 +80,8 @@ impl Subject<'_> {
         self.params.iter().copied().find(|param| param.key.text == key)
     }
 
-    /// Returns the types referenced by a parameter: one type or, if `many` is `true`, a comma-separated list.
+    /// Returns the types that a parameter refers to: one type or, if `many` is `true`, a comma-separated
+    /// list.
     fn named(
         &self,
         key: &str,

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 
 impl Description {
     /// Returns the same game with renamed sprite types: each name that is a key in `names` becomes its value,
-    /// in all sections. The names `wall` and `avatar`, which have a built-in meaning, should not be renamed.
-    /// The lines keep their order, so the two games behave alike, including their state hashes.
+    /// in all sections. The names `wall` and `avatar` should not be renamed, because they have a built-in
+    /// meaning. The lines keep their order, so the two games behave alike, including their state hashes.
     #[must_use]
     pub fn renamed(&self, names: &BTreeMap<String, String>) -> Description {
         let names = Names(names);

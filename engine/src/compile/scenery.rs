@@ -1,5 +1,5 @@
-//! Types whose sprites never change. No rule, other sprite or termination refers to scenery. Fixtures only
-//! collide with other sprites.
+//! Types whose sprites never change: scenery, to which no rule, other sprite or termination refers, and
+//! fixtures, which only collide with other sprites.
 
 use super::interactions::Program;
 use crate::rules::class::SpriteClass;
@@ -46,11 +46,11 @@ fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     types.iter().map(|info| info.tree.iter().any(speaks_of)).collect()
 }
 
-/// Returns `true` if a type's sprites stay as created by a level, as far as their own updates and the engine
-/// are concerned.
+/// Returns `true` if neither their own updates nor the engine itself change a type's sprites after a level
+/// has placed them.
 fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
     let info = &types[stype.index()];
-    // The first sprite of a type differs from later ones only if its size differs from a cell's.
+    // The first sprite of a type differs from later ones only if it is larger or smaller than a cell.
     let is_whole = info.traits.width_factor == 1.0 && info.traits.height_factor == 1.0;
     let is_still = info.order.is_some() && info.is_idle() && !info.is_like_avatar();
     // Some avatars leave walls behind although no parameter refers to walls.
@@ -68,8 +68,8 @@ pub(crate) fn scenery(types: &[TypeInfo], referenced: &[bool]) -> Vec<bool> {
 }
 
 /// Returns, for each type, `true` if its sprites are fixtures. Other sprites collide with fixtures, but no
-/// rule creates, moves, changes or removes fixtures. No parameter refers to a fixture's type, no effect is
-/// executed on fixtures, and effects executed on other sprites leave fixtures unchanged.
+/// rule creates, moves, changes or removes them. No parameter refers to a fixture's type, no effect runs on
+/// fixtures, and effects that run on other sprites leave fixtures unchanged.
 pub(crate) fn fixtures(description: &Description, types: &[TypeInfo], program: &Program) -> Vec<bool> {
     let firsts = program.passes.iter().map(|pass| pass.first);
     let firsts = firsts.chain(program.edge.iter().map(|&(stype, _)| stype));

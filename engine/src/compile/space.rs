@@ -11,8 +11,8 @@ use std::borrow::Cow;
 const KEYS: [&str; 3] = ["values", "value", "string"];
 
 /// Returns the game with the parameter values filled in. In strict mode, each parameter must specify its
-/// value with `value=`. The reference draws missing values without a seed, once per use. This engine draws
-/// missing values with a seed derived from the game's text.
+/// value with `value=`. The reference draws a missing value anew for each use, without a seed. This engine
+/// draws it with a seed derived from the game's text.
 pub(super) fn settled<'a>(
     description: &'a Description,
     policy: Policy,
@@ -24,7 +24,7 @@ pub(super) fn settled<'a>(
     let mut space = Space::default();
     for line in &description.parameters {
         let values = space.read(line, policy, problems);
-        // If several lines have this name, the last line counts.
+        // If several lines have this name, the last one counts.
         space.parameters.retain(|(name, ..)| *name != line.name.text);
         space.parameters.push((&line.name.text, line.name.span, values));
     }
@@ -33,7 +33,7 @@ pub(super) fn settled<'a>(
     let mut game = description.clone();
     space.sprites(&mut game.sprites);
     for line in &mut game.interactions {
-        // addTimer passes parameters that it does not use on to the scheduled effect as written.
+        // addTimer passes on parameters that it does not use to the scheduled effect, as written.
         let own = |key: &str| COMMON.contains(&key) || ["timer", "repeating", "nextExecution"].contains(&key);
         let timer = line.effect.text == "addTimer";
         space.put_in(line.params.iter_mut().filter(|param| !timer || own(&param.key.text)));
@@ -56,7 +56,7 @@ enum Values {
     Int(i32),
     Double(f64),
     Bool(bool),
-    /// A range of `count` values, from `first` in steps of `step`.
+    /// A range of `count` values, starting at `first`, in steps of `step`.
     Ints {
         first: i32,
         step: i32,
@@ -98,7 +98,7 @@ impl<'a> Space<'a> {
             );
             return Values::Int(1);
         };
-        // The reference fails only if it draws from an empty range, which `value=` makes unnecessary.
+        // The reference fails only if it draws from an empty range. With `value=`, it does not draw.
         let is_drawn = policy == Policy::Strict || given("value").is_none();
         if range.count() <= 0 && is_drawn {
             let span = given("values").map_or(line.name.span, Param::span);
@@ -183,8 +183,8 @@ impl Values {
 }
 
 /// Parses `min:step:max`: integers, decimals if any of them contains a point, or two booleans. The number of
-/// values is the same as in the reference. The number is 1 for a zero step over a zero distance, and below 1
-/// if the step does not lead towards the last value.
+/// values is that of the reference: 1 for a zero step over a zero distance, and below 1 if the step does not
+/// lead towards the last value.
 fn range(text: &str) -> Option<Values> {
     let parts: Vec<&str> = text.split(':').collect();
     let range = match parts[..] {

@@ -40,8 +40,8 @@ pub(super) fn types(
         .map(|sprite| sprite.name.clone())
         .collect();
 
-    // `wall` and `avatar` come first in every registry, declared or not. A name keeps its position. If it is defined
-    // several times, the last definition counts (valid files define it once).
+    // `wall` and `avatar` come first in every registry, declared or not. A name keeps its position, and if it
+    // is defined several times, the last definition counts. Valid files define it once.
     let mut registry: Vec<Resolved<'_>> =
         vec![built_in("wall", "Immovable"), built_in("avatar", "MovingAvatar")];
     for sprite in resolved {
@@ -76,7 +76,7 @@ pub(super) fn types(
 }
 
 /// Parameters that a class does not accept. A parent line passes its parameters on to children of several
-/// classes. A parameter is a mistake if it is accepted by none of these classes.
+/// classes, so a parameter is a mistake only if none of these classes accepts it.
 #[derive(Default)]
 struct Rejected<'a> {
     refused: Vec<(SpriteClass, &'a Param)>,
@@ -255,7 +255,7 @@ fn type_info<'a>(
         for param in &sprite.params {
             if !takes(class, &param.key.text) {
                 unknown_parameters += 1;
-                // The overridden class is already reported.
+                // The overridden class has already been reported.
                 if !sprite.line.is_some_and(|line| is_of_own_class(line, param)) {
                     rejected.refused.push((class, param));
                 }
@@ -313,7 +313,7 @@ fn type_info<'a>(
     }
 }
 
-/// Returns the span of the parameter that selects an image for a sprite without images (`spec/02` §2.3).
+/// Returns the span of a parameter that selects an image, if the sprite has no images (`spec/02` §2.3).
 fn lacks_image(params: &[&Param]) -> Option<Span> {
     let chooses = |param: &Param| match (param.key.text.as_str(), convert(&param.key.text, &param.value.text))
     {
@@ -322,7 +322,7 @@ fn lacks_image(params: &[&Param]) -> Option<Span> {
         ("randomtiling", Value::Double(chance)) => chance >= 0.0,
         _ => false,
     };
-    // A value that reads as anything other than a text is lost.
+    // A value that parses as anything other than text is lost.
     let is_image = |param: &Param| {
         let names = ["img", "orientedImg"].contains(&param.key.text.as_str());
         names && matches!(convert(&param.key.text, &param.value.text), Value::Text(_))

@@ -11,7 +11,7 @@ use crate::rules::terminations::{Condition, Decision, Termination};
 use crate::syntax::{Description, Param, TerminationLine};
 use smallvec::SmallVec;
 
-/// Returns the terminations, and whether they allow counters to end the game.
+/// Returns the terminations, and a flag that is `true` if they allow counters to end the game.
 pub(super) fn terminations(
     description: &Description,
     names: Names<'_>,
@@ -24,7 +24,7 @@ pub(super) fn terminations(
     for line in &description.terminations {
         let mut reader = Reader { line, names, setting, problems };
         can_end = reader.flag("canEnd", can_end);
-        // A value that is neither true nor false is already reported, and may be meant as true.
+        // A value that is neither true nor false has already been reported, and may be meant as true.
         let loses = |param: &Param| param.value.text.to_lowercase().starts_with("false");
         winnable |= reader.param("win").is_some_and(|param| !loses(param));
         if let Some(termination) = reader.termination() {
@@ -45,8 +45,8 @@ pub(super) fn terminations(
     (terminations, can_end)
 }
 
-/// Returns whether the reference builds a termination from the line, and the number of messages that it logs
-/// about the line's parameters.
+/// Returns `true` if the reference builds a termination from the line, and the number of messages that it
+/// logs about the line's parameters.
 pub(super) fn usable(line: &TerminationLine, names: Names<'_>, setting: Setting) -> (bool, u32) {
     let mut problems = Vec::new();
     let built = Reader { line, names, setting, problems: &mut problems }.termination();
@@ -131,8 +131,8 @@ impl<'a> Reader<'a> {
         Some(Termination { condition, win, decided_by })
     }
 
-    /// Returns the decision by counters, in a game with one player. The flag is `true` if that decision can
-    /// win the game for the player.
+    /// Returns how counters decide the termination, in a game with one player. The flag is `true` if that
+    /// decision can win the game.
     fn by_counters(&mut self) -> Option<(bool, Decision)> {
         let (used, compared) = (self.flag("use_counter", false), self.flag("compare", false));
         let limits = self.param("limits").and_then(|param| match convert("limits", &param.value.text) {
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
                 None
             }
         });
-        // A single number is not a list: the reference drops it, and the list stays at 0.
+        // A single number is not a list: the reference drops it, so the list stays at 0.
         let value = limits.map_or(Ok(0), |(param, list)| {
             list.split(',').next().unwrap_or_default().parse::<i32>().map_err(|_| param)
         });
@@ -206,7 +206,7 @@ impl<'a> Reader<'a> {
         self.names.resolve_value(param, &param.value, self.problems)
     }
 
-    /// Returns the sprite types given by the parameters in `keys`. In strict mode, the first parameter is
+    /// Returns the sprite types that the parameters in `keys` name. In strict mode, the first parameter is
     /// required.
     fn sprites(&mut self, keys: [&str; 3]) -> Option<SmallVec<[SpriteType; 3]>> {
         if self.param(keys[0]).is_none() {
@@ -219,7 +219,7 @@ impl<'a> Reader<'a> {
         (found.len() == given.len()).then_some(found)
     }
 
-    /// Returns the parameter, unless its value looks like something other than a name.
+    /// Returns the parameter unless its value looks like something other than a name.
     fn named<'b>(&mut self, param: &'b Param) -> Option<&'b Param> {
         if let Value::Text(_) = convert(&param.key.text, &param.value.text) {
             return Some(param);

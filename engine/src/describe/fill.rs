@@ -1,11 +1,11 @@
-//! Fills the holes in effect templates.
+//! Fills the placeholders in effect templates.
 
 use super::words::{Party, a, count, list, percent, plural};
 use crate::analysis::Analysis;
 use crate::rules::effects::{CHANCE, Sentence, Value};
 use crate::rules::{SpriteType, Timed};
 
-/// Returns an effect's sentence for two colliding parties.
+/// Returns the sentence for an effect on two colliding parties.
 pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
     let both = Party { you: one.you || two.you, ..one.clone() };
     let filler =
@@ -13,7 +13,7 @@ pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Par
     filler.fill(sentence.meeting)
 }
 
-/// Returns the words that introduce an effect's points for two colliding parties.
+/// Returns the words that introduce the points for an effect on two colliding parties.
 pub(super) fn if_scored(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
     let filler = Filler { analysis, sentence, one: Some(one), two: Some(two), both: None, target: None };
     filler.fill(sentence.if_scored)

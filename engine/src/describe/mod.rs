@@ -1,6 +1,6 @@
 //! A game's rules in plain English. The same game always produces the same text.
 //!
-//! This module is the only source of English rules: prompts, cards and `arcade describe` all use it.
+//! This module is the only source of rules in English: prompts, cards and `arcade describe` all use it.
 
 mod fill;
 mod kind;
@@ -24,14 +24,13 @@ use std::fmt;
 /// A game in plain English, as sections of sentences.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Guide {
-    /// The functions of the keys: one sentence for each possible avatar type.
+    /// The functions of the keys, with one sentence for each possible avatar type.
     pub controls: Vec<String>,
     /// The ways to win, in order of priority.
     pub winning: Vec<String>,
     /// The ways to lose, in order of priority.
     pub losing: Vec<String>,
-    /// The course of a tick: facts that apply to all interactions. Only facts that matter in this game
-    /// are included.
+    /// The course of a tick: facts that apply to all interactions, as far as they matter in this game.
     pub order: Vec<String>,
     /// The behaviour of all other sprites, one line per type, in registry order.
     pub sprites: Vec<String>,
@@ -45,9 +44,9 @@ pub struct Guide {
     pub meetings: Vec<String>,
     /// The sprites that each level character places, by character.
     pub legend: Vec<String>,
-    /// The kind of game, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). The kind is not
-    /// printed with the other sections, because it classifies the rules instead of stating a rule, and
-    /// players may have to find it out.
+    /// The kind of game, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). It is not printed with
+    /// the other sections, because it classifies the rules instead of stating one, and players may have to
+    /// find it out.
     pub kind: Vec<String>,
 }
 

@@ -43,7 +43,7 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
     };
     let resting: Vec<SpriteType> = movers.iter().copied().filter(rests).collect();
     if !resting.is_empty() {
-        // A shot is updated in the tick in which it appears.
+        // A shot is already updated in the tick in which it appears.
         let is_soon = resting.iter().any(|&stype| is_updated_at_once(analysis, stype).0);
         let phrase = if is_soon { Phrase::RestFirst } else { Phrase::Rest };
         lines.push(phrase.with(&[]));
@@ -126,8 +126,8 @@ fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {
     lines
 }
 
-/// Returns the sentence about the obstacles that paths avoid. The engine marks the obstacles once per level,
-/// and ignores hidden obstacles.
+/// Returns the sentence about the obstacles that paths avoid. The engine marks obstacles once per level, and
+/// ignores hidden ones.
 fn paths(analysis: &Analysis) -> String {
     let game = analysis.game();
     let is_marked = |stype: &SpriteType| {
@@ -152,8 +152,8 @@ fn same_pair(analysis: &Analysis, one: &Encounter, other: &Encounter) -> bool {
         || (alike(one.first, other_second) && alike(second, other.first))
 }
 
-/// Returns `true` if, for some pair, one line moves a sprite back and the order of another line relative to
-/// that line matters.
+/// Returns `true` if, for some pair, a line moves a sprite back, and it matters whether another line comes
+/// before or after it.
 fn blocking_matters(analysis: &Analysis) -> bool {
     let encounters = analysis.encounters();
     let blockers = encounters.iter().filter(|encounter| encounter.blocks());
@@ -176,7 +176,7 @@ fn reopens(analysis: &Analysis) -> bool {
     })
 }
 
-/// Returns `true` if sprites that vanish by themselves affect other sprites.
+/// Returns `true` if some sprites that vanish by themselves affect other sprites.
 fn lingers(analysis: &Analysis) -> bool {
     let acts = |stype: SpriteType| {
         let touched =

@@ -1,4 +1,4 @@
-//! Templates with named holes, for parts of sentences and for sentences that do not come from effects.
+//! Templates with named placeholders, for parts of sentences and for sentences that do not come from effects.
 
 use crate::rules::effects::templates;
 use std::collections::BTreeSet;
@@ -130,7 +130,7 @@ phrases! {
 }
 
 impl Phrase {
-    /// Returns the template with its holes filled: each hole gets the text with the same name.
+    /// Returns the template with its placeholders filled: each gets the text with its name.
     pub(super) fn with(self, values: &[(&str, &str)]) -> String {
         let mut text = String::new();
         let mut rest = self.text();
@@ -146,8 +146,8 @@ impl Phrase {
 }
 
 /// Returns the templates for all sentences and parts of sentences. `{one}` and `{two}` are the colliding
-/// sprites, `{one:die|disappears}` is a word that agrees with the sprite `{one}`, and all other holes are
-/// values.
+/// sprites, `{one:die|disappears}` is a word that agrees with the sprite `{one}`, and all other placeholders
+/// are values.
 ///
 /// ```
 /// let all = infinite_arcade_engine::describe::texts();

@@ -8,9 +8,9 @@ use crate::rules::effects::{Sentence, Target};
 use crate::rules::terminations::{Condition as Written, Decision, Termination};
 use crate::rules::{Counting, Rules, SpriteType, Timed};
 
-/// Returns one sentence per interaction line, in order of execution, covering all the line's partners. A line
-/// that runs at several positions, because another line already contains one of its pairs, gets one sentence
-/// for each position.
+/// Returns one sentence per interaction line, in order of execution, covering all the line's partners. If an
+/// earlier line already contains one of its pairs, a line runs at several positions and gets one sentence for
+/// each.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
     let parts = analysis.encounters().chunk_by(|one, next| one.line == next.line);
     let parts = parts.map(|part| (part[0].line, part.iter().collect::<Vec<&Encounter>>()));
@@ -31,7 +31,7 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
             |party: Option<SpriteType>| party.map_or_else(Party::edge, |stype| Party::of(analysis, stype));
         Party::any(&kept.into_iter().map(named).collect::<Vec<Party>>())
     };
-    // At the edge, an effect that needs a partner does nothing.
+    // An effect that needs a partner does nothing at the edge.
     let idle = |encounter: &Encounter| encounter.second.is_none() && info.summary.needs_partner;
     let all_idle = encounters.iter().all(|encounter| idle(encounter));
     let told = encounters.iter().filter(|encounter| all_idle || !idle(encounter));
@@ -70,7 +70,7 @@ fn negated(text: String) -> String {
     }
 }
 
-/// Returns `true` if no sprite subject to a rule on `written` is ever removed or replaced.
+/// Returns `true` if no sprite to which a rule on `written` applies is ever removed or replaced.
 fn stays(analysis: &Analysis, written: SpriteType) -> bool {
     let concerned: Vec<SpriteType> =
         analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype)).collect();
@@ -84,13 +84,13 @@ fn stays(analysis: &Analysis, written: SpriteType) -> bool {
             met.effects.iter().filter_map(EffectSummary::ending).any(|(target, _)| ends(met, target))
         };
         let facts = analysis.facts(stype);
-        // A sprite that makes other sprites can disappear after it has made the last of them.
+        // A sprite that creates other sprites can disappear after creating the last of them.
         facts.fleeting || !facts.makes.is_empty() || analysis.encounters().iter().any(ended)
     };
     !analysis.has_timed_effects() && !concerned.into_iter().any(goes)
 }
 
-/// Returns the sentences about the counter changes of an execution, unless the effect itself decides them.
+/// Returns the sentences about how an execution changes the counters, unless the effect itself decides that.
 fn counters(counting: &Counting) -> String {
     let amount = |on: bool, amount: Option<i32>| if on { amount.unwrap_or(0) } else { 0 };
     let both = counting.counter.iter().zip(&counting.counter_else);
@@ -117,7 +117,7 @@ pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
     let line = |timed: &Timed| {
         let first = timed.first_due?;
         let text = by_the_clock(analysis, timed);
-        // The first step is tick 0 of the reference.
+        // The first step is the reference's tick 0.
         let period = if timed.timer == 1 { "tick".to_owned() } else { count(timed.timer.into(), "tick") };
         let tick = first.max(0).saturating_add(1).to_string();
         let mut text = sentence(&match timed.repeating {
@@ -167,7 +167,7 @@ pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
 /// Returns one sentence for each termination that can win, or lose, in order of priority.
 pub(super) fn endings(analysis: &Analysis, win: bool) -> Vec<String> {
     let rules = &analysis.game().0;
-    // Without a StopCounter, nothing allows counters to end a game later if they cannot from the start.
+    // Without a StopCounter, if counters cannot end a game from the start, nothing ever allows them to.
     let ends =
         |goal: &&Goal| rules.can_end || can_be_stopped(rules) || matches!(goal.condition, Condition::Tick(_));
     let goals = analysis.goals().iter().filter(|goal| if win { goal.win } else { goal.can_lose() });
@@ -200,8 +200,8 @@ fn can_be_stopped(rules: &Rules) -> bool {
 }
 
 /// Returns the condition under which a StopCounter keeps a termination from ending the game. The last
-/// StopCounter before the termination decides. If there is no StopCounter before the termination, the last
-/// StopCounter of all decides, with its result from the previous tick.
+/// StopCounter before the termination decides. If there is none before it, the last of all StopCounters
+/// decides, with its result from the previous tick.
 fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     let rules = &analysis.game().0;
     let stops = |end: &&Termination| matches!(end.condition, Written::StopCounter { .. });
@@ -214,7 +214,7 @@ fn held_up(analysis: &Analysis, goal: &Goal) -> String {
     let tree = |stype: &SpriteType| rules.types[stype.index()].tree.iter().copied();
     let types = stypes.iter().flat_map(tree).filter(|stype| rules.types[stype.index()].class.is_some());
     let types: Vec<SpriteType> = types.collect();
-    // If no sprites can be counted, the names in the line are used.
+    // If no types can be counted, the names on the line are used.
     let types = if types.is_empty() { stypes.to_vec() } else { types };
     let (are, then) = match (limit == 1, before.is_some()) {
         (true, true) => ("is", ""),
@@ -237,7 +237,7 @@ fn held_up(analysis: &Analysis, goal: &Goal) -> String {
 fn ending(analysis: &Analysis, goal: &Goal, win: bool) -> String {
     let written = analysis.game().0.terminations[goal.line].counts();
     let types = goal.condition.types();
-    // If no sprites can be counted, the names in the line are used.
+    // If no types can be counted, the names on the line are used.
     let types = if types.is_empty() { written } else { types };
     let when = condition(analysis, &goal.condition, types, win);
     match goal.kinds {
@@ -273,7 +273,7 @@ fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], w
         }
         Condition::Exactly(_, limit) => limited(Phrase::Exactly, *limit),
         Condition::Tick(limit) => {
-            // The first step is tick 0 of the reference, and limits below it count as that tick.
+            // The first step is the reference's tick 0, and limits below 0 count as that tick.
             let tick = limit.saturating_add(1).max(1).to_string();
             let phrase = if win { Phrase::Survive } else { Phrase::Reached };
             phrase.with(&[("tick", &tick)])
@@ -281,7 +281,8 @@ fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], w
     }
 }
 
-/// Returns a condition's possible types, by name. A type that occurs twice counts twice.
+/// Returns a phrase for the sum over a condition's possible types, by name. A type that occurs twice counts
+/// twice.
 fn summed(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> String {
     counted(analysis, types, |name| {
         let own = |stype: &&SpriteType| analysis.game().name(**stype) == name;
@@ -312,8 +313,8 @@ fn counted_names(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str)
     names
 }
 
-/// Returns a condition's possible types, by name. If they are exactly the possible types of the player's
-/// avatar, they stand for the player.
+/// Returns a phrase for a condition's possible types, by name. If they are exactly the possible types of the
+/// player's avatar, they stand for the player.
 fn counted(analysis: &Analysis, types: &[SpriteType], named: impl Fn(&str) -> String) -> Party {
     let all = countable(analysis, types);
     let forms = analysis.avatars();

@@ -8,8 +8,8 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::Traits;
 
-/// Returns one line for each possible type, except avatars, that does something by itself. The last lines are
-/// about the other types.
+/// Returns one line for each possible type, except avatars, that does something by itself, followed by lines
+/// about the remaining types.
 pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let (mut lines, mut is_all) = (Vec::new(), true);
@@ -58,7 +58,7 @@ fn walked_over(analysis: &Analysis) -> impl Iterator<Item = SpriteType> + '_ {
     })
 }
 
-/// Returns a type's behaviour, without its name. The result is empty for types that only stand still.
+/// Returns a type's behaviour, without its name. Empty for types that merely stand still.
 fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let info = &analysis.game().0.types[stype.index()];
     let facts = analysis.facts(stype);
@@ -143,7 +143,7 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// Returns a phrase with the direction that a sign faces.
+/// Returns a phrase for the direction that a sign faces.
 fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let way = direction_name(analysis.sign(stype)?)?;
     let is_pushed = |encounter: &Encounter| {
@@ -180,8 +180,8 @@ pub(super) fn distance(analysis: &Analysis, traits: &Traits) -> Option<String> {
     })
 }
 
-/// Returns `true` if sprites that move in a fixed direction can be turned, or made from sprites that face a
-/// different direction.
+/// Returns `true` if sprites that move in a fixed direction can be turned, or can be created from sprites
+/// that face a different direction.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let into =
         |effect: &EffectSummary| effect.makes().contains(&stype) && !matches!(effect, EffectSummary::Make(_));
@@ -192,9 +192,8 @@ fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.encounters().iter().any(turns)
 }
 
-/// Returns two values about sprites of a type that are created during an episode. The first value is whether
-/// some of these sprites are updated in the tick in which they appear. The second value is whether some are
-/// not.
+/// Returns two flags about the sprites of a type that are created during an episode. The first is `true` if
+/// some of them are updated in the tick in which they appear, and the second if some are not.
 pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (bool, bool) {
     let rules = &analysis.game().0;
     let order = |stype: SpriteType| rules.types[stype.index()].order;
@@ -202,20 +201,21 @@ pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (boo
         let facts = analysis.facts(*maker);
         facts.possible && facts.makes.contains(&stype)
     };
-    // A sprite made by an avatar, or by a type that is updated earlier in the tick, is already updated in that tick.
+    // A sprite created by an avatar, or by a type that is updated earlier in the tick, is itself updated in
+    // that tick.
     let at_once =
         |maker: SpriteType| analysis.facts(maker).motion == Motion::Steered || order(maker) > order(stype);
     let makers: Vec<bool> = analysis.game().sprite_types().filter(makes).map(at_once).collect();
     let by_rules = |encounter: &Encounter| {
         encounter.does(|effect| effect.makes().contains(&stype) || *effect == EffectSummary::Clone)
     };
-    // Levels seldom place a type that is made during play, even if a character stands for it.
+    // Levels seldom place a type that is created during play, even if a character stands for it.
     let later = makers.is_empty() || makers.contains(&false) || analysis.encounters().iter().any(by_rules);
     (makers.contains(&true), later)
 }
 
-/// Returns the number of ticks from a sprite's appearance to its update with the index `updates`. The text
-/// contains two numbers if the delay depends on how the sprite was created.
+/// Returns, as text, the number of ticks from a sprite's appearance to its update with the index `updates`.
+/// The text contains two numbers if the delay depends on how the sprite was created.
 fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     match is_updated_at_once(analysis, stype) {
         (true, true) => format!("{} or {}", (updates - 1).max(0), count(updates, "tick")),
@@ -224,7 +224,7 @@ fn delay(analysis: &Analysis, stype: SpriteType, updates: i64) -> String {
     }
 }
 
-/// Returns `true` if some effect creates sprites of a singleton type even if a sprite of the type exists.
+/// Returns `true` if some effect creates sprites of a singleton type even if one already exists.
 fn is_made_regardless(analysis: &Analysis, stype: SpriteType) -> bool {
     let all = |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype);
     let becomes = |effect: &EffectSummary| *effect == EffectSummary::Become(stype);
@@ -241,7 +241,8 @@ fn most_health(analysis: &Analysis, traits: &Traits) -> String {
     if gained { Phrase::Most.with(&[("limit", &limit)]) } else { String::new() }
 }
 
-/// Returns the phrase about a type that vanishes after a number of updates, if that happens before the time limit.
+/// Returns the phrase about a type whose sprites vanish after this number of updates, if that happens before
+/// the time limit.
 fn vanishing(analysis: &Analysis, stype: SpriteType, updates: i64) -> Option<String> {
     let is_seen = updates <= analysis.game().time_limit().cast_signed();
     is_seen.then(|| Phrase::Vanishes.with(&[("ticks", &delay(analysis, stype, updates))]))
@@ -276,7 +277,8 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
     let from = if traits.cooldown < 2 {
         String::new()
     } else if analysis.facts(stype).symbols.is_empty() {
-        // For makers that appear later, the first time also depends on the tick in which they appeared.
+        // For makers that appear later, the time of the first creation also depends on the tick in which they
+        // appeared.
         Phrase::Soon.with(&[("period", &period)])
     } else {
         Phrase::From.with(&[])
@@ -396,7 +398,7 @@ fn cost(analysis: &Analysis, avatar: &Avatar, class: SpriteClass) -> String {
     }
 }
 
-/// Returns the phrase about the functions of the keys, except for shots.
+/// Returns the phrase about the functions of the keys other than shooting.
 fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool) -> &'static str {
     use SpriteClass as C;
     match (class, avatar.steering) {
@@ -425,7 +427,7 @@ fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool
     }
 }
 
-/// Returns one line for each character that levels of the game can use, with the sprites that it places.
+/// Returns one line for each character that the game's levels can use, with the sprites that it places.
 pub(super) fn legend(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let used = |symbol: &u8| {

@@ -1,4 +1,4 @@
-//! The templates for sentences about interactions, for programs that parse such sentences.
+//! Templates of the sentences about interactions, for programs that parse these sentences.
 
 use crate::analysis::{EffectSummary, Precondition};
 use crate::rules::effects::{EffectFamily, Sentence, Summary, sentences};
@@ -32,8 +32,7 @@ pub enum Part {
     First,
     /// The partner of the sprite acted upon.
     Second,
-    /// A word that agrees with a sprite. The word has one form for the player, and a different form for all
-    /// other sprites.
+    /// A word that agrees with a sprite. It has one form for the player and another for all other sprites.
     Agreeing {
         /// The form for the player.
         with_you: &'static str,
@@ -42,8 +41,8 @@ pub enum Part {
     },
     /// A value other than a sprite.
     Value {
-        /// The name of the value. For example, the held amount of a resource has the names `least` and
-        /// `resource`.
+        /// The name of the value. For example, the values of a held amount of a resource are named `least`
+        /// and `resource`.
         name: &'static str,
         /// The text with which the value starts, if the value can be empty.
         optional_start: Option<&'static str>,

@@ -1,4 +1,4 @@
-//! Words of sentences: names, numbers and verbs.
+//! The words that make up sentences: names, numbers and verbs.
 
 use crate::analysis::Analysis;
 use crate::rules::SpriteType;
@@ -168,7 +168,7 @@ pub(super) fn count(number: i64, noun: &str) -> String {
     format!("{number} {noun}{ending}")
 }
 
-/// Returns a probability as a percentage with the minimum number of digits.
+/// Returns a probability as a percentage with as few digits as possible.
 pub(super) fn percent(probability: f64) -> String {
     let thousandths = (probability * 100_000.0 + 0.5) as i64;
     let (whole, rest) = (thousandths / 1000, thousandths % 1000);

@@ -1,4 +1,4 @@
-//! Removes consequential problems, which only follow from another problem in the same file.
+//! Removes problems that merely follow from another problem in the same file.
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, line_start};
 use crate::limits::MAX_PROBLEMS;
@@ -8,12 +8,12 @@ use std::collections::BTreeMap;
 const HIDES_DECLARATIONS: [&str; 4] = ["missing-section", "missing-arrow", "stray-line", "too-deep"];
 /// Problem codes that make the first word of a line uncertain.
 const HIDES_START: [&str; 4] = ["missing-arrow", "bad-mapping", "bad-interaction", "bad-termination"];
-/// Problem codes about a name. Such a problem is reported once, however often the name is used.
+/// Problem codes about a name. Such a problem is reported only once, however often the name is used.
 const OF_A_NAME: [&str; 2] = ["unknown-sprite", "parent-sprite"];
 
 /// Returns all problems in a file, sorted by position, except problems that follow from other problems.
-/// `read` contains the problems from parsing the file, and `compiled` the problems from compiling its
-/// rules. A problem's subject is the word quoted in its message and its help text.
+/// `read` contains the problems from parsing the file, and `compiled` those from compiling its rules. A
+/// problem's subject is the word quoted in its message and its help text.
 pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &str) -> Diagnostics {
     let unread = Diagnostics::has_errors(&read);
     let all = Diagnostics::sorted(read.into_iter().chain(once_each(compiled)).collect()).0;
@@ -39,13 +39,13 @@ pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source:
     Diagnostics(reported).shortened(source.len())
 }
 
-/// Returns `true` if other problems may follow from `problem`.
+/// Returns `true` if `problem` may be the cause of other problems.
 fn is_root(problem: &Diagnostic) -> bool {
     let warns = ["ignored-class", "empty-mapping"].contains(&problem.code);
     problem.severity == Severity::Error || warns || is_uneven(problem)
 }
 
-/// Returns `true` if the problem is a sprite's indent, which makes parents and subtypes uncertain.
+/// Returns `true` if the problem is with a sprite's indent, which makes parents and subtypes uncertain.
 fn is_uneven(problem: &Diagnostic) -> bool {
     problem.code == "uneven-indent" && !problem.message.ends_with("sections")
 }
@@ -55,7 +55,8 @@ fn follows(problem: &Diagnostic, root: &Diagnostic, source: &str) -> bool {
     let same_line = || line(problem) == line(root);
     match problem.code {
         "unknown-sprite" => HIDES_DECLARATIONS.contains(&root.code),
-        // If the word is not a single character, `bad-mapping` quotes the whole word: compare its first character.
+        // If the word is not a single character, `bad-mapping` quotes the whole word, so compare its first
+        // character.
         "duplicate-mapping" => root.code == "bad-mapping" && quoted(root).starts_with(quoted(problem)),
         "no-class" => root.code != problem.code && same_line(),
         // The parameter is present but misspelt. For subtypes, it may be on their parent's line.
@@ -86,7 +87,7 @@ fn quoted(problem: &Diagnostic) -> &str {
     problem.message.split('`').nth(1).unwrap_or_default()
 }
 
-/// Reports a repeatedly misused name only at its first use.
+/// Keeps only the first report of a repeatedly misused name.
 fn once_each(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let problems = Diagnostics::sorted(problems).0;
     let mut places: BTreeMap<(&str, String), usize> = BTreeMap::new();

@@ -33,7 +33,7 @@ pub enum Severity {
     Warning,
 }
 
-/// The replacement of a range of text. An edit of an empty range inserts text.
+/// A replacement of a range of text. An edit with an empty range inserts text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
     /// The range of the replaced bytes.
@@ -49,7 +49,7 @@ impl Edit {
     }
 }
 
-/// A machine-applicable repair: edits of disjoint ranges, to be applied together.
+/// A machine-applicable repair: edits with disjoint ranges, to be applied together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
     /// The name of the repair, as an imperative: "Write `avatar`".
@@ -61,11 +61,11 @@ pub struct Fix {
 /// One problem: a stable code, a position, a message and the next step.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnostic {
-    /// The stable code, in kebab-case: `unknown-sprite`.
+    /// The stable code, in kebab-case, such as `unknown-sprite`.
     pub code: &'static str,
     /// The severity: error or warning.
     pub severity: Severity,
-    /// The message, which contains the faulty word. The message is in lower case and has no full stop.
+    /// The message, in lower case and without a full stop. It contains the faulty word.
     pub message: String,
     /// The position of the problem.
     pub span: Span,
@@ -73,7 +73,7 @@ pub struct Diagnostic {
     pub label: String,
     /// The suggested next step, if any.
     pub help: Option<String>,
-    /// The repair that the help describes, if there is only one repair and its text is known.
+    /// The repair that the help describes, if there is only one and its text is known.
     #[serde(skip)]
     pub fix: Option<Box<Fix>>,
 }
@@ -121,7 +121,7 @@ impl Diagnostic {
     }
 
     /// Has the same effect as [`Diagnostic::mean`] if `found` is low enough for the problem to be shown.
-    /// Otherwise, skips the lookup.
+    /// Skips the lookup if not.
     pub(crate) fn mean_after<'a>(
         self,
         found: usize,
@@ -132,9 +132,9 @@ impl Diagnostic {
         if found < MAX_PROBLEMS { self.mean(place, wrong, candidates) } else { self }
     }
 
-    /// Suggests the VGDL equivalent of a word from a different dialect. Otherwise, adds "did you mean" if one
-    /// of `candidates` is close to `wrong`. If `wrong` is the whole span of the problem, the repair replaces
-    /// it with the VGDL word.
+    /// Suggests the VGDL equivalent if `wrong` is a word from a different dialect. If it is not, adds "did
+    /// you mean" if one of `candidates` is close to it. If `wrong` is the whole span of the problem, the
+    /// repair replaces it with the VGDL word.
     pub(crate) fn mean<'a>(
         self,
         place: Place,
@@ -207,13 +207,13 @@ fn near(length: usize) -> usize {
 }
 
 /// Returns `true` if each word in one name is close to the word at the same position in the other name. Names
-/// that share only their ending are therefore not alike.
+/// that only share their ending are therefore not alike.
 fn alike(one: &[String], other: &[String]) -> bool {
     let close = |(one, other): (&String, &String)| {
         let distance = strsim::damerau_levenshtein(one, other);
         let shared = one.chars().zip(other.chars()).take_while(|(one, other)| one == other).count();
-        // Two wrong letters are not a typing error if the first letters differ, except in pairs such as `move` and
-        // `moving`.
+        // Two wrong letters do not count as a typo if the first letters differ, except in pairs such as
+        // `move` and `moving`.
         let limit = near(one.chars().count().min(other.chars().count()));
         distance <= if shared > 0 { limit } else { 1 } || shared >= 3 && distance <= 3
     };
@@ -264,8 +264,8 @@ impl Diagnostics {
         Diagnostics(list)
     }
 
-    /// Truncates the list to the first [`MAX_PROBLEMS`] problems, and adds a problem that counts the
-    /// remaining problems. The added problem is at `end`, the end of the text.
+    /// Truncates the list to the first [`MAX_PROBLEMS`] problems, and adds a problem that states the number
+    /// of problems left out. The added problem is at `end`, the end of the text.
     pub(crate) fn shortened(mut self, end: usize) -> Diagnostics {
         let Some(rest) = self.0.len().checked_sub(MAX_PROBLEMS).filter(|&rest| rest > 0) else { return self };
         let severity = self.0.iter().map(|problem| problem.severity).min().unwrap_or(Severity::Error);

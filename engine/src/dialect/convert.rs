@@ -1,5 +1,5 @@
-//! Conversion of games from py-vgdl and EMPA. Constructs with an exact equivalent are rewritten, and all
-//! other constructs are reported with their lines.
+//! Converts games from py-vgdl and EMPA. Constructs with an exact equivalent are rewritten, and all others
+//! are reported with their lines.
 
 use super::python_file;
 use crate::compile;
@@ -36,7 +36,7 @@ pub struct Conversion {
     pub problems: Vec<Diagnostic>,
 }
 
-/// Converts a game from py-vgdl or EMPA. The file is either the game's text or a Python file, whose first
+/// Converts a game from py-vgdl or EMPA. The file contains either the game's text or Python code, whose first
 /// game is converted.
 pub fn convert(file: &str) -> Conversion {
     let mut changes = Vec::new();
@@ -91,7 +91,7 @@ impl Changes<'_> {
         self.list.push(Change { line: (self.line)(span), from: from.into(), to: to.into() });
     }
 
-    /// Records the omission of a parameter.
+    /// Records that a parameter is omitted.
     fn without(&mut self, param: &Param, why: &str) {
         self.note(param.key.span, written(param), format!("left out: {why}"));
     }
@@ -180,7 +180,7 @@ fn sprite_line(sprite: &mut SpriteLine, changes: &mut Changes<'_>) {
     sprite.children.iter_mut().for_each(|child| sprite_line(child, changes));
 }
 
-/// Effects that run in every collision of their two sprites, so that points can be attached to them.
+/// Effects that run in every collision of their two sprites, so points can be attached to them.
 const ALWAYS: [&str; 11] = [
     "killSprite",
     "killBoth",

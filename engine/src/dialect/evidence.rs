@@ -25,7 +25,7 @@ const PY_VGDL: [&str; 17] = [
     "NoFrictionPhysics",
     "GravityPhysics",
 ];
-/// Words of py-vgdl that other authors may invent as well. At least two such words are needed as evidence.
+/// Words of py-vgdl that authors may also make up. Only two or more such words are sufficient evidence.
 const PY_VGDL_MAYBE: [&str; 4] = ["frame_rate", "MarioAvatar", "InertialAvatar", "killIfOtherHasLess"];
 /// Words that occur in EMPA's games.
 const EMPA: [&str; 2] = ["bonus", "NoveltyTermination"];
@@ -33,9 +33,9 @@ const EMPA_MAYBE: [&str; 2] = ["nothing", "changeScore"];
 /// The maximum number of words listed in a message.
 const SHOWN: usize = 4;
 
-/// Returns the problems of a faulty game, starting with the problem about its dialect. A Python file and a
-/// game for several players cannot be repaired line by line. For such files, only the problem about the kind
-/// of file is returned.
+/// Returns the problems in a faulty game, starting with the one about its dialect. Python files and games for
+/// several players cannot be repaired line by line, so for such files, returns only the problem about the
+/// kind of file.
 pub(crate) fn told(
     source: &str,
     description: &Description,
@@ -57,7 +57,7 @@ pub(crate) fn told(
         let words: Vec<String> = words.iter().take(SHOWN).map(|word| format!("`{word}`")).collect();
         let message = format!("this game is in the dialect of {}", dialect.name());
         let problem = other_dialect(start, message, dialect);
-        // The dialect's words go into the help, so that fixing one word does not change the message.
+        // The help lists the dialect's words, so that fixing one of them does not change the message.
         let help =
             format!("{}; its words are {}", problem.help.as_deref().unwrap_or_default(), words.join(", "));
         problems.insert(0, problem.help(help));
@@ -65,7 +65,7 @@ pub(crate) fn told(
     problems
 }
 
-/// Returns `true` if the first line requires several players.
+/// Returns `true` if the game's first line requires several players.
 pub(crate) fn is_of_several_players(description: &Description) -> bool {
     let players = description.header.params.iter().filter(|param| param.key.text == "no_players");
     players.filter_map(|param| param.value.text.parse::<i64>().ok()).any(|players| players > 1)

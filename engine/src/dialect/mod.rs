@@ -1,6 +1,6 @@
 //! Recognises and converts files in other dialects of VGDL.
 //!
-//! Dialects are recognised only in files with errors, so that no valid game is mistaken for a game in a
+//! Dialects are recognised only in files with errors, so that no valid game is mistaken for one in a
 //! different dialect.
 
 mod convert;
@@ -16,7 +16,7 @@ pub use python::{PythonFile, python_file};
 pub enum Dialect {
     /// The language of py-vgdl, the Python engine from which GVGAI's VGDL originates.
     PyVgdl,
-    /// The language of EMPA's games: the language of py-vgdl with additional effects and parameters.
+    /// The language of EMPA's games: that of py-vgdl with additional effects and parameters.
     Empa,
 }
 

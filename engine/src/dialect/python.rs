@@ -6,7 +6,8 @@ use std::collections::BTreeSet;
 /// The first game of a Python file, and its levels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PythonFile {
-    /// The game, preceded by one empty line for each line before it in the file, so that line numbers match.
+    /// The game, preceded by one empty line for each line before it in the file, so that its line numbers
+    /// match those of the file.
     pub game: String,
     /// The line with the game's opening quotes.
     pub line: usize,
@@ -62,7 +63,7 @@ fn quoted(source: &str) -> Vec<Quoted> {
         rest = &rest[at..];
         let mark = ["\"\"\"", "'''"].into_iter().find(|mark| rest.starts_with(mark));
         let Some(mark) = mark else {
-            // Skip a comment, or a string on one line.
+            // Skip a comment or a single-line string.
             let quote = &rest[..1];
             let end = rest.find('\n').unwrap_or(rest.len());
             let closing = |body: &str| {
@@ -84,7 +85,7 @@ fn quoted(source: &str) -> Vec<Quoted> {
         let end = body.find(mark).unwrap_or(body.len());
         let text = match is_raw {
             true => body[..end].to_owned(),
-            // A line continuation keeps its newline, so that later lines keep their numbers.
+            // A line continuation keeps its newline, so that the numbers of later lines stay the same.
             false => body[..end].replace("\\\r\n", "\n").replace("\\\n", "\n").replace("\\\\", "\\"),
         };
         found.push(Quoted { line, text });

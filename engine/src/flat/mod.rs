@@ -1,7 +1,7 @@
 //! Flat data: structs that consist of numbers and number buffers, whose fields are declared once.
 //!
-//! From the field list, the macro derives copies that reuse buffers, the size of a copy, and differences
-//! between two values (`pack.rs`).
+//! From the list of fields, the macro derives copies that reuse buffers, the size of a copy, and the
+//! differences between two values (`pack.rs`).
 
 /// Declares a struct. `copied` fields are copied, but differences omit them. `numbers` and `buffers` are part
 /// of differences. `scratch` buffers are empty between steps. `shared` fields are the same in all states of a
@@ -43,7 +43,7 @@ macro_rules! flat {
                 $(self.$copied = source.$copied;)*
                 $(self.$number = source.$number;)*
                 $(if source.$buffer.is_empty() {
-                    // Many buffers are empty, and copying an empty buffer would still cost a call.
+                    // Many buffers are empty, and even copying an empty buffer would cost a call.
                     self.$buffer.clear();
                 } else {
                     self.$buffer.clone_from(&source.$buffer);
@@ -59,7 +59,7 @@ macro_rules! flat {
         }
 
         impl $Name {
-            /// Returns the number of bytes that a copy of the value copies.
+            /// Returns the number of bytes that copying the value copies.
             pub(crate) fn size_in_bytes(&self) -> usize {
                 let buffers = 0 $(+ size_of_val(&self.$buffer[..]))*;
                 size_of::<$Name>() + buffers
@@ -98,8 +98,8 @@ pub(crate) fn take_scalar<T: Bytes>(value: &mut T, from: &mut &[u8]) {
     }
 }
 
-/// Writes the buffer's length, then the entries that differ from `base`, then a distance of 0. Each entry is
-/// preceded by its distance from the previous entry.
+/// Writes the buffer's length, the entries that differ from `base`, and a distance of 0. Each entry is
+/// preceded by its distance from the previous one.
 pub(crate) fn put_buffer<T: Bytes>(buffer: &[T], base: &[T], to: &mut Vec<u8>) {
     put_number(buffer.len(), to);
     let mut next = 0;

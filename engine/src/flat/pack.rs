@@ -2,7 +2,7 @@
 //!
 //! Most of a state is the same in all states of a level: walls, floors and their tables. A [`Packed`] state
 //! stores only the bytes that differ from the base state (usually the start of the search). Such a difference
-//! takes a few hundred bytes, while a full state takes tens of thousands.
+//! takes a few hundred bytes, compared with tens of thousands for a full state.
 
 use crate::rules::{Action, Outcome};
 use crate::state::State;
@@ -31,8 +31,8 @@ impl State {
         Packed { outcome: self.world.outcome(), last_action: self.world.last_action(), bytes: bytes.into() }
     }
 
-    /// Restores the packed state into `self`, reusing the buffers of `self`. `base` is the state that was
-    /// passed to [`State::pack`]. Cost: one copy of `base`.
+    /// Restores the packed state into `self`, reusing its buffers. `base` is the state that was passed to
+    /// [`State::pack`]. Cost: one copy of `base`.
     ///
     /// # Panics
     /// May panic if the state was packed against a different base.

@@ -1,4 +1,4 @@
-//! Games with one interaction disabled, to measure that interaction's effect.
+//! Games with one interaction disabled, to measure the interaction's effect.
 //!
 //! The disabled interaction still occurs and draws the same random numbers, but has no consequences. The
 //! random stream does not shift, so episodes in the two games are identical up to the interaction's first
@@ -10,10 +10,10 @@ use base::Digest;
 use std::sync::OnceLock;
 
 impl Game {
-    /// Returns the game in which interaction `line` (index into
+    /// Returns the game in which interaction `line` (an index into
     /// [`Description::interactions`](crate::Description)) draws its random numbers but has no consequences. A
-    /// level that fits one of the two games also fits the other. The returned game's digest does not belong
-    /// to any text. Cost: one copy of the rules.
+    /// level that fits one of the two games also fits the other. The returned game's digest is not that of
+    /// any text. Cost: one copy of the rules.
     ///
     /// # Panics
     /// Panics if the game has no such interaction.

@@ -66,8 +66,8 @@ impl Game {
                 rules.warnings = causes::reported(read, rules.warnings, source).0;
                 Ok(Game::of(rules))
             }
-            // Even a description that compiles may come from a text with problems. One run should report all
-            // of these problems.
+            // Even a description that compiles may come from a text with problems, all of which should be
+            // reported in one run.
             compiled => {
                 let compiled = compiled.err().map_or(Vec::new(), |problems| problems.0);
                 let Diagnostics(reported) = causes::reported(read, compiled, source);
@@ -88,7 +88,7 @@ impl Game {
 
     /// Parses and compiles a game's text in reference mode: faults are dropped or ignored if the reference
     /// engine does so, and the reference's messages are counted (`spec/01` §1). Use this mode only for
-    /// comparisons with the reference. In strict mode, every fault is an error.
+    /// comparisons with the reference; in strict mode, every fault is an error.
     ///
     /// # Errors
     /// Returns the fault on which the reference crashes.
@@ -133,9 +133,9 @@ impl Game {
         self.0.types.get(stype.index()).map_or("#-1", |info| &info.name)
     }
 
-    /// Returns the same game with different names in observations and texts. Types not in `names` keep their
-    /// names. The [`description`](Game::description) and the digest do not change. Cost: one copy of the
-    /// rules.
+    /// Returns the same game with different names for its types in observations and texts. Types not in
+    /// `names` keep their names. The [`description`](Game::description) and the digest do not change. Cost:
+    /// one copy of the rules.
     pub fn under_names(&self, names: &BTreeMap<String, String>) -> Game {
         let mut compiled = (*self.0).clone();
         for info in &mut compiled.rules.types {
@@ -156,8 +156,8 @@ impl Game {
         self.0.types[stype.index()].class
     }
 
-    /// Returns the initial orientation of a type's sprites, whether written, inherited or set by their class.
-    /// [`Direction::NONE`] means no orientation, and [`Direction::NIL`] means a random orientation.
+    /// Returns the initial orientation of a type's sprites, whether it is written, inherited or set by their
+    /// class. [`Direction::NONE`] means no orientation, and [`Direction::NIL`] means a random orientation.
     pub fn orientation(&self, stype: SpriteType) -> Direction {
         self.0.types[stype.index()].traits.orientation
     }
@@ -166,7 +166,7 @@ impl Game {
     /// reference counts the first step as tick 0. The limits are the `limit=` of each Timeout, and the
     /// reference's own limit.
     pub fn time_limit(&self) -> u64 {
-        // The first step is tick 0 of the reference.
+        // The first step is the reference's tick 0.
         self.0.first_timeout.saturating_add(1).clamp(1, MAX_TICKS + 1).unsigned_abs().into()
     }
 

@@ -10,18 +10,19 @@ use base::Digest;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// The maximum number of problems of the same kind to report individually.
+/// The maximum number of problems of one kind to report individually.
 const MAX_REPEATS: usize = 10;
 /// The code for unmapped characters in levels loaded in reference mode.
 const UNMAPPED: u8 = 0;
 
-/// A level that fits one game: row-major characters, each of which is a space or in the game's LevelMapping.
+/// A level that fits one game: characters in row-major order, each of which is either a space or in the
+/// game's LevelMapping.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Level {
     columns: usize,
     rows: usize,
     cells: Vec<u8>,
-    /// The characters beyond ASCII that some cell codes represent.
+    /// The non-ASCII characters that some cell codes represent.
     aliases: Aliases,
     warnings: Vec<Diagnostic>,
     /// The number of messages that the reference logs while it builds the level.
@@ -39,8 +40,8 @@ impl Level {
         self.rows
     }
 
-    /// Returns the characters, row-major, in ASCII. In a game loaded in reference mode, some codes stand for
-    /// characters beyond ASCII. See [`Game::character`].
+    /// Returns the characters in row-major order, as ASCII codes. In a game loaded in reference mode, some
+    /// codes stand for non-ASCII characters: see [`Game::character`].
     pub fn cells(&self) -> &[u8] {
         &self.cells
     }
@@ -83,7 +84,7 @@ impl Game {
     }
 
     /// Returns the character that a cell code represents: the ASCII character with that code or, in games
-    /// loaded in reference mode, possibly a character beyond ASCII.
+    /// loaded in reference mode, possibly a non-ASCII character.
     pub fn character(&self, symbol: u8) -> char {
         self.0.aliases.of_code(symbol).map_or(char::from(symbol), |alias| alias.character)
     }
@@ -172,7 +173,7 @@ impl LevelMapping {
         problems.retain(|problem| match problem.code {
             "undefined-character" => self.knows_characters,
             "no-avatar" | "extra-avatars" => self.knows_avatars,
-            // The substitute game has only one termination, which is not the game's own.
+            // The substitute game's only termination is not the game's own.
             "ends-at-once" => false,
             _ => true,
         });
@@ -196,7 +197,7 @@ impl LevelReader<'_> {
         let end = cells.len() + columns;
         for (at, symbol) in line.char_indices() {
             let span = Span::new(start + at, start + at + symbol.len_utf8());
-            // The reference reads UTF-16 code units: some characters have two.
+            // The reference reads UTF-16 code units, of which some characters have two.
             let units = if self.game.0.as_reference { symbol.len_utf16() } else { 1 };
             for &unit in symbol.encode_utf16(&mut [0; 2]).iter().take(units) {
                 if cells.len() == end {
@@ -308,7 +309,7 @@ impl LevelReader<'_> {
             let Some(count) = counts.remove(&symbol) else { continue };
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
             let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
-            // A letter or a digit stands for a sprite of its own, not for the ground around it.
+            // A letter or digit was probably meant as a sprite of its own, not as the ground around it.
             let near = around(at, columns, cells).filter(|_| count == 1 && !symbol.is_alphanumeric());
             let shown = symbol.escape_default();
             let (meant, help) = match (other_case.or(avatar), &unused[..], near) {
@@ -350,7 +351,7 @@ impl LevelReader<'_> {
             };
             let problem = Diagnostic::error("undefined-character", span, message).help(help);
             let own = places.remove(&symbol).unwrap_or_default();
-            // If there are several avatars, all but one are errors.
+            // If there are several avatars, all but one of them are errors.
             let rules = &self.game.0;
             let is_avatar =
                 |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
@@ -395,9 +396,8 @@ impl LevelReader<'_> {
         rules.description.mapping.iter().map(|line| line.symbol).find(|&symbol| places(symbol))
     }
 
-    /// Reports avatars of a parent type, which the engine does not find when the level starts. The engine
-    /// does not find avatars of the type drawn first, either, but the warning about that type belongs to the
-    /// game.
+    /// Reports avatars of a parent type, which the engine does not find when the level starts. Nor does it
+    /// find avatars of the type that is drawn first, but the warning about that type belongs to the game.
     fn report_lost_avatar(&mut self) {
         let info = |stype: SpriteType| &self.game.0.types[stype.index()];
         let Some(&(span, stype)) = self.avatars.first() else { return };
@@ -419,7 +419,7 @@ impl LevelReader<'_> {
         self.problems.push(Diagnostic::error("no-avatar", span, message).help(help));
     }
 
-    /// Returns, as advice, the missing line in a LevelMapping that places no avatar.
+    /// Returns advice on the line that is missing from a LevelMapping that places no avatar.
     fn lacking_avatar(&self) -> String {
         let description = &self.game.0.description;
         let is_avatar = |name: &str| {
@@ -438,7 +438,7 @@ impl LevelReader<'_> {
         )
     }
 
-    /// Returns `true` if another problem of this kind should be reported.
+    /// Returns `true` if one more problem of this kind should be reported.
     fn tells(&self, code: &str) -> bool {
         self.problems.iter().filter(|other| other.code == code).count() < MAX_REPEATS
     }

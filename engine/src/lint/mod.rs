@@ -1,5 +1,5 @@
-//! Semantic lints: valid rules that are almost certainly mistakes, according to the rule analysis. The parser
-//! and the compiler report mistakes that are visible in the text alone.
+//! Semantic lints: valid rules that are almost certainly mistakes, according to the rule analysis. Mistakes
+//! that are visible in the text alone are reported by the parser and the compiler.
 
 mod swapped;
 mod terminations;
@@ -51,8 +51,8 @@ struct Linter<'a> {
 }
 
 impl Linter<'_> {
-    /// Reports interactions whose sprites never collide, or that need more of a resource than any sprite can
-    /// hold.
+    /// Reports interactions whose sprites never collide, or that require more of a resource than any sprite
+    /// can hold.
     fn rules_that_never_fire(&self, problems: &mut Vec<Diagnostic>) {
         let lines = &self.game.description().interactions;
         for (number, line) in lines.iter().enumerate() {
@@ -194,7 +194,7 @@ impl Linter<'_> {
         }) || self.analysis.any_effect(gains)
     }
 
-    /// Reports sprites that take part in rules but are drawn under scenery, which takes part in no rules.
+    /// Reports sprites that take part in rules but are drawn beneath scenery, which takes part in no rules.
     fn hidden_sprites(&self, problems: &mut Vec<Diagnostic>) {
         let rules = &self.game.0;
         let acts = |stype: SpriteType| {
@@ -284,7 +284,7 @@ impl Linter<'_> {
         use SpriteClass as C;
         let info = &self.game.0.types[stype.index()];
         let Some(class) = info.class else { return true };
-        // Walls slow sprites down to the speed of gravity, whatever their physics.
+        // Walls slow sprites down to the speed of gravity, regardless of their physics.
         let hits = |encounter: &Encounter| {
             let family = self.game.0.effects[usize::from(encounter.effect)].summary.family;
             family == EffectFamily::Bounce && self.analysis.applies(encounter.first, stype)

@@ -19,14 +19,14 @@ pub struct SwappedRule {
     pub repaired: Vec<String>,
 }
 
-/// The maximum number of interactions in a game for the search for a swapped rule. Each interaction requires
-/// two analyses.
+/// The maximum number of interactions in a game that is searched for a swapped rule. Each interaction
+/// requires two analyses.
 const MAX_LINES: usize = 128;
-/// The maximum product of the numbers of interactions and sprite types in a game for the search for a swapped
-/// rule.
+/// The maximum product of the numbers of interactions and sprite types in a game that is searched for a
+/// swapped rule.
 const MAX_TRIED: usize = 1 << 13;
 
-/// Returns the only interaction that makes the game winnable when its sides are swapped, but not when it is
+/// Returns the only interaction that makes the game winnable if its sides are swapped, but not if it is
 /// removed. `wins` returns whether a game can be won. Returns `None` if there is no such interaction or more
 /// than one. Skips unusually large games. Cost: two compilations and two calls of `wins` per line.
 pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<SwappedRule> {
@@ -69,9 +69,9 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
     Some(SwappedRule { line, span, repaired })
 }
 
-/// Returns the only rule that removes a sprite that no termination counts, and that lets the player lose when
-/// its sides are swapped. The second string is the swapped rule. Returns `None` if there is no such rule or
-/// more than one. Cost: one compilation and one analysis per candidate rule.
+/// Returns the only rule that removes a sprite that no termination counts and that would let the player lose
+/// if its sides were swapped. The second string is the swapped rule. Returns `None` if there is no such rule
+/// or more than one. Cost: one compilation and one analysis per candidate rule.
 pub(super) fn swapped_threat(game: &Game) -> Option<(String, String)> {
     let description = game.description();
     let lines = &description.interactions;

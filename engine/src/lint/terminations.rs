@@ -121,7 +121,7 @@ fn limit_of(line: &TerminationLine) -> Span {
 }
 
 /// Returns `true` if a termination may lose a level in its first tick although no player changes its count:
-/// the termination holds while some of its sprites exist.
+/// that is, if the termination holds while some of its sprites exist.
 fn may_lose_from_start(goal: &Goal) -> bool {
     let some = matches!(goal.condition, Counted::AtMost(_, 1..) | Counted::Exactly(_, 1..));
     goal.can_lose() && some && goal.attainable == Attainable::FromStart
@@ -186,7 +186,7 @@ impl Linter<'_> {
             let reported = self.game.0.warnings.iter().any(|problem| problem.code == "never-there");
             match Some(self.game).filter(|_| !reported).and_then(swapped::swapped_rule_warning) {
                 Some((problem, repaired)) => {
-                    // Rules that never fire only because of the swapped rule get no warnings of their own.
+                    // Rules that never fire merely because of the swapped rule get no warnings of their own.
                     let mut left = Vec::new();
                     let linter = Linter { game: &repaired, analysis: &Analysis::of(&repaired) };
                     linter.rules_that_never_fire(&mut left);
@@ -295,7 +295,7 @@ impl Linter<'_> {
             let ends = encounter.ends(Side::First) && on(encounter.first)
                 || encounter.ends(Side::Second) && encounter.second.is_some_and(on);
             let info = &self.game.0.types[resource.index()];
-            // Effects other than collecting may give more than the limit.
+            // Effects other than collecting may exceed the limit.
             let given = encounters.iter().any(|other| {
                 other.does(
                     |effect| matches!(effect, EffectSummary::Change { resource: of, .. } if *of == resource),
@@ -319,8 +319,8 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a rule that never fires, and that has its own warning, would change sprites counted
-    /// as this type.
+    /// Returns `true` if a rule that never fires would change sprites that count as this type. Such a rule
+    /// has its own warning.
     fn has_rules_that_never_fire(&self, written: SpriteType) -> bool {
         let counts = |side: SpriteType| self.analysis.applies(side, written);
         let mut encounters = self.analysis.encounters().iter().filter(|encounter| !encounter.blocks());
@@ -330,13 +330,13 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a level can place sprites counted as this type, or sprites that create such sprites,
-    /// directly or in several steps.
+    /// Returns `true` if a level can place sprites that count as this type, or sprites that create such
+    /// sprites, directly or in several steps.
     fn at_start(&self, written: SpriteType) -> bool {
         let types: Vec<SpriteType> = self.game.sprite_types().collect();
         let mut there: Vec<bool> =
             types.iter().map(|&stype| !self.analysis.facts(stype).symbols.is_empty()).collect();
-        // Sprites made during a tick may be updated in the same tick, and make further sprites.
+        // Sprites created during a tick may be updated in the same tick and create further sprites.
         loop {
             let made = types.iter().filter(|stype| there[stype.index()]);
             let made: Vec<SpriteType> =

@@ -3,7 +3,7 @@
 /// The intended meaning of certain foreign words.
 #[derive(Debug)]
 pub(crate) struct Meaning {
-    /// The foreign words, in lower case, with letters and digits only.
+    /// The foreign words, reduced to lower-case letters and digits.
     pub(super) words: &'static str,
     /// The VGDL words to write instead. The first suitable word is used. Empty if the line has to be
     /// rewritten.

@@ -1,6 +1,6 @@
-//! Words that do not exist in VGDL, but that people, language models and other dialects use. Each word comes
-//! with the VGDL words for its intended meaning. A similarly spelt word may have the opposite meaning, so
-//! this table takes precedence over spelling.
+//! Words that do not exist in VGDL, but that people, language models and other dialects use, each with the
+//! VGDL words for its intended meaning. This table takes precedence over similar spelling, because a
+//! similarly spelt word may have the opposite meaning.
 
 mod meaning;
 mod nouns;
@@ -48,8 +48,8 @@ pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     table(place).iter().find(|known| known.words.split(' ').any(|word| word == plain))
 }
 
-/// Returns the meaning of a word that differs by one letter from a word in the table, or the meaning of any
-/// other word for an avatar.
+/// Returns the meaning of a word that differs by one letter from a word in the table, or the meaning for any
+/// other avatar class.
 pub(crate) fn near_meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain = word.to_lowercase();
     if plain.len() > MAX_NAME {
@@ -74,7 +74,7 @@ fn table(place: Place) -> &'static [Meaning] {
     }
 }
 
-/// The meanings of all other avatar classes.
+/// The meaning for all other avatar classes.
 const AVATAR: &[Meaning] = &[means(
     "",
     &[],

@@ -1,15 +1,15 @@
-//! The random number generator for games: the 48-bit linear congruential generator that the reference
-//! uses in VGDL games (`spec/01` §7.1). The algorithm is the published algorithm of `java.util.Random`.
+//! The random number generator for games: the 48-bit linear congruential generator that the reference uses in
+//! VGDL games (`spec/01` §7.1). The algorithm is the one published for `java.util.Random`.
 
 use crate::flat::bytes_of_wrapper;
 use base::Seed;
 
 const MULTIPLIER: u64 = 0x5_DEEC_E66D;
 const MASK: u64 = (1 << 48) - 1;
-/// The number of bits in a draw of [`Chance::float`].
+/// The number of bits that [`Chance::float`] draws.
 pub(crate) const DRAW: u32 = 24;
 
-/// A random number generator of eight bytes, which is part of every [`State`](crate::State).
+/// An eight-byte random number generator, which is part of every [`State`](crate::State).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Chance(pub(crate) u64);
 
@@ -26,7 +26,7 @@ impl Chance {
         Chance((seed as u64 ^ MULTIPLIER) & MASK)
     }
 
-    /// Returns the 48 bits of state, as recorded in traces.
+    /// Returns the 48-bit state, as recorded in traces.
     pub fn state(self) -> u64 {
         self.0
     }
@@ -55,12 +55,12 @@ impl Chance {
         }
     }
 
-    /// Returns a uniform number in [0, 1) with 24 bits, using one draw.
+    /// Returns a uniform 24-bit number in [0, 1), using one draw.
     pub fn float(&mut self) -> f32 {
         self.next(DRAW) as f32 / (1 << DRAW) as f32
     }
 
-    /// Returns a uniform number in [0, 1) with 53 bits, using two draws.
+    /// Returns a uniform 53-bit number in [0, 1), using two draws.
     pub fn double(&mut self) -> f64 {
         let high = i64::from(self.next(26)) << 27;
         let low = i64::from(self.next(27));
@@ -80,7 +80,7 @@ mod tests {
         assert_eq!(Chance::from_seed(seed).state(), 149_835_684_101_585);
     }
 
-    /// Checks the vector of `spec/01` §7.1.
+    /// Checks the vector in `spec/01` §7.1.
     #[test]
     fn the_vector_of_the_specification() {
         let mut chance = Chance::from_java(42);

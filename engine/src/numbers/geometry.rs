@@ -17,7 +17,8 @@ pub struct Rect {
 bytes_of_fields! { Rect { x y w h } }
 
 impl Rect {
-    /// Returns `true` if the two rectangles overlap in a positive area. Empty rectangles never overlap.
+    /// Returns `true` if the overlap of the two rectangles has a positive area. Empty rectangles never
+    /// overlap.
     pub fn intersects(self, other: Rect) -> bool {
         self.w > 0
             && self.h > 0
@@ -50,7 +51,7 @@ impl Rect {
     }
 }
 
-/// A direction or displacement. Equality compares the components, so −0.0 equals 0.0.
+/// A direction or displacement. Equality compares components, so −0.0 equals 0.0.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Direction {
     /// The horizontal component, which is positive to the right.

@@ -1,12 +1,12 @@
-//! Sine and cosine as in fdlibm 5.3, bit-identical with the golden traces on every machine (`spec/02` §15).
+//! Sine and cosine as in fdlibm 5.3, bit-identical to the golden traces on every machine (`spec/02` §15).
 //!
-//! The algorithm is the published fdlibm algorithm. The angle is reduced by multiples of π/2 in two or three
+//! The algorithm is that of fdlibm, as published. The angle is reduced by multiples of π/2 in two or three
 //! parts (Cody and Waite). A polynomial on [−π/4, π/4] is then evaluated in Horner's order. Other libraries,
 //! such as the `libm` crate, evaluate the polynomials in a different order and differ in the last bit for
 //! about one argument in a hundred.
 
-/// The largest angle that this module reduces. The `libm` crate computes larger angles, which no rotation in
-/// a game of 2,000 ticks reaches.
+/// The largest angle that this module reduces. Larger angles are left to the `libm` crate, but no rotation in
+/// a game of 2,000 ticks reaches them.
 const LARGEST: f64 = 823_549.66;
 
 /// Returns the sine of an angle in radians.
@@ -82,8 +82,8 @@ fn kernel_cos(x: f64, tail: Option<f64>) -> f64 {
     rest - (half - (z * r - x * y))
 }
 
-/// Returns the quadrant, the angle within the quadrant and its remainder, or `None` for NaN and angles that
-/// are too large.
+/// Returns the quadrant, the angle within the quadrant, and the angle's remainder, or `None` for NaN and for
+/// angles that are too large.
 fn reduced(angle: f64) -> Option<(i32, f64, Option<f64>)> {
     const PART_1: f64 = f64::from_bits(0x3FF9_21FB_5440_0000);
     const PART_1_TAIL: f64 = f64::from_bits(0x3DD0_B461_1A62_6331);
@@ -143,7 +143,7 @@ fn reduced(angle: f64) -> Option<(i32, f64, Option<f64>)> {
 mod tests {
     use super::*;
 
-    /// Checks vectors T5 and T14 of `spec/02` §17.
+    /// Checks vectors T5 and T14 in `spec/02` §17.
     #[test]
     fn vectors_of_the_reference() {
         assert_eq!((cos(0.3), sin(0.3)), (0.955_336_489_125_606, 0.295_520_206_661_339_55));

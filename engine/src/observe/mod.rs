@@ -23,14 +23,14 @@ pub struct Observation {
     pub columns: usize,
     /// The number of rows of the board.
     pub rows: usize,
-    /// The names of the sprites that overlap each cell, in drawing order, without hidden sprites. The cells are
-    /// row-major.
+    /// For each cell in row-major order, the names of the sprites that overlap it, in drawing order, without
+    /// hidden sprites.
     pub cells: Vec<Vec<String>>,
-    /// The resources that the avatar holds, as names and amounts, sorted by name.
+    /// The resources that the avatar holds, as pairs of name and amount, sorted by name.
     pub resources: Vec<(String, i32)>,
     /// The player's avatar, regardless of its type's name, or `None` once the avatar is gone.
     pub avatar: Option<AvatarView>,
-    /// The visible sprites that move in their own direction, except avatars, in drawing order.
+    /// The visible sprites other than avatars that move in a direction of their own, in drawing order.
     pub movers: Vec<MoverView>,
 }
 
@@ -52,8 +52,8 @@ pub struct MoverView {
 pub struct AvatarView {
     /// The name of the avatar's type, which may change as the avatar transforms.
     pub name: String,
-    /// The column of the cell that contains the avatar's centre, from 0 at the left. The column is out of
-    /// range while the avatar is off the board.
+    /// The column of the cell that contains the avatar's centre, from 0 at the left. Out of range while the
+    /// avatar is off the board.
     pub column: i32,
     /// The row of the cell that contains the avatar's centre, from 0 at the top.
     pub row: i32,
@@ -63,7 +63,7 @@ pub struct AvatarView {
     pub health: i32,
 }
 
-/// A sprite's properties as recorded in a golden trace.
+/// The properties of a sprite that golden traces record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpriteRecord {
     /// The sprite's creation number.
@@ -110,10 +110,11 @@ pub struct Countdown {
     pub left: Option<i32>,
 }
 
-/// The categories that the reference passes to its planners (`spec/01` §9.5). The first category that applies is used.
+/// The categories that the reference passes to its planners (`spec/01` §9.5). If several apply, the first one
+/// is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Category {
-    /// A sprite controllable by the player.
+    /// A sprite that the player can control.
     Avatar,
     /// A sprite that can be held.
     Resource,
@@ -147,8 +148,8 @@ impl Game {
         self.0.types[stype.index()].traits.hidden
     }
 
-    /// Returns the observation of a state. Only the first [`MAX_SEEN`] names are included. This limit matters
-    /// only for boards full of giant sprites. Cost: O(sprites + cells).
+    /// Returns the observation of a state. Only the first [`MAX_SEEN`] names are included, a limit that
+    /// matters only for boards full of giant sprites. Cost: O(sprites + cells).
     pub fn observe(&self, state: &State) -> Observation {
         let (columns, rows) = (state.world.columns() as usize, state.world.rows() as usize);
         let mut cells = vec![Vec::new(); columns * rows];
@@ -210,7 +211,7 @@ impl Game {
         })
     }
 
-    /// Returns the resources that the avatar holds, as names and amounts, sorted by name.
+    /// Returns the resources that the avatar holds, as pairs of name and amount, sorted by name.
     pub fn held_by_avatar(&self, state: &State) -> Vec<(String, i32)> {
         let held = state.world.held_by(state.world.avatar()).iter();
         let mut resources: Vec<_> =
@@ -248,8 +249,8 @@ impl Game {
         records
     }
 
-    /// Returns the countdowns of sprites that create other sprites or vanish by themselves, sorted by type,
-    /// then in order of creation. Cost: O(sprites with countdowns).
+    /// Returns the countdowns of sprites that create other sprites or vanish by themselves, by type and then
+    /// in order of creation. Cost: O(sprites with countdowns).
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         use SpriteClass as C;
         let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
@@ -270,7 +271,7 @@ impl Game {
                 let ticks = traits.limit.saturating_sub(sprite.count).saturating_add(2).max(1);
                 return Countdown { stype: sprite.stype, event: Event::Ends, ticks: Some(ticks), left: None };
             }
-            // The first update of a producer sets its start.
+            // A producer's first update sets its start.
             let start = if sprite.is(flag::STARTED) { state.world.overrides_of(&sprite).start } else { next };
             let gone = start.wrapping_add(next).rem_euclid(traits.cooldown.max(1));
             let ticks = if gone == 0 { 1 } else { traits.cooldown - gone + 1 };
@@ -297,7 +298,7 @@ impl Game {
         self.sprite_types().filter(|&stype| state.world.group(stype).count > 0)
     }
 
-    /// Returns the types held by sprites as resources. A type appears once per holder.
+    /// Returns the types that sprites hold as resources. A type appears once per holder.
     pub fn held_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         let held = state.world.held().iter().filter(|held| held.amount != 0).map(|held| held.resource);
         held.filter(|&stype| stype != SpriteType::NONE)
@@ -325,7 +326,8 @@ impl State {
         self.world.sprites_of(stype).map(|sprite| sprite.rect)
     }
 
-    /// Returns the rectangles and orientations of a type's sprites, including disabled avatars.
+    /// Returns the rectangles, in pixels, and the orientations of a type's sprites, including disabled
+    /// avatars.
     pub fn bodies(&self, stype: SpriteType) -> impl Iterator<Item = (Rect, Direction)> + '_ {
         self.world.sprites_of(stype).map(|sprite| (sprite.rect, self.world.overrides_of(&sprite).orientation))
     }

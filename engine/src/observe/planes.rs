@@ -1,5 +1,4 @@
-//! Observations for learning agents: boards as byte planes, one plane per sprite type, updated from tick to
-//! tick.
+//! Observations for learning agents: boards as byte planes, one per sprite type, updated from tick to tick.
 
 use crate::game::Game;
 use crate::numbers::geometry::Rect;
@@ -12,16 +11,16 @@ const TRACKED: usize = 64;
 /// The number of changes after which [`Planes::update`] settles the running hash, which empties the list of changes.
 const MANY_CHANGES: usize = 24;
 
-/// The [`Drawn`] entry for a slot that is on no plane.
+/// The [`Drawn`] entry for a slot that does not appear on any plane.
 const NOWHERE: u32 = u32::MAX;
-/// The cell value for a sprite that does not cover exactly one cell, or is partly off the board. Such a
-/// sprite always counts as changed.
+/// The cell value for a sprite that does not cover exactly one cell or is partly off the board. Such a sprite
+/// always counts as changed.
 const SPREAD: u32 = 0xFFFF;
 
 /// The planes for a game's boards of a given size: one plane per shown sprite type, in order.
 ///
-/// A plane is `[rows][columns]`, row-major. A cell is 1 if a sprite of the plane's type overlaps it, else 0. The planes
-/// are contiguous.
+/// A plane is a row-major array `[rows][columns]`. A cell is 1 if a sprite of the plane's type overlaps it,
+/// and 0 if not. The planes are contiguous.
 #[derive(Clone, Debug)]
 pub struct Planes {
     columns: usize,
@@ -29,8 +28,7 @@ pub struct Planes {
     types: Vec<SpriteType>,
     /// For each type, the index of its plane, or [`Planes::NO_PLANE`].
     plane_of: Vec<u16>,
-    /// The planes of types whose sprites can move without being recorded in the list of changes, as a bit
-    /// set.
+    /// A bit set of the planes of types whose sprites can move without being recorded in the list of changes.
     unnoted: u64,
 }
 
@@ -41,7 +39,7 @@ pub struct Drawn(Vec<u32>);
 impl Planes {
     const NO_PLANE: u16 = u16::MAX;
 
-    /// Creates the planes of these types, on boards of `columns` by `rows` cells. Hidden types get no plane.
+    /// Creates the planes for these types, on boards of `columns` by `rows` cells. Hidden types get no plane.
     pub fn new(
         game: &Game,
         types: impl IntoIterator<Item = SpriteType>,
@@ -70,8 +68,8 @@ impl Planes {
         self.types.len() * self.columns * self.rows
     }
 
-    /// Draws a whole board. A board smaller than the planes is drawn at their top left. Cost: O(planes × cells +
-    /// sprites).
+    /// Draws a whole board. A board smaller than the planes is drawn in their top-left corner. Cost: O(planes
+    /// × cells + sprites).
     ///
     /// # Panics
     /// Panics if `out` is not [`Planes::size`] bytes long.
@@ -106,8 +104,8 @@ impl Planes {
                 continue;
             }
             let (from, to) = (std::mem::replace(before, now), now);
-            // If the sprite is the only one of its type, as most avatars are, no other sprite covers the cell
-            // that it leaves.
+            // If a sprite is the only one of its type, as most avatars are, no other sprite of the type
+            // covers the cell that it leaves.
             if from >> 16 == to >> 16 && from & SPREAD != SPREAD && to & SPREAD != SPREAD {
                 let plane = (to >> 16) as usize;
                 if world.group(self.types[plane]).count == 1 && world.scenery_of(self.types[plane]).is_empty()
@@ -152,7 +150,7 @@ impl Planes {
         (is_inside && is_plain && !sprite.flies() && cell < SPREAD as usize).then_some(cell)
     }
 
-    /// Calls `mark` with the row-major index of each cell that a sprite of a plane overlaps, once for each
+    /// Calls `mark` with the row-major index of each cell that a sprite on the plane overlaps, once per
     /// overlapping sprite.
     pub fn visit(&self, state: &State, plane: usize, mark: impl FnMut(usize)) {
         self.visit_type(&state.world, self.types[plane], mark);
@@ -177,13 +175,13 @@ impl Planes {
         }
     }
 
-    /// Visits the cells that a rectangle overlaps, as in observations.
+    /// Visits the cells that a rectangle overlaps, by the rule that observations use.
     fn cover(&self, world: &World, rect: Rect, mark: &mut impl FnMut(usize)) {
         let block = world.block().max(1);
         let span = |from: i32, size: i32, limit: i32| {
             let (first, within) = (from.div_euclid(block), from.rem_euclid(block));
             let end = within.saturating_add(size.saturating_sub(1));
-            // Most sprites are in a single cell, which saves the second division.
+            // Most sprites are in a single cell, for which the second division can be saved.
             let last = if (0..block).contains(&end) { first } else { first + end.div_euclid(block) };
             first.clamp(0, limit) as usize..(last.clamp(-1, limit - 1) + 1) as usize
         };

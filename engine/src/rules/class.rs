@@ -5,8 +5,8 @@ use crate::rules::Action;
 base::named_enum! {
     /// A class's behaviour: what its sprites do by themselves.
     pub enum ClassFamily {
-        /// Sprites that do nothing by themselves: they can be collected, be pushed, lead to other sprites or
-        /// carry other sprites.
+        /// Sprites that do nothing by themselves: they can be collected, be pushed, or lead to or carry other
+        /// sprites.
         Thing = "thing",
         /// Sprites that do nothing by themselves and can be held.
         Resource = "resource",
@@ -20,13 +20,13 @@ base::named_enum! {
         Walker = "walker",
         /// Sprites that create other sprites.
         Producer = "producer",
-        /// Sprites controlled by the player.
+        /// Sprites that the player controls.
         Avatar = "avatar",
     }
 }
 
-/// Declares the classes once. Each class has a variant, which is also its VGDL name, the class that it
-/// extends, its family, and the parameters that it adds.
+/// Declares the classes once. Each entry consists of the variant, which is also the class's VGDL name, the
+/// class that it extends, its family, and the parameters that it adds.
 macro_rules! classes {
     ($($name:ident : $parent:ident, $family:ident, $own:expr;)*) => {
         /// A sprite class, named as in VGDL.
@@ -49,7 +49,7 @@ macro_rules! classes {
             }
 
             /// Returns the class's family. Code that treats some classes specially decides by family for all
-            /// others, so that every class is covered.
+            /// others, so that no class is forgotten.
             pub fn family(self) -> ClassFamily {
                 match self { $(SpriteClass::$name => ClassFamily::$family),* }
             }
@@ -151,7 +151,7 @@ impl SpriteClass {
     }
 
     /// Returns the parameters that this class accepts in addition to the base sprite's parameters, including
-    /// inherited parameters.
+    /// inherited ones.
     pub fn parameters(self) -> Vec<&'static str> {
         let inherited = if self.parent() == self { Vec::new() } else { self.parent().parameters() };
         inherited.into_iter().chain(self.own_parameters().iter().copied()).collect()

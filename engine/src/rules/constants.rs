@@ -8,7 +8,7 @@ pub(crate) enum Constant {
     Direction(Direction),
     Int(i32),
     Color([u8; 3]),
-    /// A constant whose kind no parameter accepts.
+    /// A constant of a kind that no parameter accepts.
     Unusable,
 }
 
@@ -52,7 +52,7 @@ pub(crate) fn direction_names() -> impl Iterator<Item = &'static str> {
     DIRECTIONS.iter().map(|(name, _)| *name)
 }
 
-/// The named colours as red, green and blue.
+/// The named colours, as red, green and blue components.
 pub(crate) const COLORS: &[(&str, [u8; 3])] = &[
     ("GREEN", [0, 200, 0]),
     ("BLUE", [0, 0, 200]),

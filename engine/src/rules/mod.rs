@@ -33,8 +33,8 @@ pub(crate) struct TypeInfo {
     pub(crate) traits: Traits,
     /// The ancestors, starting with the root, followed by the type itself.
     pub(crate) path: Box<[SpriteType]>,
-    /// The ancestors, the type itself and its descendants: the types to which rules on this type apply
-    /// (`spec/01` §1.6.3).
+    /// The ancestors, the type itself and its descendants, which are the types to which rules on this type
+    /// apply (`spec/01` §1.6.3).
     pub(crate) tree: Box<[SpriteType]>,
     /// Each type's position in `tree`, or `NOT_IN_TREE`, indexed by type.
     pub(crate) rank: Box<[u16]>,
@@ -48,10 +48,10 @@ pub(crate) struct TypeInfo {
     pub(crate) leaf: bool,
     /// `true` if a termination may count sprites of the type.
     pub(crate) counted: bool,
-    /// `true` if some effect can give speed to sprites without speed.
+    /// `true` if some effect can give a speed to sprites that have none.
     pub(crate) given_speed: bool,
-    /// The parameter that selects among the type's images, if the type has no images. The reference crashes
-    /// on a level that places sprites of such a type.
+    /// The parameter that selects among the type's images, if it has none. The reference crashes on a level
+    /// that places sprites of such a type.
     pub(crate) lacks_image: Option<Span>,
     /// `true` if the type lacks a parameter without which the reference crashes when it creates a sprite of
     /// the type.
@@ -61,12 +61,12 @@ pub(crate) struct TypeInfo {
     pub(crate) unknown_parameters: u32,
     /// `true` if sprites of the type detect the ground when rules test their overlaps.
     pub(crate) ground_aware: bool,
-    /// `true` if the first sprite of the type differs from later sprites, which are copies. Copies have the
-    /// scaled size from the start, their unknown parameters have already been reported, and they leave walls
-    /// behind.
+    /// `true` if the first sprite of the type differs from later ones, which are copies. Unlike the first
+    /// sprite, copies have the scaled size from the start, leave walls behind, and have unknown parameters
+    /// that were already reported.
     pub(crate) first_differs: bool,
-    /// The available actions with this type as the avatar, except [`Action::Nil`]. If there are no such
-    /// actions, the slice contains only [`Action::Nil`].
+    /// The actions available to an avatar of this type, except [`Action::Nil`]. If there are none, the slice
+    /// contains only [`Action::Nil`].
     pub(crate) actions: &'static [Action],
     /// The available actions as a bit mask.
     pub(crate) keys: u8,
@@ -89,15 +89,15 @@ impl TypeInfo {
         self.traits.is_avatar || self.class.is_some_and(SpriteClass::is_avatar)
     }
 
-    /// Returns `true` if the search for the player's avatar, when a level starts, includes sprites of the
-    /// type. The search excludes parent types and the type drawn first (`spec/01` §4.2). `wall` and `avatar`
-    /// are always in the update order.
+    /// Returns `true` if the search for the player's avatar at the start of a level includes sprites of the
+    /// type. It excludes parent types and the type drawn first (`spec/01` §4.2). `wall` and `avatar` are
+    /// always in the update order.
     pub(crate) fn is_sought(&self) -> bool {
         self.is_like_avatar() && self.order.is_some_and(|order| order > 0)
     }
 
-    /// Returns `true` if the tree contains a type twice, as for a type declared below itself (`spec/01`
-    /// §1.6.3).
+    /// Returns `true` if the tree contains a type twice, as it does for a type declared below itself
+    /// (`spec/01` §1.6.3).
     pub(crate) fn repeats(&self) -> bool {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
     }
@@ -143,11 +143,11 @@ pub(crate) struct EffectInfo {
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
     /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if the value is not a number. Such a value
-    /// counts as 0, and the reference logs a message at each use.
+    /// counts as 0, and the reference logs a message each time it is used.
     pub(crate) score_faults: [bool; 2],
-    /// The changes to the game's counters by an execution, if any.
+    /// The changes that an execution makes to the game's counters, if any.
     pub(crate) counting: Option<Box<Counting>>,
-    /// `true` if the effect runs once on all partners of a sprite together.
+    /// `true` if the effect runs only once on all partners of a sprite together.
     pub(crate) in_batch: bool,
     /// `true` if the line also runs as a timed effect. The line's score and counters then apply regardless of
     /// the effect's result at run time.
@@ -156,7 +156,7 @@ pub(crate) struct EffectInfo {
     pub(crate) line: usize,
 }
 
-/// The memory that an effect keeps between executions (`spec/03` §13), as bits in one byte per effect.
+/// The memory that an effect keeps between executions (`spec/03` §13), as the bits of one byte per effect.
 pub(crate) mod memory {
     /// The score changes when the effect runs. Many effects set this bit at run time.
     pub(crate) const APPLY_SCORE: u8 = 1;
@@ -169,7 +169,7 @@ pub(crate) mod memory {
 }
 
 /// The values of `counter` and `counterElse` on a line (`spec/03` §3), with one amount per counter in the
-/// game. `None` stands for a text that is not a number. Such a text counts as 0, and the reference logs a
+/// game. `None` stands for text that is not a number, which counts as 0 and for which the reference logs a
 /// message at each use.
 #[derive(Clone, Debug)]
 pub(crate) struct Counting {
@@ -221,7 +221,7 @@ pub(crate) struct Timed {
     pub(crate) repeating: bool,
     /// The tick of the first execution, or `None` if addTimer schedules the effect.
     pub(crate) first_due: Option<i32>,
-    /// The effect whose line sets the score change: either this effect or the addTimer.
+    /// The effect whose line sets the score change: either this effect or the addTimer that schedules it.
     pub(crate) wrapper: u16,
     pub(crate) score_change: i32,
     pub(crate) apply_score: bool,
@@ -238,14 +238,14 @@ pub(crate) struct Pass {
     pub(crate) keyword: u16,
     /// `true` if the second tree contains a type twice, so that its sprites are visited twice.
     pub(crate) repeats: bool,
-    /// `true` if the search for hits can start from the second side, because executing the effect moves
-    /// nothing on which a later hit depends.
+    /// `true` if the search for hits can start from the second side, because the effect moves nothing that a
+    /// later hit depends on.
     pub(crate) either_side: bool,
 }
 
 /// The non-ASCII characters in a LevelMapping. The reference looks up UTF-16 code units. Each mapped
-/// non-ASCII unit gets an ASCII code that is otherwise unused in the game, so that level cells contain ASCII
-/// codes in every game.
+/// non-ASCII unit gets an ASCII code that the game does not use otherwise, so that level cells always contain
+/// ASCII codes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Aliases(pub(crate) Vec<Alias>);
 
@@ -275,7 +275,7 @@ pub(crate) struct Rules {
     pub(crate) digest: Digest,
     /// The warnings about the text alone.
     pub(crate) warnings: Vec<Diagnostic>,
-    /// All warnings, including warnings about the rules' meaning. The warnings are computed on first use.
+    /// All warnings, including those about the rules' meaning. Computed on first use.
     pub(crate) all_warnings: OnceLock<Vec<Diagnostic>>,
     /// `true` if the game was loaded in reference mode. The game's levels are then loaded in reference mode,
     /// too.
@@ -306,8 +306,7 @@ pub(crate) struct Rules {
     /// that uses such a character.
     pub(crate) unusable: BTreeSet<u8>,
     pub(crate) effects: Vec<EffectInfo>,
-    /// The passes at the edge of the screen, with repetitions expanded. Each pass consists of the type and
-    /// the effect.
+    /// The passes at the edge of the screen, each with its type and effect, with repetitions expanded.
     pub(crate) edge: Vec<(SpriteType, u16)>,
     /// `true` if one of the `edge` passes refers to an undeclared type, which makes the reference crash in
     /// the first tick.
@@ -331,9 +330,9 @@ pub(crate) struct Rules {
     pub(crate) reads_score: bool,
     /// The size of the largest sprite in cells, rounded up.
     pub(crate) reach: i32,
-    /// The spawners' cooldowns. Spawners created later fire at ticks that are multiples of their cooldown.
+    /// The cooldowns of spawners. Spawners that are created later fire at multiples of their cooldown.
     pub(crate) clocks: Vec<i32>,
-    /// The ticks before which wizards, including wizards created later, create no block.
+    /// The ticks before which wizards, including those created later, create no block.
     pub(crate) wizard_ticks: Vec<i32>,
     /// `true` if the first sprite of some type can differ from later sprites of the type.
     pub(crate) first_differs: bool,

@@ -25,7 +25,7 @@ pub enum Outcome {
 pub enum Limit {
     /// The number of sprites exceeded the limit for a state.
     Sprites,
-    /// The work in one tick (effects, and examined sprites and cells) exceeded
+    /// The work in one tick (effects executed, sprites and cells examined) exceeded
     /// [`MAX_WORK`](crate::limits::MAX_WORK).
     Work,
     /// A sprite was spawned while sprites of its type were being updated, which makes the reference throw an
@@ -40,7 +40,7 @@ pub enum Limit {
     NoPaths,
     /// A rule tried to create or look up a sprite whose type is undeclared or has no class.
     NoType,
-    /// An effect was executed without the sprites that it needs.
+    /// An effect ran without the sprites that it needs.
     NoSprite,
     /// A type turned into itself endlessly.
     EndlessTransform,

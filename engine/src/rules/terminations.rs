@@ -9,11 +9,11 @@ pub(crate) struct Termination {
     pub(crate) condition: Condition,
     /// `true` if the termination wins the game, or may win it.
     pub(crate) win: bool,
-    /// The rule that decides between win and loss.
+    /// The way in which a win or a loss is decided.
     pub(crate) decided_by: Decision,
 }
 
-/// A termination's decision between win and loss (`spec/01` §4.8, for one player).
+/// The way in which a termination decides between a win and a loss (`spec/01` §4.8, for one player).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Decision {
     /// The line's `win` parameter decides.
@@ -32,8 +32,8 @@ pub(crate) enum Condition {
     SpriteCounter { stype: SpriteType, limit: i32 },
     /// Holds while at least `limit` sprites exist.
     SpriteCounterMore { stype: SpriteType, limit: i32 },
-    /// Holds while several types together have exactly `limit` sprites, or at least `limit` sprites if `min`
-    /// is `true`.
+    /// Holds while several types have a total of exactly `limit` sprites, or at least `limit` sprites if
+    /// `min` is `true`.
     MultiSpriteCounter { stypes: SmallVec<[SpriteType; 3]>, limit: i32, min: bool },
     /// Holds while a type has exactly `limit` sprites of exactly `kinds` distinct subtypes.
     MultiSpriteCounterSubTypes { stype: SpriteType, limit: i32, kinds: i32 },

@@ -6,8 +6,8 @@ use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
 base::with_defaults! {
-    /// The values of a type's fields after class defaults and parameters: a sprite's initial values and its
-    /// constants. The defaults are those of the base sprite.
+    /// The values of a type's fields after applying class defaults and parameters: a sprite's initial values
+    /// and its constants. The defaults are those of the base sprite.
     #[derive(Clone, Debug)]
     pub(crate) struct Traits {
         pub(crate) speed: f64 = 0.0,
@@ -30,8 +30,8 @@ base::with_defaults! {
         pub(crate) is_resource: bool = false,
         pub(crate) is_avatar: bool = false,
         pub(crate) is_from_avatar: bool = false,
-        /// The initial values of a sprite: the ticks since its last move, whether its first passive movement is still
-        /// to come, and whether it stands on something.
+        /// The initial values of a sprite: the number of ticks since its last move, whether its first passive
+        /// movement is still to come, and whether it stands on something.
         pub(crate) last_move: i32 = 0,
         pub(crate) is_first_tick: bool = true,
         pub(crate) on_ground: bool = false,
@@ -58,7 +58,7 @@ base::with_defaults! {
         /// `true` for continuous physics, `false` for grid physics.
         pub(crate) continuous: bool = false,
         /// `true` unless the type is declared to have grid physics. An unknown kind of physics acts like grid
-        /// physics, but gives avatars passive movement.
+        /// physics, except that it gives avatars passive movement.
         pub(crate) off_grid: bool = false,
         pub(crate) mass: f64 = 1.0,
         pub(crate) gravity: f64 = 0.0,
@@ -69,7 +69,7 @@ base::with_defaults! {
         /// The angle in radians per tick.
         pub(crate) angle_diff: f64 = 0.0,
         pub(crate) rotation: f64 = 0.0,
-        /// The direction of a CarAvatar: 0 for forwards, 1 for backwards.
+        /// The direction of a CarAvatar, 0 for forwards or 1 for backwards.
         pub(crate) facing: f64 = 0.0,
         /// The direction that a WizardAvatar faces, and the tick of its last block.
         pub(crate) facing_dir: Direction = Direction::RIGHT,
@@ -100,7 +100,7 @@ impl Traits {
     }
 
     /// Returns the number of columns and rows that a sprite of the type overlaps if it starts at a cell's
-    /// corner. Both numbers are at least 1 and at most [`MAX_REACH`](crate::limits::MAX_REACH).
+    /// corner. Each number is at least 1 and at most [`MAX_REACH`](crate::limits::MAX_REACH).
     pub(crate) fn span(&self) -> (usize, usize) {
         let cells = |factor: f64| (factor.ceil() as usize).max(1);
         (cells(self.width_factor), cells(self.height_factor))

@@ -3,8 +3,8 @@
 //!
 //! Every type that takes part in a rule has a bit, and each board cell has a mask with the bits of the types
 //! in the cell (`occupancy.rs`). For each pair of bits with a rule, a counter stores the number of cells that
-//! contain both. Each pass in the event phase counts its pairs that share a cell anywhere, and a pass without
-//! any such pair is skipped.
+//! contain both. Each pass in the event phase counts its pairs that share a cell anywhere, and is skipped if
+//! there are none.
 //!
 //! A sprite larger than a cell is in the mask of only one cell, so a pass with such a sprite on either side
 //! also counts as possible. The cells that large sprites cover are stored separately.
@@ -28,7 +28,8 @@ pub(crate) struct Contacts {
     of_type: Vec<Box<[u16]>>,
     /// The number of passes.
     passes_in_all: usize,
-    /// The always possible passes: for some classes, testing the ground below has an effect in itself.
+    /// The passes that are always possible, because for some classes testing the ground below has an effect
+    /// in itself.
     always: Vec<u16>,
 }
 
@@ -114,7 +115,7 @@ impl Schedule {
         }
     }
 
-    /// Returns `true` if any sprite with the bit `own` may share a cell with a sprite with any of the bits
+    /// Returns `true` if a sprite with the bit `own` may share a cell with a sprite that has any of the bits
     /// `others`.
     #[inline]
     pub(crate) fn may_meet(&self, world: &World, own: u64, others: u64) -> bool {

@@ -1,16 +1,18 @@
 //! Sprites in flight: sprites that keep moving straight ahead as long as nothing happens to them.
 //!
 //! A car on a road moves two pixels in every tick, and each tick repeats the last tick. An invader moves in
-//! every third tick, and in the other ticks only draws a random number to decide whether to drop something.
+//! every third tick, and in the other ticks merely draws a random number to decide whether to drop something.
 //! Such sprites are not updated. Their position and their hash contribution (`contribution.rs`) are
-//! extrapolated from an earlier position and the time since then. A sprite is recorded in a new cell only
-//! when it is about to cover that cell. The rules that pair the sprite with other sprites in its cells are
-//! always known (`contacts.rs`), and overlap is tested with the extrapolated position. As soon as an effect
-//! is executed on the sprite, or can reach it, the sprite lands and becomes an ordinary sprite again.
+//! extrapolated from an earlier position and the time since then.
 //!
-//! Types may fly only if the result is the same (`spec/01` §4): their movement draws no random numbers and
-//! counts nothing, and no other sprite searches for them. Producers that draw random numbers continue to do
-//! so, and land when they create a sprite.
+//! A sprite is recorded in a new cell only when it is about to cover that cell. The rules that pair the
+//! sprite with other sprites in its cells are always known (`contacts.rs`), and overlap is tested with the
+//! extrapolated position. As soon as an effect runs on the sprite, or can reach it, the sprite lands and
+//! becomes an ordinary sprite again.
+//!
+//! Sprites of a type may fly only if that does not change the result (`spec/01` §4): their movement draws no
+//! random numbers and counts nothing, and no other sprite searches for them. Producers that draw random
+//! numbers continue to do so, and land when they create a sprite.
 
 use super::{Foresight, mark};
 use crate::flat::bytes_of_fields;
@@ -30,7 +32,7 @@ pub(crate) struct Flight {
 bytes_of_fields! { Flight { slot due } }
 
 /// The maximum distance in pixels from the board at takeoff, and the maximum distance of a single move.
-/// Neither distance can cause an overflow.
+/// Neither distance can cause coordinates to overflow.
 const FARTHEST: i32 = 1 << 16;
 const FASTEST: i32 = 1 << 15;
 /// The maximum number of ticks between the moves of a sprite in flight.
@@ -43,7 +45,7 @@ fn due(sprite: &Sprite, moves: i32) -> i32 {
 }
 
 impl Step<'_, Foresight<'_>> {
-    /// Ends a flight. The sprite gets the values that it would have after its update in `tick`.
+    /// Ends a flight. The sprite gets the values that it would have had after its update in `tick`.
     fn land(&mut self, slot: Slot, tick: i32) {
         let sprite = self.world.edit_motion(slot);
         settle_in(sprite, tick);
@@ -99,7 +101,7 @@ impl Step<'_, Foresight<'_>> {
         due
     }
 
-    /// Lands all sprites in flight. For use only between the updates of two ticks.
+    /// Lands all sprites in flight. Call only between the updates of two ticks.
     pub(super) fn land_all(&mut self, tick: i32) {
         while let Some(flight) = self.scheduler.schedule.flights.pop() {
             self.land(flight.slot, tick);
@@ -107,7 +109,7 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.next_due = i32::MAX;
     }
 
-    /// Lands a sprite on which an effect is about to be executed. Cost: O(sprites in flight), if the sprite flies.
+    /// Lands a sprite on which an effect is about to run. Cost: O(sprites in flight) if the sprite flies.
     #[inline]
     pub(crate) fn land_one(&mut self, slot: Slot) {
         if self.world.sprite(slot).flies() {
@@ -134,7 +136,7 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.flights.swap_remove(at.expect("a sprite in flight is in the list"));
     }
 
-    /// Ends a flight before the sprite's update in this tick.
+    /// Ends a flight as of before the sprite's update in this tick.
     fn land_late(&mut self, slot: Slot) {
         self.land(slot, self.world.tick() - 1);
         let sprite = self.world.edit_motion(slot);
@@ -155,8 +157,8 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.next_due = i32::MAX;
     }
 
-    /// Starts a sprite's flight after a tick in which the sprite has only moved by itself. Returns `false` if
-    /// the sprite cannot fly.
+    /// Starts a sprite's flight after a tick in which it has merely moved by itself. Returns `false` if the
+    /// sprite cannot fly.
     pub(super) fn take_off(&mut self, slot: Slot) -> bool {
         let sprite = *self.world.sprite(slot);
         let (dx, dy) = (

@@ -1,18 +1,19 @@
-//! A scheduler that skips work without effect. The table lists all skippable work, with the reason for
-//! skipping.
+//! A scheduler that skips work that has no effect. The table lists all work that it skips, with the reason.
 //!
 //! | Skipped | Because | Where |
 //! |---|---|---|
 //! | a pass of the event phase | no two sprites of its sides share a cell, so no sprites overlap | `contacts.rs` |
 //! | a type within a pass | it shares no cell with the other side | `contacts.rs` |
-//! | the first side of a pass | the effect allows hits to be found from the other side; they run in the same order | `passes.rs` |
+//! | the first side of a pass | the effect allows hits to be found from the other side and executed in the
+//! same order | `passes.rs` |
 //! | an update that would not move the sprite | its speed, cooldown or class says so; draws are still made | `updates.rs` |
-//! | an update of a producer that only draws | the draw is made, and too high | `updates.rs` |
+//! | an update in which a producer only draws a random number | the draw is made, and it is too high to
+//! create a sprite | `updates.rs` |
 //! | updates of a sprite that flies straight on | its position follows from the tick; it lands before anything else happens to it | `flight.rs` |
 //! | updates of a sprite that the same rule moves back every time | nothing entered or left its cells; whatever does wakes it | `sleep.rs` |
 //!
-//! Nothing else is skipped. Unforeseeable events wake and land all sprites ([`Scheduler::unsettles`]):
-//! timers, effects on distant sprites, and a stopped tick. Tests compare every tick with
+//! Nothing else is skipped. Unforeseeable events (timers, effects on distant sprites, and a stopped tick)
+//! wake and land all sprites: see [`Scheduler::unsettles`]. Tests compare every tick with
 //! [`Unscheduled`](crate::tick::Unscheduled), on all games and on random games.
 //! `docs/lab/decisions/0005-foreseen-sprites.md` documents the cost and the gain of each shortcut.
 

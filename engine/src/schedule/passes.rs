@@ -1,4 +1,5 @@
-//! The event-phase passes whose two sides share a cell somewhere, visited from the side with fewer sprites.
+//! The event-phase passes whose two sides share a cell somewhere, each visited from the side with fewer
+//! sprites.
 
 use super::Foresight;
 use crate::rules::{Pass, SpriteType};
@@ -7,7 +8,7 @@ use crate::world::{Hit, Hits, NONE};
 use smallvec::SmallVec;
 
 impl Step<'_, Foresight<'_>> {
-    /// Returns `true` if the second side of a pass has fewer sprites, and a search from that side finds the
+    /// Returns `true` if the second side of a pass has fewer sprites and a search from that side finds the
     /// same hits.
     #[inline(always)]
     pub(super) fn is_second_side_smaller(&self, pass: &Pass) -> bool {

@@ -4,7 +4,8 @@ use super::{Foresight, Plan, Schedule, mark};
 use crate::world::{Models, Slot, World, flag};
 
 impl Schedule {
-    /// Compares all incrementally maintained values with a count from scratch. Cost: O(sprites + cells).
+    /// Compares all incrementally maintained values with values counted from scratch. Cost: O(sprites +
+    /// cells).
     ///
     /// # Errors
     /// Returns a message that describes the first difference.

@@ -2,11 +2,13 @@
 //!
 //! A boulder on the ground falls a little, collides with the dirt below and is moved back in every tick. As
 //! long as nothing enters or leaves the cells of the boulder and the cells below, each tick repeats the last
-//! tick and changes nothing. Such a sprite is skipped. As soon as anything touches these cells, the sprite
-//! wakes. If the sprite's turn to move in this tick has already passed, but the rule that moves it back has
-//! not run yet, the movement is performed late.
+//! tick and changes nothing. Such a sprite is skipped.
 //!
-//! Sprites may sleep only if the result is the same (`spec/01` §4, `spec/03` §4). The conditions are:
+//! As soon as anything touches these cells, it wakes. If its turn to move in this tick has already passed,
+//! but the rule that moves it back has not run yet, the movement is performed late.
+//!
+//! Sprites may sleep only if that does not change the result (`spec/01` §4, `spec/03` §4). The conditions
+//! are:
 //!
 //! - The sprite's movement draws no random numbers, counts nothing and does not wait.
 //! - The rule that moves the sprite back has no score.
@@ -29,14 +31,14 @@ use crate::world::{Slot, Sprite, World, flag};
 
 /// Values of [`Sprite::activity`], which record the sprite's activity in this tick.
 pub(crate) mod mark {
-    /// The sprite has not moved by itself, or not in the manner of sleeping sprites.
+    /// The sprite has not moved by itself, or not in the way that sleeping sprites do.
     pub(crate) const NOTHING: u16 = 0;
     /// The sprite has moved by itself, and nothing else has happened.
     pub(crate) const MOVED: u16 = 0x7FFF;
     /// Something else has happened as well.
     pub(crate) const DISTURBED: u16 = 0x7FFE;
-    /// A bit set for sprites that are not updated. Without this bit, other values are one more than the index
-    /// of the pass that moved the sprite back.
+    /// A bit set for sprites that are not updated. Without this bit, any other value is one more than the
+    /// index of the pass that moved the sprite back.
     pub(crate) const SKIPPED: u16 = 0x8000;
 }
 
@@ -120,7 +122,7 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
             // Types that never move by themselves need no shortcut.
             && !is_idle
             && !traits.continuous
-            // Sprites that wait, and enter a new cell with every move, are cheaper without flight.
+            // Sprites that wait, and enter a new cell with every move, are cheaper to update than to fly.
             && (traits.cooldown <= 1 || traits.cooldown <= LONGEST_PERIOD && traits.speed.abs() < 1.0)
             && traits.last_move == 0
             && traits.time_to_live < 0
@@ -156,7 +158,7 @@ impl Schedule {
 }
 
 impl Foresight<'_> {
-    /// Wakes all sleeping sprites. For use only between steps.
+    /// Wakes all sleeping sprites. Call only between steps.
     pub(super) fn wake_all(&mut self, world: &mut World) {
         let Schedule { sleepers, skipped, watched, .. } = &mut *self.schedule;
         for sleeper in sleepers.drain(..) {
@@ -188,7 +190,7 @@ impl Step<'_, Foresight<'_>> {
         self.touch(slot);
         self.relocate(slot, rect);
         self.touch(slot);
-        // The sprite's own move may yet be undone: its effect is known only at the end of the tick.
+        // The sprite's own move may still be undone, so its result is known only at the end of the tick.
         if !self.is_try(&before) {
             self.scheduler.schedule.stamp(self.world, &before, self.world.tick());
             self.stamp(slot);
@@ -196,14 +198,14 @@ impl Step<'_, Foresight<'_>> {
         self.wake();
     }
 
-    /// Returns `true` if a move is the sprite's own move, or the step back from that move. Both moves are
-    /// evaluated at the end of the tick.
+    /// Returns `true` if a move is the sprite's own, or the step back from it. Both moves are evaluated at
+    /// the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps
             && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))
     }
 
-    /// Wakes and lands sprites before an effect is executed on a sprite, and records the execution.
+    /// Wakes and lands sprites before an effect runs on a sprite, and records the execution.
     pub(super) fn foresee(&mut self, info: &EffectInfo, one: Slot, partners: &[Slot]) {
         let effect = info.in_tick;
         self.land_one(one);
@@ -301,7 +303,7 @@ impl Step<'_, Foresight<'_>> {
         let quiet = sleeper.cells(self.world).all(|cell| {
             self.scheduler.schedule.stamps[cell] < now && self.scheduler.schedule.watched[cell] < u8::MAX
         });
-        // At the sprite's position, an effect might be executed on it that its own movement avoids while it is awake,
+        // At the sprite's position, an effect might run on it that its own movement avoids while it is awake,
         // such as an effect at the edge.
         if !quiet || sprite.is(flag::OFF) || self.overlaps_rule_partner(slot) {
             return;
@@ -314,7 +316,7 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.sleepers.push(sleeper);
     }
 
-    /// Returns `true` if a rule pairs the sprite with anything that it overlaps at its position.
+    /// Returns `true` if a rule pairs the sprite with anything that it overlaps where it is.
     fn overlaps_rule_partner(&self, slot: Slot) -> bool {
         let Sprite { rect, stype, .. } = *self.world.sprite(slot);
         let partners = self.models.bits[stype.index()].partners;
@@ -355,8 +357,8 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Wakes one sprite. If the sprite's turn to move in this tick has passed, and the rule that moves it
-    /// back has not run yet, performs the movement late.
+    /// Wakes one sprite. If its turn to move in this tick has passed, but the rule that moves it back has not
+    /// run yet, performs the movement late.
     fn wake_one(&mut self, sleeper: Sleeper) {
         let slot = sleeper.slot;
         for cell in sleeper.cells(self.world) {

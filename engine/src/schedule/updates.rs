@@ -11,7 +11,7 @@ use crate::tick::sprites::{self, npcs};
 use crate::world::{NONE, Slot, Sprite, World, flag};
 
 /// Returns `true` if [`sprites::base`] has no effect on a sprite in this tick, because the sprite does not
-/// move by itself, or its cooldown has not passed.
+/// move by itself or its cooldown has not passed.
 #[inline]
 fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     let stands =
@@ -41,14 +41,14 @@ pub(crate) struct Mover {
     threshold: i32,
 }
 
-/// The start of a type's updates.
+/// The way in which a type's updates start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum UpdateKind {
     /// The update makes a random draw. If no sprite is created, only [`sprites::base`] follows.
     Draws,
     /// The update consists of [`sprites::base`] alone.
     Moves,
-    /// The sprite drifts and chooses a direction. While waiting, the sprite only chooses a direction.
+    /// The sprite drifts and chooses a direction. While waiting, it only chooses a direction.
     Chooses,
     Other,
 }
@@ -95,8 +95,8 @@ fn threshold(prob: f64) -> i32 {
     if scaled.is_nan() { i32::MAX } else { scaled as i32 }
 }
 
-/// Skips SpawnPoints and Bombers, starting at `slot`, that only make a draw in this tick (the most frequent
-/// case). Returns the first sprite that does more.
+/// Starting at `slot`, skips SpawnPoints and Bombers that merely make a draw in this tick, which is the most
+/// frequent case. Returns the first sprite that does more.
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = world.chance();
     while slot != NONE {

@@ -1,4 +1,4 @@
-//! Construction of states without playing.
+//! Constructs states without playing.
 
 use crate::game::Game;
 use crate::level::Level;
@@ -8,9 +8,8 @@ use crate::state::State;
 use base::Seed;
 
 impl Game {
-    /// Starts an episode like [`Game::start`], but the avatar faces `facing` and holds the resources
-    /// `held`, in addition to its initial resources. Players use this function to reconstruct a state
-    /// from an observation.
+    /// Starts an episode like [`Game::start`], but the avatar faces `facing` and holds the resources `held`,
+    /// in addition to its initial resources. Players use this to reconstruct a state from an observation.
     pub fn start_as(
         &self,
         level: &Level,

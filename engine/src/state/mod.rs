@@ -12,7 +12,7 @@ use crate::world::{StateHash, World, flag};
 /// An episode's state.
 ///
 /// `clone` also copies the random number generator, so planners use [`State::fork`] instead. `clone_from`
-/// reuses buffers and does not allocate once the buffers have grown.
+/// reuses buffers and does not allocate once they have grown.
 #[derive(Debug)]
 pub struct State {
     pub(crate) world: World,
@@ -31,7 +31,7 @@ impl Clone for State {
 }
 
 impl State {
-    /// Returns the number of ticks played, minus one: −1 at the start, 0 after the first step.
+    /// Returns the number of ticks played, minus one: −1 at the start and 0 after the first step.
     pub fn tick(&self) -> i32 {
         self.world.tick()
     }
@@ -41,7 +41,7 @@ impl State {
         self.world.score() as f64
     }
 
-    /// Returns the game's counters. The game's `no_counters=` sets their number.
+    /// Returns the game's counters, whose number the game's `no_counters=` sets.
     pub fn counters(&self) -> &[i32] {
         self.world.counters()
     }
@@ -61,8 +61,8 @@ impl State {
         self.world.chance()
     }
 
-    /// Copies the state with a different random future. Planners use such copies because they must not
-    /// foresee random events.
+    /// Returns a copy of the state with a different random future. Planners use such copies because they must
+    /// not foresee random events.
     pub fn fork(&self, seed: base::Seed) -> State {
         let mut state = self.clone();
         state.world.reseed(Chance::from_seed(seed), Chance::from_seed(seed.child("jumps", 0)));
@@ -102,10 +102,11 @@ impl State {
         self.world.state_hash()
     }
 
-    /// Updates the running hash, so that [`State::state_hash`] does not process earlier changes again.
+    /// Updates the running hash, so that [`State::state_hash`] does not have to process earlier changes
+    /// again.
     ///
-    /// Stepping does not update the running hash, because planners need few hashes and should not pay for a
-    /// hash in every step. Cost: O(sprites changed since the last call).
+    /// Stepping does not update the running hash, because planners need few hashes and should not pay for one
+    /// in every step. Cost: O(sprites changed since the last call).
     pub fn settle_hash(&mut self) {
         self.world.settle_hash();
     }

@@ -4,8 +4,8 @@ use crate::game::{Compiled, Game};
 use crate::state::State;
 
 impl State {
-    /// Compares all incrementally maintained values with a count from scratch. Returns the number of sprites
-    /// of each type. Cost: O(sprites + cells).
+    /// Compares all incrementally maintained values with values counted from scratch. Returns the number of
+    /// sprites of each type. Cost: O(sprites + cells).
     ///
     /// # Errors
     /// Returns a message that describes the first difference.

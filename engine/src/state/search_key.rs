@@ -1,4 +1,4 @@
-//! Keys for the live part of states, for planners' transposition tables.
+//! Keys for the live part of a state, for planners' transposition tables.
 
 use crate::SpriteClass;
 use crate::analysis::StateAbstraction;
@@ -9,8 +9,7 @@ use crate::rules::{Rules, SpriteType, TypeInfo, memory};
 use crate::state::State;
 use crate::world::{Extra, Mixer, Replaced, SearchKey, Slot, Sprite, Target, World, bits, flag, two};
 
-/// The flags that a later step can read. The remaining flags follow from the type, or record the sprite's
-/// origin.
+/// The flags that a later step can read. The other flags follow from the type or record the sprite's origin.
 const LIVE: u32 = flag::DISABLED | flag::ON_GROUND | flag::FIRST_TICK | flag::ORIENTED | flag::FROZEN;
 
 const TAG: u64 = 0x4B65_7900;
@@ -19,7 +18,7 @@ const TAG: u64 = 0x4B65_7900;
 trait Absorb {
     fn pair(&mut self, a: u64, b: u64);
 
-    /// Absorbs the words for each slot such that the order of the slots makes no difference.
+    /// Absorbs the words for each slot in such a way that the order of the slots makes no difference.
     fn in_any_order(&mut self, slots: impl Iterator<Item = Slot>, words: impl Fn(Slot, &mut Self));
 }
 
@@ -39,7 +38,7 @@ impl Absorb for Mixer {
     }
 }
 
-/// A vector collects the words themselves.
+/// Collects the words themselves in a vector.
 impl Absorb for Vec<u64> {
     fn pair(&mut self, a: u64, b: u64) {
         self.extend([a, b]);
@@ -60,18 +59,19 @@ impl Absorb for Vec<u64> {
 
 impl State {
     /// Returns a hash of the part of the state that can affect later steps. Two states in the same game and
-    /// level with equal keys have equal keys, outcomes and score changes after the same actions. There are
-    /// three exceptions:
+    /// level with equal keys have equal keys, outcomes and score changes after the same actions. The
+    /// exceptions are:
     ///
     /// - states near the reference's tick limit, which planners do not reach
     /// - states near the engine's work limit, which planners do not reach
     /// - score changes by removeScore, which removes the whole score
     ///
     /// The key omits the score, the counters and the tick, unless a termination reads their values. Spawners
-    /// read only the remainder of the tick. The key also omits the random number generator, unless random
-    /// draws are possible, and memory that is never read again. Ages count up to the cooldown, timers are
-    /// relative to the tick, and sprites are identified by their order instead of their IDs. Cost:
-    /// O(sprites).
+    /// read only the tick's remainder. The key also omits the random number generator, unless random draws
+    /// are possible, and memory that is never read again.
+    ///
+    /// Ages count up to the cooldown, timers are relative to the tick, and sprites are identified by their
+    /// order instead of their IDs. Cost: O(sprites).
     pub fn search_key(&self, game: &Game) -> SearchKey {
         let mut mixer = Mixer::new(TAG);
         self.world.live_state(&game.0, None, &mut mixer);
@@ -142,7 +142,7 @@ impl World {
         self.remembered_words(rules, to);
     }
 
-    /// Identifies a sprite by its type and its position among the sprites of that type.
+    /// Returns a sprite's identity: its type and its position among the sprites of that type.
     fn rank(&self, slot: Slot) -> u64 {
         let Some(sprite) = self.get(slot) else { return u64::MAX };
         let place = self.slots(sprite.stype).position(|other| other == slot);
@@ -167,8 +167,8 @@ impl World {
             two(sprite.time_to_live, i32::from(overrides.spawns.0)),
         );
         if sprite.is(flag::FROZEN) {
-            // The last rectangle of any other sprite is overwritten at the start of the next step, so it does
-            // not matter.
+            // The last rectangle of any other sprite is overwritten at the start of the next step, so it
+            // makes no difference.
             let last = self.last(slot);
             to.pair(two(last.x, last.y), two(last.w, last.h));
         }
@@ -191,12 +191,13 @@ impl World {
         } else {
             self.tick().wrapping_sub(sprite.moved_at).wrapping_add(1)
         };
-        // The reference's counter overflows to the smallest number, so that a very old sprite is young again.
+        // The reference's counter overflows to the smallest number, after which a very old sprite is young
+        // again.
         if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) }
     }
 
-    /// Returns a spawner's phase. The spawner fires when the sum of its start and the tick is a multiple of
-    /// the cooldown.
+    /// Returns a spawner's phase. A spawner fires when the sum of its start and the tick is a multiple of its
+    /// cooldown.
     fn phase(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
         match self.overrides_of(sprite).start {
             // The first update will set the start.
@@ -230,8 +231,8 @@ impl World {
         to.pair(two(x, y), 0);
     }
 
-    /// Absorbs the memory that effects read before they write it. Also absorbs the types whose first sprite
-    /// has already been created, if this makes a difference.
+    /// Absorbs the memory that effects read before they write it and, if it makes a difference, the types
+    /// whose first sprite has already been created.
     fn remembered_words(&self, rules: &Rules, to: &mut impl Absorb) {
         let credits = memory::APPLY_SCORE | memory::NO_COUNT | memory::NO_COUNT_ELSE;
         for &effect in &rules.remembering {

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Word {
     /// The word's text, as written.
     pub text: String,
-    /// The word's position. In trees built by generators, the default span.
+    /// The word's position, or the default span in trees built by generators.
     pub span: Span,
 }
 
@@ -46,7 +46,7 @@ impl Param {
     }
 }
 
-/// The comments attached to a line. `arcade fmt` keeps comments, and digests ignore them.
+/// The comments attached to a line. `arcade fmt` keeps them, and digests ignore them.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Trivia {
     /// The comment lines above the line, without the `#`.
@@ -97,7 +97,7 @@ pub struct MappingLine {
 /// An interaction line, `first second … > effect key=value …`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct InteractionLine {
-    /// The sprite affected by the effect.
+    /// The sprite on which the effect acts.
     pub first: Word,
     /// The first sprite's partners.
     pub second: Vec<Word>,

@@ -85,7 +85,8 @@ impl Printer {
         }
     }
 
-    /// Prints a comment. The reference crashes on a line that consists only of `#` and starts in the first column.
+    /// Prints a comment. The reference crashes on a line that starts in the first column and consists only of
+    /// `#`.
     fn comment(&mut self, indent: &str, comment: &str) {
         let indent = if indent.is_empty() && comment.bytes().all(|byte| byte == b'#') { " " } else { indent };
         let _ = writeln!(self.out, "{}", format!("{indent}# {comment}").trim_end());

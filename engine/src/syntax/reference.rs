@@ -1,5 +1,5 @@
 //! Reads a game file in reference mode (`spec/01` §1.1–§1.9). The indentation turns the lines into a tree,
-//! faulty lines are dropped with one message per line, and only the direct children of each section count.
+//! faulty lines are dropped with one message per line, and only each section's direct children count.
 
 use super::description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
@@ -37,8 +37,8 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
 struct Node<'a> {
     line: &'a Line<'a>,
     tokens: Vec<Word>,
-    /// The line's grammar, which is determined by the last section name before the line, wherever that name
-    /// is in the tree.
+    /// The line's grammar, as determined by the last section name before it, wherever that name is in the
+    /// tree.
     grammar: Option<Section>,
     /// The section whose name is on the line, ignoring case.
     heading: Option<Section>,
@@ -51,7 +51,7 @@ impl Node<'_> {
     fn is_sound(&self) -> bool {
         let after = match self.grammar {
             Some(Section::LevelMapping) => return true,
-            // A line of one word is read, and ends the reading later.
+            // A one-word line is read here, and makes the reading end later.
             Some(Section::InteractionSet) if self.tokens.len() == 1 => return true,
             Some(Section::InteractionSet) => match self.arrow() {
                 Some(at) => &self.tokens[at + 1..],
@@ -172,7 +172,7 @@ impl<'a> Tree<'a> {
         }
         self.description.order.push((section, own));
         if foreign.is_some() {
-            // A line of another section ends the reading, like an interaction without an effect.
+            // A line of another section ends the reading, just like an interaction without an effect.
             self.description.interactions.push(InteractionLine::default());
             self.description.order.push((Section::InteractionSet, 1));
         }
@@ -316,13 +316,13 @@ mod tests {
         // A line without an arrow ends the list of its siblings, but not the list of its parent's siblings.
         let game = sound("BasicGame\n SpriteSet\n  a >\n   b\n   c >\n  d >\n");
         assert_eq!((names(&game.sprites), game.sprites[0].children.len()), (vec!["a", "d"], 0));
-        // Siblings with a different indent cause a message. Deeper lines of other sections are lost,
-        // including their names.
+        // Siblings with a different indent cause a message. More deeply indented lines of other sections are
+        // lost, including their names.
         let set = "  InteractionSet\n     a b > killSprite\n    a b > killBoth\n     a b > stepBack\n";
         let game = sound(&format!("{SMALL}{set}"));
         assert_eq!((game.messages, game.interactions.len()), (1, 2));
         assert_eq!(game.interactions[1].effect.text, "killBoth");
-        // A tab is one column. The sprite is therefore on the same level as its section, and the next section
+        // A tab is one column. The sprite is therefore at the same depth as its section, and the next section
         // is below the sprite.
         let game = sound("BasicGame\n    SpriteSet\n\ta >\n    LevelMapping\n");
         assert_eq!((game.messages, game.sprites.len(), game.order.len()), (1, 0, 1));

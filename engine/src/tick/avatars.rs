@@ -1,4 +1,4 @@
-//! The avatars: the player's sprite and its reactions to actions (`spec/02` §9).
+//! Avatars: the sprite that the player controls, and its reactions to actions (`spec/02` §9).
 
 use super::sprites::walkers::jump;
 use crate::numbers::geometry::Direction;
@@ -52,7 +52,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Ac
         (_, Family::Avatar) => {
             moving(step, slot, action);
         }
-        // Sprites of other classes can be avatars through a parameter.
+        // A parameter can make sprites of other classes avatars.
         (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => {
             moving(step, slot, action);
         }
@@ -134,7 +134,7 @@ fn flak(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     }
 }
 
-/// Creates the first type of shot for which ammunition is available, one body length ahead.
+/// Shoots: creates the first type of shot for which there is ammunition, one body length ahead.
 fn shoot(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let facing = step.world.overrides(slot).orientation.normalised();
     shoot_towards(step, slot, facing);
@@ -173,7 +173,7 @@ fn shoot_kind(step: &mut Step<'_, impl Scheduler>, slot: Slot, kind: usize, faci
     }
 }
 
-/// Creates a different type of shot with each key, always in the same direction.
+/// Shoots a different type of shot with each key, always in the same direction.
 fn shoot_only(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     glide(step, slot);
     let kind = match action {
@@ -228,7 +228,7 @@ fn aimed(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     thrust(step, slot, action);
 }
 
-/// Moves the avatar along its rotation, or against it.
+/// Thrusts the avatar along its rotation, or against it.
 fn thrust(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     let rotation = step.world.rotation(step.rules, step.world.own(slot));
     let speed = step.world.overrides(slot).speed;

@@ -39,13 +39,13 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Runs the due effects. Effects due in the same tick run in the reverse order of their scheduling
-    /// (`spec/03` §6.3).
+    /// Runs the due effects. Effects due in the same tick run in reverse order of scheduling (`spec/03`
+    /// §6.3).
     fn timers(&mut self, watch: &mut (impl Watch + ?Sized)) {
         while let Some(Timer { timed: number, .. }) = self.world.take_due() {
             S::unsettles(self);
-            // Count the work even if there is no sprite. Otherwise, a timer that repeats at once would never
-            // end.
+            // Count the work even if there is no sprite. If it were not counted, a timer that repeats at once
+            // would run forever.
             self.work_of_effect();
             let timed = &self.rules.timed[usize::from(number)];
             match timed.target {
@@ -68,7 +68,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Calls [`World::plan`](crate::world::World::plan), and counts the work of shifting timers in memory.
+    /// Calls [`World::plan`](crate::world::World::plan), and counts the work of moving timers in memory.
     pub(crate) fn plan(&mut self, timer: Timer) {
         self.work(self.world.timers().len() / 64);
         self.world.plan(timer);
@@ -147,7 +147,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 
     /// Visits every sprite in the tree that is not completely on the screen. An effect that adds to the group
-    /// being visited ends that visit with a message.
+    /// being visited ends the visit with a message.
     fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
@@ -182,7 +182,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         if self.world.is_shielded((pass.first, pass.second, pass.keyword)) {
             return;
         }
-        // Sprites that this pass makes do not take part in it.
+        // Sprites that this pass creates do not take part in it.
         let newborn = self.world.next_id();
         S::run_pass(self, pass, newborn, watch);
     }
@@ -257,8 +257,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.work(visited);
     }
 
-    /// Checks again, before a hit counts, that the first sprite is not dead and still overlaps the second
-    /// sprite.
+    /// Processes a hit, after checking again that the first sprite is not dead and still overlaps the second.
     pub(crate) fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut (impl Watch + ?Sized)) {
         if self.rules.types[self.world.own(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
@@ -270,7 +269,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Executes an effect on two sprites, and reports the removed sprites if `watch` requests removals.
+    /// Executes an effect on two sprites, and reports the removed sprites if `watch` asks for removals.
     #[inline(always)]
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut (impl Watch + ?Sized)) {
         if !watch.wants_removals() {
@@ -294,7 +293,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
 
-    /// Reports the sprites of an imminent execution.
+    /// Reports the sprites of an execution that is about to happen.
     #[cold]
     fn tell(&self, watch: &mut (impl Watch + ?Sized), line: usize, one: Slot, two: Option<Slot>) {
         let first = self.world.present(one);
@@ -365,7 +364,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.credit(info, self.world.memory(effect), times);
     }
 
-    /// Collects the partners of a sprite whose class detects the ground by testing for a solid sprite
+    /// Collects the partners of a sprite whose class detects the ground, by testing for a solid sprite
     /// immediately below. Returns the number of examined cells and sprites.
     fn look_down(&mut self, slot: Slot, second: Side<'_>, newborn: u32, hits: &mut Hits) -> usize {
         if !self.world.may_stand_on(second, self.world.sprite(slot), GROUND) {

@@ -44,7 +44,7 @@ pub struct Removal {
 
 /// A step observer, which is notified of the executed interactions and their sprites.
 pub trait Watch {
-    /// Called after interaction `line` (index into [`Description::interactions`](crate::Description)) has
+    /// Called after interaction `line` (an index into [`Description::interactions`](crate::Description)) has
     /// been executed. An interaction that moves the same sprite back to the same position in every tick is
     /// reported only once.
     fn interaction(&mut self, line: usize);
@@ -54,8 +54,8 @@ pub trait Watch {
         false
     }
 
-    /// Called after [`Watch::interaction`] with the sprites in the execution, except for timed effects that
-    /// run on no sprite.
+    /// Called after [`Watch::interaction`] with the sprites that took part, except for timed effects that run
+    /// on no sprite.
     fn meeting(&mut self, _meeting: Meeting) {}
 
     /// Returns `true` if the observer wants calls of [`Watch::removal`].
@@ -85,7 +85,7 @@ pub(crate) struct Step<'a, S> {
     /// The update-order position that is being updated. Types with a lower position have not been updated yet
     /// in this tick.
     pub(crate) updating: i32,
-    /// The reason for stopping the step, or `None` if the step was not stopped.
+    /// The reason for stopping the step, or `None` if it was not stopped.
     pub(crate) stopped: Option<Limit>,
     /// The amount of work so far. See [`MAX_WORK`].
     pub(crate) work: usize,
@@ -142,7 +142,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
             }
         }
         if self.world.tick() >= MAX_TICKS && self.world.outcome() != Outcome::Won {
-            // The avatar loses. Without an avatar, the reference crashes.
+            // The avatar loses. If there is none, the reference crashes.
             let gone = self.world.avatar() == NONE;
             self.world.end(if gone { Outcome::Stopped(Limit::NoAvatar) } else { Outcome::Lost });
         }
@@ -184,7 +184,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Starts the updates of a type's sprites. Returns `false` if the type has no sprites, or too many.
+    /// Starts the updates of a type's sprites. Returns `false` if the type has no sprites or too many.
     #[inline(always)]
     pub(crate) fn start_type(&mut self, order: i32, stype: SpriteType) -> bool {
         let count = self.world.group(stype).count;
@@ -207,15 +207,15 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 
     /// Checks the orientation. Before each update, the reference searches for an image with this orientation,
-    /// and throws an exception if there is no such image.
+    /// and throws an exception if there is none.
     fn turn_picture(&mut self, slot: Slot) {
         if !Direction::BASE.contains(&self.world.overrides(slot).orientation) {
             self.stop(Limit::UnfitSprite);
         }
     }
 
-    /// Finds the player's avatar: the last sprite of an avatar class in update order, ignoring the type drawn
-    /// first (`spec/01` §4.2). Checked levels have a single avatar.
+    /// Finds the player's avatar: the last sprite of an avatar class in update order, ignoring the type that
+    /// is drawn first (`spec/01` §4.2). Levels checked in strict mode have a single avatar.
     pub(crate) fn find_avatar(&mut self) {
         let types = self.rules.order.iter().skip(1).rev();
         let slots = types.flat_map(|&stype| self.world.slots(stype));
@@ -229,8 +229,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Removes all avatars except the first avatar created, and logs a message, like the reference. Checked
-    /// levels have only one avatar.
+    /// Removes all avatars except the first one created, and logs a message, as the reference does. Levels
+    /// checked in strict mode have only one avatar.
     pub(crate) fn remove_extra_avatars(&mut self) {
         let slots = 0..self.world.slot_count() as Slot;
         let counts = |slot: &Slot| self.world.sprite(*slot).is(flag::AVATAR) || self.can_be_played(*slot);
@@ -253,14 +253,14 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 
     fn terminate(&mut self) {
-        // The last result still holds, because all terminations except Timeouts count sprites.
+        // The last result still holds, because all terminations other than Timeouts count sprites.
         if !self.world.census_changed() && self.world.tick() < self.rules.first_timeout {
             return;
         }
         self.world.settle_census(false);
         for termination in &self.rules.terminations {
             if let Some(can_end) = termination.permits(self.rules, self.world) {
-                // The earlier terminations check again in the next tick.
+                // Earlier terminations are checked again in the next tick.
                 if self.world.permit_end(can_end) {
                     self.world.settle_census(true);
                 }
@@ -273,8 +273,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Stops the episode, because the reference engine would throw an exception or a limit of this engine is
-    /// exceeded.
+    /// Stops the episode, because the reference engine would throw an exception, or because a limit of this
+    /// engine is exceeded.
     pub(crate) fn stop(&mut self, limit: Limit) {
         self.stopped.get_or_insert(limit);
     }

@@ -1,4 +1,4 @@
-//! The operations that move sprites.
+//! Operations that move sprites.
 
 use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::Limit;
@@ -89,7 +89,7 @@ impl<S: Scheduler> Step<'_, S> {
             self.set_age(slot, 0);
             return;
         }
-        // This is the common case, without separate calls.
+        // The common case, without separate calls.
         self.world.start_move(slot);
         S::relocates(self, slot, aim);
     }

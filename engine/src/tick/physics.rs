@@ -13,7 +13,8 @@ pub(crate) enum Movement {
     Move,
 }
 
-/// Returns the grid cell size in pixels used by the sprite's physics. Continuous physics uses a constant.
+/// Returns the grid cell size in pixels used by the sprite's physics. For continuous physics, this is a
+/// constant.
 pub(crate) fn grid_size(step: &Step<'_, impl Scheduler>, slot: Slot) -> f64 {
     if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.world.block()) }
 }
@@ -73,8 +74,8 @@ pub(crate) fn aim(step: &Step<'_, impl Scheduler>, slot: Slot) -> Option<Rect> {
     step.shifted(slot, orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
 }
 
-/// Moves a sprite in the direction chosen by the sprite or its player. A speed of 0 stands for the sprite's
-/// own speed.
+/// Moves a sprite in the direction that it or its player has chosen. A speed of 0 stands for the sprite's own
+/// speed.
 #[inline]
 pub(crate) fn active(
     step: &mut Step<'_, impl Scheduler>,
@@ -143,7 +144,7 @@ fn accelerate(step: &mut Step<'_, impl Scheduler>, slot: Slot, force: Direction,
     if force == Direction::NONE { Movement::Still } else { Movement::Move }
 }
 
-/// Changes the orientation of an oriented sprite, if the new orientation is different. Returns `true` if the
+/// Changes the orientation of an oriented sprite if the new orientation is different. Returns `true` if the
 /// orientation changed.
 #[inline(always)]
 pub(crate) fn turn(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction) -> bool {
@@ -155,8 +156,8 @@ pub(crate) fn turn(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: D
     true
 }
 
-/// Returns the distance between the top-left corners: Manhattan distance on the grid, Euclidean distance in
-/// continuous physics.
+/// Returns the distance between the top-left corners: the Manhattan distance with grid physics, and the
+/// Euclidean distance with continuous physics.
 pub(crate) fn distance(continuous: bool, a: Rect, b: Rect) -> f64 {
     let (dx, dy) = (f64::from(a.x) - f64::from(b.x), f64::from(a.y) - f64::from(b.y));
     if continuous { (dy * dy + dx * dx).sqrt() } else { dy.abs() + dx.abs() }

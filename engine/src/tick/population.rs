@@ -1,4 +1,4 @@
-//! The operations that create, kill and release sprites.
+//! Operations that create, kill and release sprites.
 
 use crate::limits::MAX_SPRITES;
 use crate::numbers::geometry::Rect;
@@ -34,7 +34,7 @@ impl<S: Scheduler> Step<'_, S> {
         if self.is_full() { None } else { self.make(stype, x, y) }
     }
 
-    /// Returns `true`, and logs a message, if there are too many sprites to create another sprite.
+    /// Returns `true`, and logs a message, if there are too many sprites to create another one.
     fn is_full(&mut self) -> bool {
         let full = self.world.population() > MAX_SPRITES as i32;
         if full {
@@ -67,8 +67,8 @@ impl<S: Scheduler> Step<'_, S> {
         } else if h == 0 {
             self.stop(Limit::FlatSprite);
         }
-        // The flag is `true` if the sprite is still to be updated in this tick, in which case its age will be 1 at that
-        // update.
+        // Becomes `true` if the sprite is still to be updated in this tick, in which case its age will be 1
+        // at that update.
         let mut due = false;
         if !sprite.is(flag::FROZEN) {
             let order = info.order.map_or(-1, i32::from);
@@ -84,12 +84,12 @@ impl<S: Scheduler> Step<'_, S> {
             (last.w, last.h) = (block, block);
         }
         if rules.scenery[stype.index()] {
-            // Only a level makes scenery, and scenery needs no slot.
+            // Only levels create scenery, and scenery needs no slot.
             self.world.add_scenery(sprite);
             return None;
         }
         if rules.fixtures[stype.index()] {
-            // Only a level makes fixtures, and nothing needs their slots.
+            // Only levels create fixtures, and nothing needs their slots.
             self.world.add_fixture(self.models, sprite, &mut self.scheduler);
             return None;
         }
@@ -97,8 +97,8 @@ impl<S: Scheduler> Step<'_, S> {
             self.stop(Limit::Sprites);
             return None;
         };
-        // Copies of the first sprite have lost the type that they leave behind. They leave type 0, which is
-        // `wall`.
+        // Copies of the first sprite have lost the type to leave behind. They leave type 0, which is `wall`,
+        // instead.
         if first && class == SpriteClass::OngoingTurningAvatar {
             self.world.edit_overrides(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
         }
@@ -136,8 +136,8 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.doom(slot);
     }
 
-    /// Makes a sprite the player's avatar. From now on, this sprite is updated and ages, and the previous
-    /// avatar no longer does.
+    /// Makes a sprite the player's avatar. From then on, this sprite is updated and ages, and the previous
+    /// avatar is not and does not.
     pub(crate) fn control(&mut self, slot: Slot) {
         let before = self.world.set_avatar(slot);
         if before != NONE && before != slot && !self.world.sprite(before).is(flag::FROZEN) {

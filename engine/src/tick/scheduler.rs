@@ -7,7 +7,7 @@ use crate::world::{Slot, Watcher, World};
 
 /// A scheduler, which is notified of a tick's changes and may skip work that has no effect.
 ///
-/// By default, nothing is skipped, and a tick follows the cycle of `spec/01` §4.
+/// By default, it skips nothing, and a tick follows the cycle of `spec/01` §4.
 pub(crate) trait Scheduler: Watcher + Sized {
     /// Called before the updates of a tick.
     fn begin(_: &mut Step<'_, Self>) {}
@@ -27,12 +27,12 @@ pub(crate) trait Scheduler: Watcher + Sized {
         Some(from).filter(|&number| number < step.rules.passes.len())
     }
 
-    /// Runs a pass. Sprites with a creation number of `newborn` or higher do not take part.
+    /// Runs a pass. Sprites whose creation number is `newborn` or higher do not take part.
     fn run_pass(step: &mut Step<'_, Self>, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
         step.visit_first_side(pass, newborn, watch);
     }
 
-    /// Returns `true` if any sprite with the bit `own` may share a cell with a sprite with any of the bits
+    /// Returns `true` if a sprite with the bit `own` may share a cell with a sprite that has any of the bits
     /// `others`.
     fn may_meet(&self, _world: &World, _own: u64, _others: u64) -> bool {
         true
@@ -41,7 +41,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
     /// Called before the two sprites of a hit in a pass are compared.
     fn meets(_: &mut Step<'_, Self>, _one: Slot, _two: Slot) {}
 
-    /// Called before an effect is executed on a sprite, with its partners.
+    /// Called before an effect runs on a sprite and its partners.
     fn executes(_: &mut Step<'_, Self>, _: &EffectInfo, _one: Slot, _partners: &[Slot]) {}
 
     /// Called before an operation that may change anything anywhere.

@@ -40,8 +40,8 @@ impl Termination {
         }
     }
 
-    /// Returns whether counters can end the game from now on, or `None` if this termination does not affect
-    /// that setting.
+    /// Returns `Some(true)` if counters can end the game from now on, `Some(false)` if they cannot, or `None`
+    /// if this termination does not affect that setting.
     pub(crate) fn permits(&self, rules: &Rules, world: &World) -> Option<bool> {
         let Condition::StopCounter { stypes, limit, min } = &self.condition else { return None };
         let sum: i32 = stypes.iter().map(|&stype| world.count_live(rules, stype)).sum();

@@ -1,10 +1,9 @@
-//! Changes to sprites. Every change, regardless of the rule, is made by a method in this file or by a method
-//! in this list:
+//! Changes to sprites. Every change, whatever the rule, is made by a method in this file or one in this list:
 //!
 //! - [`World::admit`] adds a new sprite, and [`World::release`] removes a sprite. In between, a sprite may be
-//!   in the kill list ([`World::doom`]), or an avatar may be disabled ([`World::disable`]).
+//!   on the kill list ([`World::doom`]), or an avatar may be disabled ([`World::disable`]).
 //! - [`World::add_fixture`] creates a sprite that never changes (`fixtures.rs`), and [`World::add_scenery`]
-//!   creates a sprite that no rule involves (`scenery.rs`).
+//!   one that no rule involves (`scenery.rs`).
 //! - [`World::relocate`] moves a sprite to a different position, and may change its size (`occupancy.rs`).
 //!   [`World::set_last`] changes its previous rectangle (`moved.rs`).
 //! - [`World::edit`] and [`World::edit_motion`] give access to a sprite's other fields, and mark its part of
@@ -14,7 +13,7 @@
 //!   [`World::replace_missile`] change tables that few sprites need (`side_tables.rs`).
 //!
 //! The VGDL operations in `tick/population.rs` and `tick/motion.rs` call these methods, and effects and
-//! updates call those operations. `numbers.rs` changes the numbers that are stored next to the sprites.
+//! updates call those operations. `numbers.rs` changes the numbers that are stored alongside the sprites.
 
 use super::{Models, NONE, Slot, Sprite, Target, Watcher, World, flag};
 use crate::limits::MAX_SLOTS;
@@ -75,7 +74,8 @@ impl World {
         sprite
     }
 
-    /// Returns a sprite for modification of its flags, position, age, time to live, count and heading only.
+    /// Returns a sprite for modification, but only of its flags, position, age, time to live, count and
+    /// heading.
     #[inline(always)]
     pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = &mut self.sprites[usize::from(slot)];
@@ -107,13 +107,13 @@ impl World {
         self.killed.push(slot);
     }
 
-    /// Empties the kill list. For a sprite listed twice, the reference's counter is decremented twice.
+    /// Empties the kill list. For a sprite that is listed twice, decrements the reference's counter twice.
     pub(crate) fn forget_killed(&mut self) {
         self.population -= self.killed.len() as i32;
         self.killed.clear();
     }
 
-    /// Removes a slot from its chains and frees the slot. After the last such call, the caller must call
+    /// Removes a slot from its chains and frees it. After the last such call, the caller must call
     /// [`World::forget_gone`].
     pub(crate) fn release(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);

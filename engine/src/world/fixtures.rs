@@ -2,9 +2,9 @@
 //! Most fixtures are walls.
 //!
 //! Fixtures stay where the level placed them for the whole episode, so all states of a level share them, and
-//! a copy of a state does not copy them. Fixture slots count down from the highest slot. The running hash
-//! contains the fixtures' contributions from the start. Fixtures come last in a cell's chain, so that no
-//! fixture links to a different kind of sprite.
+//! copying a state does not copy them. Their slots count down from the highest slot. The running hash
+//! contains their contributions from the start. They come last in a cell's chain, so that no fixture links to
+//! a sprite of a different kind.
 
 use super::{Models, NONE, Slot, Sprite, Watcher, World};
 use crate::world::hash::contribution::{Contribution, exchange};
@@ -43,7 +43,7 @@ impl World {
         &mut sprites[mirrored(usize::from(slot))]
     }
 
-    /// Creates a fixture. If other states share the fixtures, this state gets its own copy first.
+    /// Creates a fixture. If other states share the fixtures, gives this state its own copy first.
     pub(crate) fn add_fixture(&mut self, models: &Models, mut sprite: Sprite, watcher: &mut impl Watcher) {
         let slot = mirrored(self.fixture_count()) as Slot;
         (sprite.column, sprite.row) = self.place_of(sprite.rect);

@@ -2,9 +2,9 @@
 //! (`docs/lab/decisions/0004-state-as-flat-data.md`). The world is independent of the schedule's shortcuts.
 //!
 //! Sprites are stored in the slots of one array. Two kinds of linked lists (chains) run through the slots. A
-//! type's chain contains its sprites in order of creation (a group in the reference). A cell's chain contains
-//! the sprites in that cell (`occupancy.rs`). Effects read and write sprites only through methods of this
-//! module, so that the layout can change without changes to the effects.
+//! type's chain, called a group in the reference, contains its sprites in order of creation. A cell's chain
+//! contains the sprites in that cell (`occupancy.rs`). Effects read and write sprites only through methods of
+//! this module, so that the layout can change independently of them.
 
 mod board;
 mod changes;
@@ -32,7 +32,7 @@ pub(crate) use sprites::overrides::{Extra, Overrides, Target};
 pub(crate) use sprites::side_tables::{Held, Replaced};
 pub(crate) use sprites::sprite::{Group, NO_HEADING, NONE, Slot, Sprite, flag};
 
-/// The length in pixels of the board's longer side, in games that do not set `square_size`.
+/// The length, in pixels, of the board's longer side in games that do not set `square_size`.
 const SCREEN: i32 = 800;
 
 /// A timer in the time phase: the timed effect, and the tick in which it is due.
@@ -46,12 +46,12 @@ bytes_of_fields! { Timer { due timed } }
 
 /// An observer of a world, which is notified when types start or stop sharing cells.
 pub(crate) trait Watcher {
-    /// Called when a sprite of the type with the bit `own` has started to cover a cell that types with the
-    /// bits `partners` cover. Rules pair these types with `own`.
+    /// Called when a sprite of the type with the bit `own` has started to cover a cell that is also covered
+    /// by types with the bits `partners`, which rules pair with `own`.
     fn arrives(&mut self, _own: u64, _partners: u64) {}
 
     /// Called when a sprite of the type with the bit `own` has stopped covering a cell that types with the
-    /// bits `partners` cover.
+    /// bits `partners` still cover.
     fn departs(&mut self, _own: u64, _partners: u64) {}
 
     /// Called when a type gets its first sprite larger than a cell.
@@ -130,7 +130,7 @@ flat! {
             resized: Resized,
             dirty: Slot,
             killed: Slot,
-            /// The resources held by sprites, sorted by holder and resource.
+            /// The resources that sprites hold, sorted by holder and resource.
             held: Held,
             memory: u8,
             /// For each type, a value other than 0 if a sprite of the type has already been created. Later
@@ -145,8 +145,8 @@ flat! {
             extras: Extra,
             /// The scheduled timed effects, with the next effect last (`spec/03` §6.2).
             timers: Timer,
-            /// The entries in BomberRandomMissiles' lists that updateSpawnType has replaced, sorted by holder
-            /// and position.
+            /// The entries that updateSpawnType has replaced in the lists of BomberRandomMissiles, sorted by
+            /// holder and position.
             replaced: Replaced,
             /// The game's counters.
             counters: i32,
@@ -155,9 +155,9 @@ flat! {
         shared {
             /// The path finding tables (`paths.rs`), or `None` without `obs=`.
             paths: Paths,
-            /// The fixtures (`fixtures.rs`), or `None` if there are no fixtures.
+            /// The fixtures (`fixtures.rs`), or `None` if there are none.
             fixtures: Fixtures,
-            /// The scenery (`scenery.rs`), or `None` if there is no scenery.
+            /// The scenery (`scenery.rs`), or `None` if there is none.
             scenery: Scenery,
         }
     }
@@ -244,7 +244,7 @@ impl World {
         }
     }
 
-    /// Returns the sprite in a slot. The slot must not belong to a fixture, which avoids a check.
+    /// Returns the sprite in a slot. The slot must not be that of a fixture, which saves a check.
     #[inline(always)]
     pub(crate) fn own(&self, slot: Slot) -> &Sprite {
         &self.sprites[usize::from(slot)]

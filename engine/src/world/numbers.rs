@@ -1,5 +1,5 @@
-//! A world's numbers that do not belong to a sprite: time, score, outcome, random number generators, timers
-//! and the effects' memory.
+//! The numbers in a world that do not belong to a sprite: time, score, outcome, random number generators,
+//! timers and the effects' memory.
 
 use super::{NONE, Slot, Timer, World};
 use crate::numbers::chance::Chance;
@@ -37,7 +37,7 @@ readers! {
     messages: u32,
     /// Returns `true` if counters can end the game.
     can_end: bool,
-    /// Returns the number of sprites not completely on the screen.
+    /// Returns the number of sprites that are not completely on the screen.
     off: u32,
     /// Returns `true` if the sprite counts have changed since terminations were last checked.
     census_changed: bool,
@@ -70,7 +70,7 @@ impl World {
         self.chance
     }
 
-    /// Returns the random number generator for drawing.
+    /// Returns the random number generator, to draw from.
     #[inline(always)]
     pub(crate) fn dice(&mut self) -> &mut Chance {
         &mut self.chance
@@ -81,12 +81,12 @@ impl World {
         self.jumps
     }
 
-    /// Returns the second random stream for drawing.
+    /// Returns the second random stream, to draw from.
     pub(crate) fn second_dice(&mut self) -> &mut Chance {
         &mut self.jumps
     }
 
-    /// Sets the future of both random streams.
+    /// Replaces both random streams.
     pub(crate) fn reseed(&mut self, chance: Chance, jumps: Chance) {
         (self.chance, self.jumps) = (chance, jumps);
     }
@@ -108,7 +108,7 @@ impl World {
         self.counters[at] = self.counters[at].wrapping_add(change);
     }
 
-    /// Logs messages.
+    /// Counts messages that the reference would log.
     pub(crate) fn add_messages(&mut self, count: u32) {
         self.messages = self.messages.saturating_add(count);
     }
@@ -122,17 +122,17 @@ impl World {
         self.census_changed = look_again;
     }
 
-    /// Sets whether counters can end the game. Returns `true` if the setting changes.
+    /// Allows or forbids counters to end the game. Returns `true` if the setting changes.
     pub(crate) fn permit_end(&mut self, can_end: bool) -> bool {
         std::mem::replace(&mut self.can_end, can_end) != can_end
     }
 
-    /// Returns the scheduled timers, with the next timer last.
+    /// Returns the scheduled timers, with the next one last.
     pub(crate) fn timers(&self) -> &[Timer] {
         &self.timers
     }
 
-    /// Schedules a timer. The timer runs before all other timers due in the same tick (`spec/03` §6.2).
+    /// Schedules a timer. It runs before all other timers that are due in the same tick (`spec/03` §6.2).
     pub(crate) fn plan(&mut self, timer: Timer) {
         let at = self.timers.partition_point(|other| other.due >= timer.due);
         self.timers.insert(at, timer);
@@ -161,7 +161,7 @@ impl World {
         self.templates[stype.index()] != 0
     }
 
-    /// Records the creation of a sprite of a type. Returns `true` if the sprite is the first of its type.
+    /// Records the creation of a sprite of a type. Returns `true` if it is the first of its type.
     pub(crate) fn is_first_of(&mut self, stype: SpriteType) -> bool {
         let first = std::mem::replace(&mut self.templates[stype.index()], 1) == 0;
         self.memory_is_dirty |= first;
@@ -173,7 +173,7 @@ impl World {
         std::mem::replace(&mut self.avatar, slot)
     }
 
-    /// Returns `true` if an avatar exists, even if the avatar is disabled.
+    /// Returns `true` if an avatar exists, even a disabled one.
     pub(crate) fn has_avatar(&self) -> bool {
         self.avatar != NONE
     }
@@ -192,7 +192,7 @@ impl World {
     }
 
     /// Records that an effect has pulled a sprite in this tick. Returns the number of entries among which the
-    /// new entry was sorted, or `None` if the effect has already pulled the sprite.
+    /// new one was sorted, or `None` if the effect has already pulled the sprite.
     pub(crate) fn pull(&mut self, effect: u16, slot: Slot) -> Option<usize> {
         let at = self.pulled.binary_search(&(effect, slot)).err()?;
         self.pulled.insert(at, (effect, slot));

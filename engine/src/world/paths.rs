@@ -5,7 +5,7 @@ use crate::numbers::geometry::Direction;
 use crate::rules::Rules;
 use std::sync::{Arc, OnceLock};
 
-/// A cell that paths may cross. Each cell, including the ring around the board, has one of these marks.
+/// A cell that paths may cross. Each cell of the board and of the ring around it has one of these marks.
 const OPEN: u8 = 0;
 /// A cell that contains an obstacle or is off the board.
 const CLOSED: u8 = u8::MAX;
@@ -57,7 +57,7 @@ impl Heap {
 }
 
 /// The paths in one level: the cells that paths avoid, which do not change during an episode, and the paths
-/// requested so far. All states of the level share these paths. The results do not depend on the order of
+/// requested so far. All states of the level share them, and the results do not depend on the order of
 /// requests.
 #[derive(Debug)]
 pub(crate) struct Paths {
@@ -65,8 +65,8 @@ pub(crate) struct Paths {
     cells: Vec<u8>,
     /// For each direction, its index and the wrapping offset that a step adds to a cell.
     ahead: Vec<(u8, usize)>,
-    /// For each start cell, the first steps of its paths, once requested. Empty for boards with too many
-    /// cells.
+    /// For each start cell, the first steps of its paths, once they have been requested. Empty for boards
+    /// with too many cells.
     known: Vec<OnceLock<Box<[u8]>>>,
 }
 
@@ -84,8 +84,8 @@ impl Paths {
         DIRECTIONS.get(usize::from(step).wrapping_sub(1)).copied()
     }
 
-    /// Returns the first step to each cell, as a number above [`OPEN`]. The search stops when it reaches the
-    /// goal.
+    /// Returns the first step on the path to each cell, as a number above [`OPEN`]. The search stops when it
+    /// reaches the goal.
     fn search(&self, start: usize, goal: Option<usize>) -> Box<[u8]> {
         let mut first = self.cells.clone();
         first[start] = START;
@@ -111,9 +111,9 @@ impl Paths {
 }
 
 impl World {
-    /// Records the cells that contain an obstacle at the start. These cells remain obstacles, and hidden
-    /// sprites do not count. If the avatar has three actions, all paths in the episode lead only left and
-    /// right, even if the avatar changes.
+    /// Records the cells that contain an obstacle at the start. These cells remain obstacles for the whole
+    /// episode. Hidden sprites do not count. If the avatar has three actions, all paths in the episode lead
+    /// only left and right, even if the avatar changes.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
         let mut cells = vec![CLOSED; World::cell_count(self.columns, self.rows)];
         for row in 0..self.rows {
@@ -139,14 +139,14 @@ impl World {
     }
 
     /// Returns the first step of the path between two pixels, or `None` if there is no path or no step to
-    /// take. Also returns the amount of work for finding the path.
+    /// take. Also returns the amount of work that finding the path counts as.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
         let Some(paths) = self.paths.as_deref() else { return (None, 1) };
         if start == goal || paths.cells[start] == CLOSED || paths.cells[goal] == CLOSED {
             return (None, 1);
         }
-        // The work must not depend on earlier requests.
+        // The work counted must not depend on earlier requests.
         let share = if paths.known.is_empty() { 1 } else { 8 };
         (paths.first(start, goal), paths.cells.len() / share)
     }

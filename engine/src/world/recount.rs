@@ -8,8 +8,8 @@ use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType};
 
 impl World {
-    /// Compares all incrementally maintained values with a count from scratch. Returns the number of sprites
-    /// of each type. Cost: O(sprites + cells).
+    /// Compares all incrementally maintained values with values counted from scratch. Returns the number of
+    /// sprites of each type. Cost: O(sprites + cells).
     ///
     /// # Errors
     /// Returns a message that describes the first difference.
@@ -31,8 +31,8 @@ impl World {
         Ok(counts)
     }
 
-    /// Compares the types in each cell with the types in the same cell of a world whose cells are occupied
-    /// from scratch.
+    /// Compares the types in each cell with those in the same cell of a world whose cells are filled from
+    /// scratch.
     fn recount_masks(&self, models: &Models) -> Result<(), String> {
         let mut fresh = self.clone();
         fresh.reoccupy(models, &mut ());
@@ -70,7 +70,7 @@ impl World {
         off | right | if over(y, h, sprite.row, self.rows) { flag::BELOW } else { 0 }
     }
 
-    /// Returns the index of a slot in lists of all sprites, in which fixtures come last.
+    /// Returns a slot's index in lists of all sprites, in which fixtures come last.
     fn counted_at(&self, slot: Slot) -> usize {
         match usize::from(slot) {
             slot if slot < self.sprites.len() => slot,
@@ -115,8 +115,8 @@ impl World {
         Ok(counted)
     }
 
-    /// Walks every cell's chain. Each sprite of a type that takes part in rules must be in its corner's cell
-    /// exactly once.
+    /// Walks every cell's chain. Each sprite of a type that takes part in rules must be in the cell of its
+    /// corner exactly once.
     fn recount_cells(&self, models: &Models, alive: &[bool]) -> Result<(), String> {
         let mut seen = vec![false; alive.len()];
         for (cell, &head) in self.cells.iter().enumerate() {
@@ -146,7 +146,7 @@ impl World {
         }
     }
 
-    /// Checks the free list, the list of moved sprites, resources and extras.
+    /// Checks the free list, the list of moved sprites, the resources and the extra values.
     fn recount_lists(&self, rules: &Rules, alive: &[bool]) -> Result<(), String> {
         let mut free = self.free;
         let mut holes = 0;

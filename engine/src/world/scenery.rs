@@ -1,9 +1,9 @@
-//! Scenery: sprites that do nothing by themselves, and to whose types no rule, other sprite or termination
-//! refers.
+//! Scenery: sprites that do nothing by themselves and whose types are not referred to by any rule, other
+//! sprite or termination.
 //!
 //! Scenery stays where the level placed it for the whole episode. In a typical game, half of all sprites are
-//! the floor, which is scenery. All states of a level share its scenery. Scenery has no slots, a copy of a
-//! state does not copy it, and the running hash contains its contributions from the start.
+//! the floor, which is scenery. All states of a level share its scenery, so copying a state does not copy it.
+//! Scenery has no slots, and the running hash contains its contributions from the start.
 
 use super::{NONE, Sprite, World};
 use crate::rules::SpriteType;
@@ -21,7 +21,7 @@ impl Scenery {
 }
 
 impl World {
-    /// Creates a scenery sprite. If other states share the scenery, this state gets its own copy first.
+    /// Creates a scenery sprite. If other states share the scenery, gives this state its own copy first.
     pub(crate) fn add_scenery(&mut self, sprite: Sprite) {
         self.groups[sprite.stype.index()].count += 1;
         self.next_id += 1;
@@ -40,8 +40,8 @@ impl World {
         self.scenery.as_ref().map_or(&[], |scenery| scenery.of(stype))
     }
 
-    /// Returns a type's current sprites, in order of creation, whether they have slots or are scenery. For
-    /// use between steps.
+    /// Returns a type's current sprites, in order of creation, whether they have slots or are scenery. Call
+    /// only between steps.
     pub(crate) fn sprites_of(&self, stype: SpriteType) -> impl Iterator<Item = Sprite> + '_ {
         self.scenery_of(stype).iter().copied().chain(self.slots(stype).map(|slot| self.present(slot)))
     }

@@ -1,5 +1,5 @@
-//! Games that challenge proofs: generated games and corpus games, each with several changes. Most of these games break
-//! an assumption.
+//! Games that challenge proofs: generated games and corpus games, each with several changes. Most of them
+//! break an assumption.
 
 use crate::any_game::any_game;
 use crate::choices::{Choices, random_bytes};
@@ -9,7 +9,7 @@ use engine::SpriteClass;
 use engine::syntax;
 use std::sync::LazyLock;
 
-/// The sufficiently small corpus games, each with its levels.
+/// The corpus games that are small enough, each with its levels.
 static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     let folders = workspace_root().join("corpora").read_dir().expect("the corpus can be read");
     let mut folders: Vec<_> = folders.map(|entry| entry.expect("the corpus can be read").path()).collect();
@@ -22,7 +22,7 @@ static CORPUS: LazyLock<Vec<(String, Vec<String>)>> = LazyLock::new(|| {
     folders.iter().map(load).collect()
 });
 
-/// Returns the game and the level for a seed. The game and the level do not necessarily load.
+/// Returns the game and the level for a seed. They do not necessarily load.
 pub fn game(seed: Seed) -> (String, String) {
     let mut sampler = seed.child("game", 0).sampler();
     let (source, level, changes) = match sampler.below(10) {
@@ -53,7 +53,7 @@ pub fn game(seed: Seed) -> (String, String) {
     (text.source(), text.level())
 }
 
-/// Returns a part of a level that is small enough for short episodes to cover much of it.
+/// Returns a part of a level, small enough that short episodes cover much of it.
 fn cropped(level: &str, sampler: &mut Sampler) -> String {
     let rows: Vec<&str> = level.lines().collect();
     let width = rows.first().map_or(0, |row| row.len());
@@ -68,12 +68,12 @@ fn cropped(level: &str, sampler: &mut Sampler) -> String {
         .collect()
 }
 
-/// The names of sprite types.
+/// The sprite types' names.
 const THINGS: [&str; 6] = ["gem", "pit", "owl", "box", "key", "gate"];
 
-/// Returns a small ordinary game that often ends under random play.
+/// Returns a small, ordinary game that often ends under random play.
 fn plain(sampler: &mut Sampler) -> (String, String) {
-    // Some games have gates that consume keys, and fewer or more keys than gates.
+    // Some games have gates that consume keys, with fewer or more keys than gates.
     let pays = sampler.ratio(1, 5);
     let things = if pays { &THINGS[..] } else { &THINGS[..sampler.between(2, 6)] };
     let mut names: Vec<String> = things.iter().map(|&name| name.to_owned()).collect();
@@ -313,7 +313,7 @@ impl Text {
         self.level.iter().map(|row| row.iter().collect::<String>() + "\n").collect()
     }
 
-    /// Returns a section's line range.
+    /// Returns the range of a section's lines.
     fn section(&self, name: &str) -> std::ops::Range<usize> {
         let Some(start) = self.lines.iter().position(|line| line.trim() == name) else { return 0..0 };
         let rest = &self.lines[start + 1..];
@@ -395,7 +395,7 @@ impl Text {
                 self.lines[at] += &format!(" {}", sampler.choose(&PARAMETERS));
             }
             10 => {
-                // Makes the line's type a parent by adding a child.
+                // Turns the line's type into a parent by adding a child.
                 let Some(at) = self.line("SpriteSet", sampler) else { return };
                 let indent = self.lines[at].len() - self.lines[at].trim_start().len() + 4;
                 let name = format!("kid{}", self.names.len());

@@ -1,10 +1,10 @@
-//! The claims that the suite makes about a game or a level, and episodes that could refute them.
+//! The claims that the suite makes about a game or a level, and the episodes that could refute them.
 //!
-//! A claim of the form "cannot", "never" or "only" is a proof, and a false claim is the worst possible bug in the
-//! suite. [`read`] extracts the claims from the texts that users see (`describe`, warnings) and from the proofs of the
-//! analysis (reachability, chains of causes). [`play`] records episodes tick by tick. [`Fact::refuted_by`] searches an
-//! episode for a moment that contradicts a claim. [`games`] creates games, most of which break an assumption, and
-//! [`shrink`] reduces games that refute a claim.
+//! A claim of the form "cannot", "never" or "only" asserts a proof, and a false one is the worst possible bug
+//! in the suite. [`read`] extracts the claims from the texts that users see (`describe`, warnings) and from
+//! the proofs of the analysis (reachability, chains of causes). [`play`] records episodes tick by tick.
+//! [`Fact::refuted_by`] searches an episode for a moment that contradicts a claim. [`games`] creates games,
+//! most of which break an assumption, and [`shrink`] reduces games that refute a claim.
 
 pub mod games;
 pub mod play;
@@ -19,12 +19,12 @@ use play::Play;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The policy for loading a game.
+/// The policy under which a game is loaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Policy {
     /// Faults are errors.
     Strict,
-    /// The loader recovers from faults, as the reference does.
+    /// The loader recovers from faults as the reference does.
     Reference,
 }
 
@@ -47,7 +47,7 @@ pub struct Claim {
     pub fact: Fact,
 }
 
-/// An ending's condition, as stated in its sentence.
+/// The condition of an ending, as stated in its sentence.
 #[derive(Clone, Debug, PartialEq)]
 pub enum When {
     /// There are at most the given number of sprites of the given types.
@@ -60,7 +60,7 @@ pub enum When {
     Ticks(i64),
 }
 
-/// An ending's additional condition.
+/// An additional condition of an ending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Provided {
     /// No additional condition applies.
@@ -79,25 +79,25 @@ pub enum Provided {
     OtherValue(i32),
 }
 
-/// An exception under which an ending does not count.
+/// An exception, under which an ending does not count.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unless {
     /// The condition of the exception.
     pub when: When,
     /// `true` if the condition must have held in the previous tick.
     pub before: bool,
-    /// `true` if the ending also does not count in the first tick.
+    /// `true` if the ending does not count in the first tick either.
     pub not_first: bool,
 }
 
-/// A sentence about an ending.
+/// A sentence about an ending, in parsed form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ending {
     /// `true` if the ending wins.
     pub win: bool,
     /// The condition of the ending.
     pub when: When,
-    /// The number of different types required among the counted sprites; `None` if any number is allowed.
+    /// The number of distinct types required among the counted sprites; `None` if any number is allowed.
     pub kinds: Option<usize>,
     /// The additional condition of the ending.
     pub provided: Provided,
@@ -105,7 +105,7 @@ pub struct Ending {
     pub unless: Option<Unless>,
 }
 
-/// The result if several endings hold in one tick.
+/// The result if several endings hold in the same tick.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tie {
     /// The game is lost.
@@ -116,39 +116,40 @@ pub enum Tie {
     Open,
 }
 
-/// A claim's meaning, as far as an episode can refute it.
+/// The meaning of a claim, as far as an episode can refute it.
 #[derive(Clone, Debug)]
 pub enum Fact {
-    /// The given endings are the only ways to win or lose before the last tick, and each of them ends the game.
+    /// The given endings are the only ways to win or lose before the last tick, and each of them ends the
+    /// game.
     Endings(Vec<Ending>, Tie),
-    /// The game is never won (`true`) or lost (`false`), except in its first tick.
+    /// The game is never won (`true`) or never lost (`false`), except in its first tick.
     Unattainable(bool),
-    /// The level is never won (`true`) or lost (`false`), even in its first tick.
+    /// The level is never won (`true`) or never lost (`false`), not even in its first tick.
     OutOfReach(bool),
-    /// The episode is over in its first tick, with the given outcome, if any.
+    /// The episode is over in its first tick, with the given outcome if one is stated.
     OverAtOnce(Option<bool>),
     /// The interaction with the given index never happens.
     Silent(usize),
     /// No sprite ever holds more than the given amount of a resource.
     HeldAtMost(SpriteType, i64),
-    /// There are never any sprites of the type.
+    /// There are never any sprites of the given type.
     Absent(SpriteType),
     /// Only sprites of the given types ever exist.
     OnlyTypes(Vec<SpriteType>),
     /// A rule about the given type applies only to sprites of the listed types.
     OnlyMembers(SpriteType, Vec<SpriteType>),
-    /// Sprites of the first types never meet sprites of the second types. If the second types are `None`, sprites of
-    /// the first types never meet the edge.
+    /// Sprites of the first types never meet sprites of the second types, or never meet the edge if the
+    /// second types are `None`.
     NeverMeet(Vec<SpriteType>, Option<Vec<SpriteType>>),
     /// All avatars have one of the given types.
     OnlyAvatars(Vec<SpriteType>),
-    /// Sprites of the type do not move by themselves.
+    /// Sprites of the given type do not move by themselves.
     Stands(SpriteType),
-    /// Sprites of the type never change their position.
+    /// Sprites of the given type never change their position.
     Fixed(SpriteType),
-    /// There is at most one sprite of the given types, or at most the number placed by the level.
+    /// There is at most one sprite of the given types, or at most as many as the level places.
     Single(Vec<SpriteType>),
-    /// There are never more sprites of the given types than at the start.
+    /// There are never more sprites of the given types than there were at the start.
     OnlyFalls(Vec<SpriteType>),
     /// The number of sprites of the given types never exceeds the given number.
     CountAtMost(Vec<SpriteType>, i64),
@@ -156,16 +157,16 @@ pub enum Fact {
     Permanent(Vec<(SpriteType, usize)>),
     /// The termination with the given index among the goals never holds.
     GoalNeverHolds(usize),
-    /// Sprites of the type never reach the cell.
+    /// Sprites of the given type never reach the given cell.
     NeverAt(SpriteType, usize),
     /// Between ticks, sprites of each type are only in the given cells. The list is indexed by type and cell.
     Within(Vec<Vec<bool>>),
     /// Avatars visit at most the given number of cells on the board.
     CellsVisited(usize),
-    /// Sprites of the first types never move onto sprites of the second types. If the second types are `None`, sprites
-    /// of the first types never move off the board.
+    /// Sprites of the first types never move onto sprites of the second types, or never move off the board if
+    /// the second types are `None`.
     CannotEnter(Vec<SpriteType>, Option<Vec<SpriteType>>),
-    /// Observations never show sprites of the type.
+    /// Observations never show sprites of the given type.
     Unseen(SpriteType),
     /// No key has any effect.
     DeadKeys,
@@ -177,16 +178,16 @@ pub enum Fact {
     NoChance,
     /// Only avatars move by themselves.
     OthersIdle,
-    /// Observations show all sprites that are part of an interaction.
+    /// Observations show all sprites that take part in an interaction.
     AllShown,
-    /// The game plays the same without the parameter at the given position in the text.
+    /// The game plays the same without the parameter at the given position in its text.
     Ignored(usize),
-    /// No episode wins, according to an exhaustive search.
+    /// According to an exhaustive search, no episode wins.
     SearchedInVain,
 }
 
 impl Fact {
-    /// Returns the name of the fact's kind, for counts.
+    /// Returns the name of the fact's kind, for use in counts.
     pub fn kind(&self) -> &'static str {
         match self {
             Fact::Endings(..) => "endings: these win and lose, and nothing else",
@@ -256,7 +257,7 @@ impl Case {
     }
 }
 
-/// A claim refuted by an episode, with its game.
+/// A claim that an episode refutes, with its game.
 pub struct Fault {
     /// The refuted claim.
     pub claim: Claim,
@@ -281,7 +282,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// The counts for a run.
+/// The counts of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     /// The number of games loaded under each policy.
@@ -337,7 +338,7 @@ impl fmt::Display for Tally {
     }
 }
 
-/// Returns a case's claims that its episodes refute, each claim once.
+/// Returns those of a case's claims that its episodes refute, each claim once.
 pub fn faults(case: &Case, claims: &[Claim], plays: &[Play]) -> Vec<Fault> {
     let fault = |claim: &Claim| {
         let refuted = plays.iter().find_map(|play| Some((claim.fact.refuted_by(case, play)?, play)));

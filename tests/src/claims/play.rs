@@ -1,4 +1,4 @@
-//! Recorded episodes.
+//! Recordings of episodes.
 
 use super::Case;
 use base::{Sampler, Seed};
@@ -6,7 +6,7 @@ use engine::{Action, Meeting, Outcome, SpriteRecord, SpriteType, State, Watch};
 
 /// The state at the end of a tick.
 pub struct Frame {
-    /// All sprites, including dead avatars, ordered by creation number.
+    /// All sprites, including dead avatars, sorted by creation number.
     pub sprites: Vec<SpriteRecord>,
     /// The interactions executed in the tick.
     pub meetings: Vec<Meeting>,
@@ -22,7 +22,7 @@ pub struct Frame {
     pub counters: Vec<i32>,
 }
 
-/// A recorded episode. There is one more frame than actions, because the first frame is the initial state.
+/// A recorded episode. It has one more frame than actions, because the first frame is the initial state.
 pub struct Play {
     /// The seed for the game's randomness.
     pub seed: Seed,
@@ -59,7 +59,7 @@ impl Watch for Seen {
     }
 }
 
-/// The maximum number of sprites in a recorded state. Recording stops when this number is exceeded.
+/// The maximum number of sprites in a recorded state, beyond which recording stops.
 const SPRITES: usize = 400;
 
 impl Play {
@@ -94,7 +94,7 @@ impl Play {
         Play::record(case, seed, |_| actions.next())
     }
 
-    /// Plays at random. Keys are often held down, as human players do.
+    /// Plays at random. Keys are often held down, as human players hold them.
     pub fn random(case: &Case, seed: Seed, ticks: usize) -> Play {
         let mut sampler = seed.child("actions", 0).sampler();
         let (mut held, mut left, mut played) = (Action::Nil, 0, 0);
@@ -109,7 +109,7 @@ impl Play {
         })
     }
 
-    /// Plays towards one of the terminations by looking one step ahead, and otherwise at random.
+    /// Plays towards one of the terminations by looking one step ahead. Plays at random otherwise.
     pub fn greedy(case: &Case, seed: Seed, ticks: usize) -> Play {
         let mut sampler = seed.child("actions", 1).sampler();
         let goals = case.analysis.goals();
@@ -135,7 +135,7 @@ impl Play {
     }
 }
 
-/// Returns episodes for a case: idle episodes, random episodes, and episodes that play towards the
+/// Returns episodes of a case: idle episodes, random episodes, and episodes that play towards the
 /// terminations. For some cases, also returns a long episode.
 pub fn plays(case: &Case, seed: Seed) -> Vec<Play> {
     let mut sampler = seed.child("plays", 0).sampler();

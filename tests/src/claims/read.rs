@@ -1,4 +1,4 @@
-//! Claims extracted from the texts that users see, and from the analysis's proofs.
+//! Claims extracted from the texts that users see, and from the proofs in the analysis.
 
 use super::{Case, Claim, Ending, Fact, Policy, Provided, Tie, Unless, When};
 use engine::analysis::{Cause, Chain, Missing, Obstacle, Spatiality, Steering, Unreachable};
@@ -28,7 +28,8 @@ struct Reader<'a> {
     unread: usize,
 }
 
-/// Returns the types in a list of names such as `a, b or c`. `several` is `true` for plural names.
+/// Returns the types in a list of names such as `a, b or c`. `several` is `true` if the names are in the
+/// plural.
 fn listed(game: &Game, text: &str, several: bool) -> Option<Vec<SpriteType>> {
     let find = |name: &str| {
         let name = name.strip_prefix("no ").unwrap_or(name);
@@ -90,7 +91,7 @@ pub(super) fn ending(game: &Game, avatars: &[SpriteType], text: &str) -> Option<
     } else if let Some(name) = text.strip_prefix("when no ") {
         When::AtMost(listed(game, name.strip_suffix(" is left")?, false)?, 0)
     } else {
-        // If the sentence ends with "left", remove these words.
+        // If the sentence ends with "left", the words are removed.
         let text = text.strip_suffix(" are left").or_else(|| text.strip_suffix(" is left")).unwrap_or(text);
         let text = text.strip_prefix("when ")?;
         let text = text.strip_prefix("there are ").or_else(|| text.strip_prefix("there is ")).unwrap_or(text);
@@ -162,7 +163,7 @@ impl Reader<'_> {
         });
         let text = || sentences.iter().map(|line| line.as_str()).collect::<Vec<_>>().join(" ");
         match read {
-            // The level has an avatar other than those that the sentences describe.
+            // The level has an avatar that the sentences do not describe.
             Some(_) if self.uses_idle_default(b'A') => {}
             Some(endings) => self.claim(text(), Fact::Endings(endings, tie.unwrap_or(Tie::Open))),
             None => self.unread += 1,
@@ -177,8 +178,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns `true` if the level uses a built-in character that the game itself does not use. Claims assume that
-    /// levels do not use such characters.
+    /// Returns `true` if the level uses a built-in character that the game itself does not use. Claims assume
+    /// that levels use no such characters.
     fn uses_idle_default(&self, symbol: u8) -> bool {
         let facts = |&stype: &SpriteType| self.case.analysis.facts(stype);
         let is_idle =
@@ -207,7 +208,7 @@ impl Reader<'_> {
         if text.contains("you stay where you are") {
             self.claim(text.as_str(), Fact::Stands(types[0]));
         }
-        // A glide, a shot or a turn in place may still depend on the other keys.
+        // A glide, a shot or a turn on the spot may still depend on the other keys.
         match steering {
             Steering::Horizontal if text.contains("the arrow keys move you left and right") => {
                 self.claim(text.as_str(), Fact::IdleKeys(vec![Action::Up, Action::Down]));
@@ -255,7 +256,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the types, other than avatars, that can occur without their own line.
+    /// Returns the types other than avatars that can occur without a line of their own.
     fn others(&self, guide: &Guide) -> Vec<SpriteType> {
         let analysis = &self.case.analysis;
         let has_line = |stype: SpriteType| {
@@ -280,7 +281,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the types that the subject or object of a sentence denotes, with `None` for the edge.
+    /// Returns the types that the subject or object of a sentence denotes, or `None` for the edge.
     fn party(&self, text: &str) -> Option<Option<Vec<SpriteType>>> {
         if text == "the edge of the board" {
             return Some(None);
@@ -395,7 +396,7 @@ impl Reader<'_> {
     fn obstacle(&mut self, Obstacle { missing, line, .. }: &Obstacle) {
         let text = "chain of causes";
         match missing {
-            // This sprite would make the missing one by itself.
+            // This sprite would create the missing one by itself.
             Missing::Absent(maker) if line.is_none() => self.claim(text, Fact::Absent(*maker)),
             Missing::Absent(written) => {
                 for stype in self.family(*written) {
@@ -475,7 +476,7 @@ impl Reader<'_> {
             // The player's avatar may have a different type.
             "lost-avatar" if self.case.analysis.avatars().is_empty() => vec![Fact::DeadKeys],
             "ignored-parameter" => {
-                // The reference's recovery may have changed the meaning of the position.
+                // The reference's recovery may have changed what is at the position.
                 let strict = self.case.policy == Policy::Strict;
                 strict.then_some(Fact::Ignored(warning.span.start)).into_iter().collect()
             }

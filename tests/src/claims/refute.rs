@@ -43,14 +43,15 @@ impl Frame {
     }
 }
 
-/// Returns an episode's complete ticks, each with its number (counted from 1), the state before and the state after.
+/// Returns an episode's complete ticks, each with its number (counted from 1), the state before it and the
+/// state after it.
 fn ticks(play: &Play) -> impl Iterator<Item = (usize, &Frame, &Frame)> {
     let pairs = play.frames.windows(2).enumerate();
     pairs.map(|(at, pair)| (at + 1, &pair[0], &pair[1])).filter(|(.., after)| after.is_whole())
 }
 
 impl Fact {
-    /// Returns the contradiction between the claim and an episode of the case, if any.
+    /// Returns the contradiction between the claim and an episode of the case, if there is one.
     pub fn refuted_by(&self, case: &Case, play: &Play) -> Option<String> {
         let name = |stype: SpriteType| case.game.name(stype);
         let ended = play.frames.last().map_or(Outcome::Ongoing, |frame| frame.outcome);
@@ -239,7 +240,7 @@ impl Fact {
             }
             Fact::TurnBased => refute_turns(case, play.seed),
             Fact::AllShown => play.frames.iter().enumerate().find_map(|(at, frame)| {
-                // Other interactions may run although their condition can never hold.
+                // Other interactions may be executed although their condition can never hold.
                 let always = |line: usize| {
                     let mut own = case.analysis.encounters().iter().filter(|other| other.line == line);
                     own.any(|encounter| {
@@ -262,7 +263,7 @@ impl Fact {
     }
 }
 
-/// Returns a sprite accepted by `wanted` whose position has changed during the tick.
+/// Returns a sprite that `wanted` accepts and whose position changed during the tick.
 fn moved<'a>(
     before: &Frame,
     after: &'a Frame,
@@ -274,14 +275,14 @@ fn moved<'a>(
     })
 }
 
-/// Returns the cell of the sprite's top left corner; `None` if the corner is not on the board.
+/// Returns the cell that contains the sprite's top left corner; `None` if the corner is not on the board.
 fn cell_of(case: &Case, play: &Play, record: &SpriteRecord) -> Option<usize> {
     let (column, row) = (record.rect.x.div_euclid(play.block), record.rect.y.div_euclid(play.block));
     let inside = column >= 0 && row >= 0 && (column as usize) < case.level.columns();
     inside.then_some(row as usize * case.level.columns() + column as usize)
 }
 
-/// Returns all cells of the board that a sprite covers.
+/// Returns all board cells that a sprite covers.
 fn cells_of(case: &Case, play: &Play, record: &SpriteRecord) -> Vec<usize> {
     let span = |from: i32, size: i32, limit: usize| {
         let last = from.saturating_add(size).saturating_sub(1).div_euclid(play.block);
@@ -296,7 +297,7 @@ fn cells_of(case: &Case, play: &Play, record: &SpriteRecord) -> Vec<usize> {
 /// Returns the first difference between two episodes with the same actions.
 fn differs(case: &Case, one: &Play, two: &Play, with: &str) -> Option<String> {
     let equal = |one: &Frame, two: &Frame| {
-        // Compare the sprites as text if they differ, because some speeds are NaN.
+        // Sprites that differ are compared as text, because some speeds are NaN.
         let same = |one: &[SpriteRecord], two: &[SpriteRecord]| {
             one == two || format!("{one:?}") == format!("{two:?}")
         };
@@ -360,8 +361,8 @@ impl Ending {
     }
 }
 
-/// Checks that every end of an episode matches a claimed ending, that every claimed ending ends the episode, and that
-/// the outcome is correct.
+/// Checks that every end of an episode matches a claimed ending, that every claimed ending ends the episode,
+/// and that the outcome is the claimed one.
 fn refute_endings(case: &Case, endings: &[Ending], tie: &Tie, play: &Play) -> Option<String> {
     ticks(play).find_map(|(tick, before, frame)| {
         let holds =
@@ -391,7 +392,7 @@ fn refute_endings(case: &Case, endings: &[Ending], tie: &Tie, play: &Play) -> Op
     })
 }
 
-/// The effects that do not move or turn sprites. In a tick with only these effects, a barrier stays a barrier.
+/// The effects that neither move nor turn sprites. In a tick with only these effects, barriers stay barriers.
 const STILL_EFFECTS: [&str; 8] = [
     "stepBack",
     "collectResource",
@@ -403,7 +404,7 @@ const STILL_EFFECTS: [&str; 8] = [
     "subtractHealthPoints",
 ];
 
-/// Finds a sprite that moves onto a barrier that existed before and has not moved.
+/// Finds a sprite that moves onto a barrier that was there before and has not moved.
 fn refute_barrier(
     case: &Case,
     play: &Play,
@@ -414,7 +415,7 @@ fn refute_barrier(
     let quiet = |frame: &Frame| {
         // Avatars other than the player's are never updated, and return to older positions.
         let avatars = frame.sprites.iter().filter(|record| is_avatar(record)).count();
-        // A sprite that is moved flush with one sprite may overlap a different one.
+        // A sprite moved flush with one sprite may overlap another.
         let is_rough = |param: &Param| param.key.text == "pixelPerfect";
         let is_quiet = |&line: &usize| {
             let line = &lines[line];
@@ -442,7 +443,7 @@ fn refute_barrier(
             };
             let others =
                 before.sprites.iter().filter(|record| second.contains(&stype(record)) && record.id != is.id);
-            // A sprite that is put back after its move was elsewhere when the other sprite came.
+            // A sprite that is put back after its move was elsewhere when the other sprite arrived.
             let put_back =
                 |other: &SpriteRecord| after.meetings.iter().any(|meeting| meeting.first == stype(other));
             let mut others = others.filter(|record| !put_back(record)).filter(|record| {
@@ -456,7 +457,7 @@ fn refute_barrier(
     })
 }
 
-/// Returns `true` if an interaction or a termination concerns the type.
+/// Returns `true` if an interaction or a termination involves the type.
 fn takes_part(case: &Case, stype: SpriteType) -> bool {
     let analysis = &case.analysis;
     let meets = analysis.encounters().iter().any(|encounter| {
@@ -473,7 +474,7 @@ fn refute_turns(case: &Case, seed: Seed) -> Option<String> {
         own.map(|record| (record.stype, record.rect)).collect::<Vec<_>>()
     };
     let play = Play::of(case, seed, &[Action::Nil; IDLE]);
-    // Sprites that the level places on top of each other meet in the first tick, so it is skipped.
+    // The first tick is skipped, because sprites that the level places on top of each other meet in it.
     ticks(&play).skip(1).find_map(|(tick, before, after)| {
         let (one, two) = (shown(before), shown(after));
         let fresh =

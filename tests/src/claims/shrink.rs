@@ -5,8 +5,8 @@ use super::{Case, Fault, Policy, faults, read};
 use base::Seed;
 use engine::Action;
 
-/// Removes game lines, level rows and columns, and parameters, as long as a claim with the same kind and code remains
-/// false.
+/// Removes lines of the game, rows and columns of the level, and parameters, as long as a claim with the same
+/// kind and code remains false.
 pub fn shrunk(fault: Fault) -> Fault {
     let mut best = fault;
     loop {
@@ -25,7 +25,7 @@ pub fn shrunk(fault: Fault) -> Fault {
     }
 }
 
-/// Returns the same kind of fault in a changed game; `None` if the fault is gone.
+/// Returns the fault of the same kind in a changed game; `None` if the fault is gone.
 pub fn again(
     source: &str,
     level: &str,

@@ -1,11 +1,11 @@
-//! A warm step does not allocate memory, because planners take millions of steps.
+//! A warm step allocates no memory, because planners take millions of steps.
 
 use base::Seed;
 use engine::{Action, Game, Level, State};
 use std::path::Path;
 use tests::{games, public_games, workspace_root};
 
-/// Plays an episode twice into the same state, and returns the number of allocations in the second run.
+/// Plays an episode twice into the same state, and returns the number of allocations during the second run.
 fn allocations(game: &Game, level: &Level, ticks: usize) -> u64 {
     let seed = Seed::from_text("warm");
     let start = game.start(level, seed);

@@ -1,4 +1,4 @@
-//! Batches: on any number of threads, each lane plays the same episode as it would alone.
+//! Tests of batches. On any number of threads, each lane plays the same episode as it would play alone.
 
 use agents::{Batch, BatchError};
 use base::{Sampler, Seed};
@@ -111,8 +111,8 @@ fn invalid_batches_are_reported() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Playing a plan is equivalent to playing its actions tick by tick, from any state of any game. The original state is
-    /// unchanged.
+    /// Playing a plan is equivalent to playing its actions tick by tick, from any state of any game. The
+    /// original state stays unchanged.
     #[test]
     fn plans_are_steps(
         bytes in prop::collection::vec(any::<u8>(), 0..300),

@@ -1,5 +1,6 @@
-//! Checks every claim made by `describe`, the warnings, the analysis and the exhaustive search against episodes, in
-//! generated and modified games, loaded strictly and as in the reference. See [`tests::claims`].
+//! Checks every claim that `describe`, the warnings, the analysis and the exhaustive search make against
+//! episodes. The games are generated and modified games, loaded strictly and as in the reference. See
+//! [`tests::claims`].
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
 use base::Seed;
@@ -11,15 +12,15 @@ use tests::claims::{Case, Claim, Ending, Fact, Fault, Policy, Provided, Tally, T
 use tests::claims::{faults, games, read, shrink};
 use tests::sweep;
 
-/// The number of generated games in a sweep. Each is loaded under both policies.
+/// The number of generated games in a sweep. Each of them is loaded under both policies.
 const GAMES: usize = 40_000;
-/// The number of games per exhaustively searched game.
+/// The number of games for each game that is searched exhaustively.
 const SEARCHED: usize = 10;
 /// The number of forward-model calls per search.
 const CALLS: u64 = 3000;
 
-/// Checks the game for a seed under a policy. Returns the counts, the number of unparsed sentences, and the false
-/// claims.
+/// Checks the game for a seed under a policy. Returns the counts, the number of sentences that could not be
+/// parsed, and the false claims.
 fn check(seed: Seed, search: bool, policy: Policy) -> Option<(Tally, usize, Vec<Fault>)> {
     let (source, level) = games::game(seed);
     let case = Case::load(&source, &level, policy)?;
@@ -69,7 +70,7 @@ fn no_claim_is_false() {
     assert!(rare.is_empty(), "no claim of the kinds {rare:?}\n{tally}");
 }
 
-/// The kinds of claims that every run must include.
+/// The kinds of claims that must occur in every run.
 const KINDS: [&str; 12] = [
     "a rule never fires",
     "a termination never holds",
@@ -85,7 +86,7 @@ const KINDS: [&str; 12] = [
     "the level cannot be won",
 ];
 
-/// A game that contains everything covered by the checks.
+/// A game that contains everything that the checks cover.
 const ZOO: &str = "\
 BasicGame square_size=10
     SpriteSet
@@ -119,7 +120,7 @@ BasicGame square_size=10
         Timeout limit=300 win=False
 ";
 
-/// Each check refutes a false claim, and no check refutes the true claims about the same game.
+/// Each check refutes a false claim, and no check refutes a true claim about the same game.
 #[test]
 fn false_claims_are_refuted() {
     let case = Case::load(ZOO, "A.gv...\nm.e.c..\n.o...p.\n", Policy::Strict);
@@ -196,7 +197,7 @@ fn false_claims_are_refuted() {
     _ = (cart, veil, ghost);
 }
 
-/// Losses and barriers need separate games.
+/// False claims about losses and barriers are refuted in games of their own.
 #[test]
 fn false_claims_about_losses_and_edges_are_refuted() {
     let source = ZOO

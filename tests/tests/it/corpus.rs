@@ -1,5 +1,5 @@
-//! Properties of every game, tested on the corpus: clones, hashes, replays, terminal states, prints. The tests
-//! correspond to OpenSpiel's basic tests. Generated games are tested in `robustness.rs`.
+//! Properties of every game, tested on the corpus: clones, hashes, replays, terminal states and prints. The
+//! tests correspond to OpenSpiel's basic tests. Generated games are tested in `robustness.rs`.
 
 use base::{Sampler, Seed};
 use engine::{Action, Episode, Game, Level, Outcome, State, syntax};
@@ -25,7 +25,7 @@ fn corpus() -> Vec<(String, Game, Vec<Level>)> {
     folders.iter().map(load).collect()
 }
 
-/// Plays every corpus level at random. Calls `visit` for every step.
+/// Plays every corpus level at random, and calls `visit` for every step.
 fn wander(ticks: usize, mut visit: impl FnMut(&str, &Game, &mut State, Action, &mut Sampler)) {
     for (name, game, levels) in corpus() {
         for (number, level) in levels.iter().enumerate() {
@@ -121,7 +121,8 @@ fn episodes_replay_bit_for_bit() {
     }
 }
 
-/// If two sequences of actions lead to the same key, the same subsequent actions keep keys and outcomes equal.
+/// If two sequences of actions lead to the same key, the same subsequent actions keep the keys and the
+/// outcomes equal.
 #[test]
 fn equal_search_keys_have_equal_futures() {
     let mut merged = 0;

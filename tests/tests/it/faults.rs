@@ -1,6 +1,7 @@
-//! Single faults in valid files. Each fault must be reported at its line, in most cases with the right fix.
+//! Single faults in otherwise valid files. Each fault must be reported at its line, in most cases with the
+//! right fix.
 //!
-//! The faults are drawn from the corpus games with a seed, [`EACH`] of each kind.
+//! The faults are made in corpus games, chosen with a seed, with [`EACH`] faults of each kind.
 
 use base::{Sampler, Seed};
 use engine::{Diagnostic, Game, SpriteClass, line_and_column};
@@ -20,16 +21,17 @@ struct Sound {
 pub(crate) struct Fault {
     pub(crate) game: String,
     pub(crate) level: String,
-    /// `true` if the fault is in the level.
+    /// `true` if the fault is in the level rather than the game.
     pub(crate) in_level: bool,
-    /// The acceptable line numbers, from 1.
+    /// The acceptable line numbers, counted from 1.
     lines: Vec<usize>,
     /// The acceptable fixes, one of which the help must contain.
     repairs: Vec<String>,
     what: String,
 }
 
-/// A generator for one kind of fault. Returns `None` if the randomly chosen item does not allow such a fault.
+/// A function that creates one kind of fault. Returns `None` if the randomly chosen item does not allow such
+/// a fault.
 type FaultMaker = fn(&Sound, &mut Sampler) -> Option<Fault>;
 
 const KINDS: [(&str, FaultMaker); 6] = [
@@ -127,7 +129,7 @@ fn corpus() -> Vec<Sound> {
         .collect()
 }
 
-/// A word in a file, with its position in the text, its line (from 1), and its section.
+/// A word in a file, with its position in the text, its line (counted from 1), and its section.
 #[derive(Clone, Copy)]
 struct Token<'a> {
     start: usize,
@@ -173,7 +175,7 @@ fn in_game(sound: &Sound, game: String, lines: Vec<usize>, repairs: &[&str], wha
 fn typo(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     let token = *sampler.choose(&tokens);
-    // Change only names. For a parameter, the name is its key, and lists stay unchanged.
+    // Only names are changed. A parameter's name is its key, and lists stay unchanged.
     let word = token.text.split('=').next().unwrap_or_default();
     if word.len() < 4 || !word.chars().all(|c| c.is_ascii_alphanumeric()) {
         return None;
@@ -310,7 +312,7 @@ fn wrong_type(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     in_game(sound, game, vec![token.line], &[&format!("{key}=")], format!("{key}={value} → {key}={wrong}"))
 }
 
-/// Replaces a valid character with an invalid one in a level, in a mapping, in an arrow or in a parameter.
+/// Replaces a valid character with an invalid one in a level, a mapping, an arrow or a parameter.
 fn wrong_character(sound: &Sound, sampler: &mut Sampler) -> Option<Fault> {
     let tokens = tokens(&sound.game);
     match sampler.below(4) {

@@ -1,5 +1,5 @@
-//! Automatic fixes. Each fix removes its problem and introduces no new error. The tests use the single faults of
-//! `faults.rs` and the examples in `docs/reference/diagnostics/`.
+//! Tests of automatic fixes. Each fix removes its problem and introduces no new error. The tests use the
+//! single faults of `faults.rs` and the examples in `docs/reference/diagnostics/`.
 
 use crate::faults;
 use crate::pages::examples;
@@ -7,7 +7,7 @@ use editor::{Edit, Fix, Problem, Severity, applied, level_problems, problems};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The number of problems with a fix, and the number of fixed problems.
+/// The number of problems with a fix, and the number of problems fixed.
 #[derive(Default)]
 struct Tally {
     faults: usize,
@@ -15,7 +15,7 @@ struct Tally {
     failures: String,
 }
 
-/// Counts the problems by code and message. Positions are ignored because fixes change them.
+/// Counts the problems by code and message. Positions are ignored, because fixes change them.
 fn counted(problems: &[Problem]) -> BTreeMap<(&str, &str), usize> {
     let mut counts = BTreeMap::new();
     for problem in problems {
@@ -25,7 +25,7 @@ fn counted(problems: &[Problem]) -> BTreeMap<(&str, &str), usize> {
 }
 
 impl Tally {
-    /// Applies every fix for the problems in a text, one at a time.
+    /// Applies every fix for a text's problems, one at a time.
     fn check(&mut self, name: &str, text: &str, problems: impl Fn(&str) -> Vec<Problem>) {
         let found = problems(text);
         self.faults += usize::from(!found.is_empty());

@@ -1,4 +1,4 @@
-//! The pages in the root folder: their length, the functions named in them, and the output shown in them.
+//! The pages in the root folder: their length, the functions they name, and the output they show.
 
 use tests::read;
 
@@ -16,7 +16,7 @@ fn front_pages_are_short() {
     }
 }
 
-/// The test parses the rows `| step | file | functions |` of the walk from the seed to the release.
+/// The rows `| step | file | functions |` of the walk from the seed to the release name functions that exist.
 #[test]
 fn contributing_names_functions_that_exist() {
     let page = read("CONTRIBUTING.md");
@@ -38,8 +38,8 @@ fn contributing_names_functions_that_exist() {
     assert!(count > 10, "{count}");
 }
 
-/// The output of `arcade release tiny`, as shown in the README and the first tutorial, contains the root
-/// that a test mints.
+/// The output of `arcade release tiny`, as shown in the README and the first tutorial, contains the root that
+/// a test mints.
 #[test]
 fn pages_show_the_root_of_tiny() {
     let root = read("crates/cli/tests/tiny.root");

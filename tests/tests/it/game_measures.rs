@@ -1,4 +1,4 @@
-//! Measures of the corpus games, compared with their authors' intentions.
+//! Measures of corpus games, compared with their authors' intentions.
 
 use agents::{PortfolioConfig, Solution, solve};
 use base::Seed;
@@ -31,7 +31,7 @@ fn kinds_of_our_own_games() {
     }
 }
 
-/// Measures the first level with the win found by the portfolio.
+/// Measures the first level, using the win that the portfolio finds.
 fn played(name: &str) -> PlayMeasures {
     let all = games(&workspace_root().join("corpora"));
     let (_, game, levels) = all.iter().find(|game| game.0 == name).expect(name);
@@ -43,15 +43,16 @@ fn played(name: &str) -> PlayMeasures {
     PlayMeasures::of(&analysis, &recording, Seed::from_text("measures")).expect("an episode")
 }
 
-/// In the puzzle, the jars wait for their porter, who can lose only on time. In the flight, the hounds of the bog do
-/// not wait, and catch an avatar that stays in place.
+/// In the puzzle, the jars wait for their porter, who can lose only on time. In the flight, the hounds of the
+/// bog do not wait, and catch an avatar that stays where it is.
 #[test]
 fn measures_match_play_of_a_puzzle_and_a_flight() {
     let (jars, bog) = (played("quiet-jars"), played("bog-lantern"));
     assert_eq!((jars.chance, jars.drama, jars.lead_changes), (0.0, 0.0, 0.0), "{jars:?}");
     // Jars are pushed and come to rest.
     assert!(jars.mechanics >= 2, "{jars:?}");
-    // In the bog, something moves in most ticks, and the movements are random. Among the jars, only pushed jars move.
+    // In the bog, something moves in most ticks, and it moves randomly. Among the jars, only pushed jars
+    // move.
     assert!(bog.pace > 0.5 && bog.chance > 0.1 && bog.drama > 0.3, "{bog:?}");
     assert!(bog.density < jars.density, "{jars:?} {bog:?}");
 }

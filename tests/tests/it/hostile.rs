@@ -1,5 +1,5 @@
-//! The hostile set (`tests/suite/hostile/`). Each case has the result stated in its file, under both loading
-//! policies.
+//! Tests of the hostile set (`tests/suite/hostile/`). Under both loading policies, each case has the result
+//! stated in its file.
 //!
 //! `BLESS=1 cargo test -p infinite-arcade-tests --test it hostile` rewrites the results. Review the diff as you
 //! would review code.
@@ -27,7 +27,7 @@ fn every_case_ends_as_expected() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
-/// Besides play, a game's warnings, description and canonical printing also terminate.
+/// Besides play, a game's warnings, description and canonical printing terminate as well.
 #[test]
 fn every_game_is_described_or_refused() {
     for case in Case::all() {

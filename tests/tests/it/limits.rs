@@ -22,7 +22,7 @@ fn the_page_lists_every_limit() {
     let page = read("docs/reference/limits.md");
     let rows = page.lines().filter(|line| line.starts_with("| ") && line.contains('`'));
     let rows = rows.map(|line| line.split('|').map(str::trim).collect());
-    // The limits of the engine are the table rows with a constant and a result.
+    // The engine's limits are the table rows that have a constant and a result.
     let rows: Vec<Vec<&str>> = rows.filter(|row: &Vec<&str>| row.len() == 6).collect();
     for (name, value) in constants {
         let quoted = format!("`{name}`");

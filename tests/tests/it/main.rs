@@ -1,4 +1,4 @@
-//! Properties that span crates, and the tidiness of the tree.
+//! Tests of properties that span crates, and of the tidiness of the tree.
 
 extern crate infinite_arcade_agents as agents;
 extern crate infinite_arcade_base as base;

@@ -1,5 +1,5 @@
-//! Novelty of games. Irrelevant changes leave a game's form unchanged, and relevant changes alter it. The duplicate
-//! threshold lies between the distances of renumbered copies and those of different games
+//! Tests of novelty. Irrelevant changes leave a game's form unchanged, and relevant changes alter it. The
+//! duplicate threshold lies between the distances of renumbered copies and those of different games
 //! (docs/explanation/novelty.md).
 
 use base::Seed;
@@ -13,13 +13,13 @@ use tests::isomorphic;
 use tests::{games, public_games, workspace_root};
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// Returns the corpus games and the strictly loadable public games.
+/// Returns the corpus games and the public games that load strictly.
 fn all() -> Vec<(String, Game)> {
     let strictly = |(name, game): (String, Game)| Some((name, Game::compile(game.description()).ok()?));
     as_reference().into_iter().filter_map(strictly).collect()
 }
 
-/// Returns the games from [`all`], plus the games that load only as in the reference.
+/// Returns the games from [`all`], plus the public games that load only as in the reference.
 fn as_reference() -> Vec<(String, Game)> {
     let of = |folder: &Path| games(folder).into_iter().map(|(name, game, _)| (name, game));
     let mut all: Vec<(String, Game)> = of(&workspace_root().join("corpora")).collect();
@@ -67,8 +67,8 @@ fn generated_isomorphic_games_have_equal_forms() {
     assert!(tried > 100, "{tried}");
 }
 
-/// Twins retain the names known to the engine, and choose different characters. The default characters must not place a
-/// type that the original game never places.
+/// Twins keep the names that the engine knows, and choose different characters. The default characters must
+/// not place a type that the original game never places.
 #[test]
 fn twins_are_the_same_game() {
     let generated = (0..20).map(|number| {
@@ -149,7 +149,7 @@ fn hand_written_games_are_not_duplicates() {
     let forms = forms(&all);
     let near = |one: usize| (0..one).filter(|&two| forms[one].1.is_near(&forms[two].1)).count();
     let pairs: usize = (0..forms.len()).map(near).sum();
-    // By any measure, some public games are copies of other public games.
+    // Some public games are copies of others by any measure.
     assert!(pairs <= forms.len() / 10, "{pairs}");
     let corpus = games(&workspace_root().join("corpora")).len();
     assert!((0..corpus).all(|at| near(at) == 0));

@@ -123,8 +123,8 @@ fn every_diagnostic_code_has_a_page() {
     assert!(problems.is_empty(), "\n{problems}");
 }
 
-/// Returns the output that a code's page must show: the code in a list of problems or, if no small example causes the
-/// problem, the whole output for a file created by the test.
+/// Returns the output that a code's page must show: the code in a list of problems, or the whole output for a
+/// file created by the test if no small example causes the problem.
 fn shown(code: &str) -> String {
     let source = match code {
         "not-text" => "BasicGame\u{7}\n".to_owned(),
@@ -151,8 +151,8 @@ fn repaired(page: &str) -> Vec<Diagnostic> {
     last.map_or(Vec::new(), |block| block.problems(game.as_ref()))
 }
 
-/// Returns the codes in the engine's source. A code is the first argument of a problem's constructor, or is in the
-/// statement `let code = …;` above the constructor.
+/// Returns the codes in the engine's source. A code is either the first argument of a problem's constructor,
+/// or in a statement `let code = …;` above the constructor.
 fn codes() -> BTreeSet<String> {
     let mut codes = BTreeSet::new();
     for (file, text) in rust_files().into_iter().filter(|(file, _)| file.starts_with("engine/src")) {
@@ -179,8 +179,8 @@ fn pages(folder: &'static str) -> impl Iterator<Item = String> {
     files.filter(move |file| file.starts_with(folder) && file.ends_with(".md"))
 }
 
-/// Returns the strictly loaded games and the levels on a folder's pages, each as the page, the game, and the level (if
-/// any).
+/// Returns the games that load strictly and the levels on a folder's pages. Each item consists of the page,
+/// the game, and the level, if any.
 pub(crate) fn examples(folder: &'static str) -> Vec<(String, String, Option<String>)> {
     let mut examples = Vec::new();
     for page in pages(folder) {
@@ -201,7 +201,7 @@ fn games(page: &str) -> impl Iterator<Item = &str> {
     page.split("```vgdl").skip(1).filter_map(|rest| rest.split("```").next())
 }
 
-/// Returns the first differing line, in its stated and its actual form.
+/// Returns the first line that differs, as stated and as it actually is.
 fn first_difference(said: &str, is: &str) -> String {
     let at = said
         .lines()
@@ -212,7 +212,7 @@ fn first_difference(said: &str, is: &str) -> String {
     format!("  line {}\n  said: {}\n  is:   {}\n", at + 1, line(said), line(is))
 }
 
-/// A fenced block: its info string, its text and its position.
+/// A fenced block, with its info string, its text and its position.
 struct Block {
     info: String,
     text: String,
@@ -255,7 +255,7 @@ fn blocks(page: &str) -> Vec<Block> {
     blocks
 }
 
-/// The state while running a page: the games and levels loaded, and the actions played.
+/// The state of running a page: the games and levels loaded, and the actions played.
 #[derive(Default)]
 struct Bench {
     game: Option<Game>,
@@ -394,7 +394,7 @@ impl Bench {
     }
 }
 
-/// Returns one fact about a type's oldest sprite.
+/// Returns one fact about the oldest sprite of a type.
 fn fact(game: &Game, state: &State, name: &str, asked: &str) -> Result<String, String> {
     let stype = game.sprite_type(name).ok_or_else(|| format!("no sprite named `{name}`"))?;
     let records = game.records(state);
@@ -432,7 +432,7 @@ fn held(game: &Game, sprite: &SpriteRecord, resource: &str) -> Result<i32, Strin
     Ok(sprite.resources.iter().find(|(held, _)| *held == stype.0).map_or(0, |&(_, amount)| amount))
 }
 
-/// Returns the board in level characters.
+/// Returns the board, written in level characters.
 fn board(game: &Game, state: &State) -> String {
     let seen = game.observe(state);
     let mut text = String::new();

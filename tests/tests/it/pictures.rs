@@ -1,4 +1,4 @@
-//! Every loadable game can be drawn. Tests the hostile games and the corpus, in every format.
+//! Tests that every loadable game can be drawn: the hostile games and the corpus, in every format.
 
 use base::Seed;
 use engine::{Action, Analysis, Game, Level, syntax};
@@ -11,8 +11,7 @@ use tests::hostile::Case;
 use tests::sweep::VARIABLE;
 use tests::workspace_root;
 
-/// Draws the first tick and, in a sweep, also the initial state. An image with too many pixels may be
-/// rejected.
+/// Draws the first tick and, in a sweep, also the initial state. Images with too many pixels may be rejected.
 fn draw(name: &str, game: &Game, level: &Level) {
     let analysis = Analysis::of(game);
     let looks = Looks::of(&analysis);
@@ -26,7 +25,7 @@ fn draw(name: &str, game: &Game, level: &Level) {
         let text = render::rows(&looks, &symbols, &state);
         let (columns, rows) = state.size();
         assert_eq!(text.lines().count(), rows as usize, "{name}");
-        // Symbols are ASCII as long as there are free characters.
+        // Symbols are ASCII as long as there are unused characters.
         let is_symbol = |symbol: char| symbol.is_ascii_graphic() || symbol.is_alphabetic();
         let is_row = |line: &str| line.chars().count() == columns as usize && line.chars().all(is_symbol);
         assert!(text.lines().all(is_row), "{name}");
@@ -46,7 +45,7 @@ fn draw(name: &str, game: &Game, level: &Level) {
 fn hostile_games_can_be_drawn() {
     let mut drawn = 0;
     for case in Case::all() {
-        // An image does not depend on the policy that loaded the game.
+        // An image does not depend on the policy under which the game was loaded.
         let game = Game::from_source(&case.source).or_else(|_| Game::from_source_as_reference(&case.source));
         let Ok(game) = game else { continue };
         let Some(Ok(level)) = case.level.as_ref().map(|text| game.level(text)) else { continue };
@@ -56,8 +55,7 @@ fn hostile_games_can_be_drawn() {
     assert!(drawn > 40, "{drawn}");
 }
 
-/// Checks that any two visible types differ in shape, in mark, clearly in colour, or in the number of
-/// dots.
+/// Checks that any two visible types differ in shape, in mark, in the number of dots, or clearly in colour.
 fn assert_distinct(name: &str, looks: &Looks) {
     let shown: Vec<_> = looks.shown().collect();
     for (at, &one) in shown.iter().enumerate() {

@@ -1,10 +1,10 @@
-//! Incrementally updated planes show the same sprites as observations.
+//! Planes that are updated incrementally show the same sprites as observations.
 
 use base::Seed;
 use engine::{Action, Drawn, Game, Level, Planes, SpriteType, State};
 use tests::{games, public_games, workspace_root};
 
-/// Returns the planes of an observation.
+/// Returns the planes that correspond to an observation.
 fn observed(game: &Game, state: &State, types: &[SpriteType], columns: usize, rows: usize) -> Vec<u8> {
     let seen = game.observe(state);
     let mut planes = vec![0; types.len() * columns * rows];

@@ -1,4 +1,4 @@
-//! The portfolio of methods for winning a level.
+//! The portfolio of methods for winning levels.
 
 use agents::{PortfolioConfig, Solution, solve};
 use base::Seed;

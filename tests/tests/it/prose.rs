@@ -1,4 +1,4 @@
-//! The prose in the book and on the front pages. This prose must not contain long sentences, or phrases that a
+//! The prose in the book and on the front pages. It must contain no long sentences, and no phrases that a
 //! native editor would replace.
 
 use std::path::Path;
@@ -8,7 +8,7 @@ use tests::{read, workspace_files};
 /// The pages in the root folder.
 const FRONT_PAGES: [&str; 4] = ["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "README.md"];
 
-/// Pages whose text comes from the code, because they are generated or show program output.
+/// Pages that are not checked, because they are generated or show program output.
 const GENERATED: [&str; 4] =
     ["docs/SUMMARY.md", "docs/lab/gallery.md", "docs/reference/commands.md", "docs/reference/recipe-keys.md"];
 
@@ -47,7 +47,7 @@ const PHRASES: &[(&str, &str)] = &[
     ("remarks", "warnings, or: notes"),
 ];
 
-/// Words after which `no` is a fixed phrase: "is no longer".
+/// Words that form a fixed phrase with a preceding `no`, as in "is no longer".
 const AFTER_NO: [&str; 8] = ["longer", "more", "less", "fewer", "later", "better", "worse", "other"];
 
 #[test]
@@ -131,7 +131,7 @@ fn blocks(page: &str, with_tables: bool) -> Vec<(usize, String)> {
     blocks.iter().map(|(number, text)| (*number, plain(text))).collect()
 }
 
-/// Returns a list item's text without its marker.
+/// Returns the text of a list item without its marker.
 fn item(text: &str) -> Option<&str> {
     let digits = text.trim_start_matches(|c: char| c.is_ascii_digit());
     let numbered = digits.strip_prefix(". ").filter(|_| digits.len() < text.len());

@@ -1,4 +1,4 @@
-//! The diagnostics from strictly loading the reference's public games, as recorded in
+//! The diagnostics that strict loading reports for the reference's public games, as recorded in
 //! `tests/ref/strict-diagnostics.txt`.
 //!
 //! The games are test data outside the repository. Without the games, the test prints a note and passes.

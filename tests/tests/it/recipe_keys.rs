@@ -36,12 +36,12 @@ const SECTIONS: [(&str, &str, &str); 12] = [
 #[derive(Debug, PartialEq)]
 struct Key {
     name: String,
-    /// The default, as written in the code; empty if there is no default.
+    /// The default as written in the code; empty if there is no default.
     default: String,
     doc: String,
 }
 
-/// Returns a struct's public fields from formatted source code, under their names in files.
+/// Returns a struct's public fields, parsed from formatted source code, with their names in files.
 fn keys(source: &str, name: &str) -> Vec<Key> {
     let start = format!("pub struct {name} {{");
     let body = source.lines().skip_while(|line| line.trim() != start).skip(1);
@@ -65,7 +65,7 @@ fn keys(source: &str, name: &str) -> Vec<Key> {
     keys
 }
 
-/// Returns a default in recipe notation; empty if the default's expression is not a plain value.
+/// Returns a default in the notation of recipes; empty if the default's expression is not a plain value.
 fn in_toml(value: &str) -> String {
     let list = value.strip_prefix("names(&").and_then(|list| list.strip_suffix(')'));
     let list = list.or_else(|| value.strip_prefix("vec!")).unwrap_or(value);

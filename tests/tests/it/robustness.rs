@@ -1,5 +1,5 @@
-//! Short runs of the checks that `tools/fuzz/` runs for longer, on any text, any level and any actions. Every run uses
-//! the same inputs.
+//! Short runs of the checks that `tools/fuzz/` runs for longer, on any text, any level and any actions. The
+//! inputs are the same in every run.
 
 use base::Sampler;
 use engine::syntax::Section;
@@ -15,7 +15,7 @@ fn sampler(purpose: &str) -> Sampler {
     sweep::seed("robustness").child(purpose, 0).sampler()
 }
 
-/// Returns the files below a repository folder, in order.
+/// Returns the contents of the files below a repository folder, in order.
 fn files_below(folder: &str) -> Vec<Vec<u8>> {
     let files = workspace_files().into_iter().filter(|file| file.starts_with(folder));
     files.map(|file| std::fs::read(workspace_root().join(file)).expect("a file of the repository")).collect()
@@ -40,7 +40,7 @@ fn any_text_parses_compiles_and_prints() {
     }
 }
 
-/// Tests corpus levels, intact and damaged, in their own and in different games.
+/// Tests corpus levels, intact and damaged, in their own game and in different games.
 #[test]
 fn any_bytes_are_a_level_or_are_refused() {
     let mut sampler = sampler("level");
@@ -62,7 +62,7 @@ fn any_bytes_are_a_level_or_are_refused() {
     assert!(seen.ticks > 1000, "{seen:?}");
 }
 
-/// Every effect runs, sprites of every class are present, and many pairs of states share a search key.
+/// Every effect is executed, sprites of every class occur, and many pairs of states share a search key.
 #[test]
 fn any_actions_leave_a_sound_state() {
     let mut sampler = sampler("play");
@@ -129,7 +129,7 @@ fn the_dictionary_has_every_word() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Tests structurally valid games, and shrinks a failing game to the simplest failing game.
+    /// Tests structurally valid games, and shrinks a failing game to the simplest one that fails.
     #[test]
     fn any_game_plays(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
         robustness::play(&bytes);
@@ -152,7 +152,7 @@ proptest! {
     }
 }
 
-/// Generates a line as a careless author might write it.
+/// Generates a line such as a careless author might write.
 fn careless_line() -> impl Strategy<Value = String> {
     const WORDS: [&str; 43] = [
         "SpriteSet",

@@ -1,8 +1,8 @@
-//! Tests that the proofs of systematic search hold.
+//! Tests that the proofs of the systematic search hold.
 //!
 //! Small levels are searched exhaustively in three ways. The three searches distinguish states by
-//! [`State::search_key`], by the search's own key, and by the full data hashed into this key. All three must find the
-//! same states, except for data omitted from the key, and the same wins.
+//! [`State::search_key`], by the search's own key, and by the full data hashed into this key. All three must
+//! find the same wins and, apart from data omitted from the key, the same states.
 
 use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use base::Seed;
@@ -10,7 +10,8 @@ use engine::analysis::StateAbstraction;
 use engine::{Action, Analysis, Game, Level, Outcome, State};
 use std::collections::BTreeMap;
 
-/// Returns a game with the given sprites, mapping, interactions and terminations, plus walls and the player.
+/// Returns a game with the given sprites, mapping, interactions and terminations, in addition to walls and
+/// the player.
 fn game(sprites: &str, mapping: &str, rules: &str, ends: &str) -> Game {
     let lines = |text: &str| text.lines().map(|line| format!("    {line}\n")).collect::<String>();
     let source = format!(
@@ -43,7 +44,7 @@ fn plates() -> Game {
     )
 }
 
-/// Returns a game with pits and with a door that uses up a key.
+/// Returns a game with pits, and with a door that uses up a key.
 fn keys() -> Game {
     game(
         "key > Resource limit=2\ndoor > Immovable\ngem > Immovable\npit > Immovable\nhero > MovingAvatar",
@@ -63,7 +64,8 @@ fn carts() -> Game {
     )
 }
 
-/// Returns a game in which hunters follow paths to the hero. Hunters draw random numbers only if there is no path.
+/// Returns a game in which hunters follow paths to the hero, and draw random numbers only if there is no
+/// path.
 fn hunters() -> Game {
     let plain = game(
         "hunter > PathChaser stype=hero cooldown=2\nflag > Immovable\nhero > MovingAvatar",
@@ -75,7 +77,7 @@ fn hunters() -> Game {
     Game::from_source(&source).unwrap()
 }
 
-/// Levels, each with `true` if the level can be won.
+/// Levels, each with `true` if it can be won.
 type Levels = Vec<(&'static str, bool)>;
 
 /// Returns all games with their levels.
@@ -144,8 +146,8 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Returns all reachable states of the ongoing game, distinguished by `tell`, and the minimum number of actions to
-    /// win. Searches breadth-first.
+    /// Returns all reachable states of the ongoing game, as distinguished by `tell`, and the minimum number
+    /// of actions to win. The search is breadth-first.
     fn reached<T: Ord>(&self, tell: impl Fn(&State) -> T) -> (BTreeMap<T, Vec<u64>>, Option<usize>) {
         let words = |state: &State| self.abstraction.words(self.analysis, state);
         let mut met = BTreeMap::from([(tell(&self.start), words(&self.start))]);
@@ -234,8 +236,8 @@ fn wins_are_the_shortest_and_proofs_are_right() {
     }
 }
 
-/// Pruned states are lost: no win is reachable from a state pruned by [`Pushes`]. No state needs fewer ticks than its
-/// bound.
+/// Pruned states are lost: no win is reachable from a state that [`Pushes`] prunes. No state needs fewer
+/// ticks than its bound.
 #[test]
 fn push_distances_are_lower_bounds() {
     for (name, game, levels) in cases().into_iter().take(2) {
@@ -318,7 +320,7 @@ fn default_characters_are_searched_like_written_ones() {
     }
 }
 
-/// Crates are also pushed by an avatar type that the game itself does not use.
+/// An avatar type that the game itself does not use can push crates, too.
 #[test]
 fn crates_are_pushed_by_any_avatar() {
     let game = game(

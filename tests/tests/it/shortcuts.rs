@@ -1,5 +1,5 @@
-//! Shortcuts within a step. Sprites skipped in a step because their movement is predictable end up at the same
-//! positions as without the shortcut.
+//! Tests of shortcuts within a step. Sprites that a step skips, because their movement is predictable, end up
+//! at the same positions as without the shortcut.
 
 use base::{Sampler, Seed};
 use engine::{Action, Game, Level, Limit, Outcome, State};
@@ -9,13 +9,13 @@ use tests::any_game::any_game;
 use tests::choices::Choices;
 use tests::{games, public_games, sweep, workspace_root};
 
-/// Plays random actions twice, with and without shortcuts. The two episodes must not differ in any way.
+/// Plays random actions twice, with and without shortcuts. The two episodes must be identical.
 fn play(name: &str, game: &Game, level: &Level, ticks: usize) {
     let mut sampler = Seed::from_text(name).child("actions", 0).sampler();
     play_actions(name, game, level, (0..ticks).map(|_| *sampler.choose(&Action::ALL)));
 }
 
-/// Plays actions twice, and returns the last state.
+/// Plays actions with and without shortcuts, and returns the last state.
 fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<Item = Action>) -> State {
     let mut state = game.start(level, Seed::from_text(name).child("chance", 0));
     let mut plain = state.clone();
@@ -25,7 +25,7 @@ fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<I
         }
         let outcomes = (game.step(&mut state, action), game.step_unscheduled(&mut plain, action, &mut ()));
         if [outcomes.0, outcomes.1].contains(&Outcome::Stopped(Limit::Work)) {
-            // Sleeping sprites cost no work, but waking them does.
+            // Sleeping sprites cost no work, but waking them up does.
             return state;
         }
         assert_eq!(outcomes.0, outcomes.1, "{name}");
@@ -39,7 +39,7 @@ fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<I
     state
 }
 
-/// Returns the first differing sprites.
+/// Returns the first sprites that differ.
 fn difference(game: &Game, one: &State, two: &State) -> String {
     let (ones, twos) = (game.records(one), game.records(two));
     let pairs = ones.iter().zip(&twos).find(|(one, two)| format!("{one:?}") != format!("{two:?}"));
@@ -171,8 +171,8 @@ fn shortcuts_change_nothing_for_walks_into_walls() {
     assert!(played * 100 > cases * 97, "{played} of {cases}");
 }
 
-/// An effect moves the avatar against a wall after the rule that puts the avatar back has run. That rule does not run
-/// again.
+/// After the rule that puts the avatar back has run, an effect moves the avatar against a wall. The rule does
+/// not run again.
 #[test]
 fn a_move_against_a_wall_is_not_put_back_later() {
     let source = "\
@@ -227,8 +227,8 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Lost);
 }
 
-/// The rule that puts the dart back does not change the score, but the preceding rule, in which the dart is the second
-/// sprite, is worth a point.
+/// The rule that puts the dart back does not change the score. However, the preceding rule, in which the dart
+/// is the second sprite, is worth a point.
 #[test]
 fn steps_that_score_are_not_skipped() {
     let source = "\
@@ -253,8 +253,8 @@ BasicGame square_size=10
     assert_eq!(state.score(), 4.0);
 }
 
-/// A kite off the board moves onto the board, where a rule puts it back. The kite is on the board when the edge rules
-/// run.
+/// A kite that is off the board moves onto it, where a rule puts it back. When the edge rules run, the kite
+/// is on the board.
 #[test]
 fn sprites_off_the_board_do_not_sleep() {
     let source = "\
@@ -278,7 +278,8 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Ongoing);
 }
 
-/// A door briefly moves one arrow to the other, and both arrows are put back to their positions until the door is gone.
+/// A door briefly moves one arrow to the other. Until the door is gone, both arrows are put back to their
+/// positions.
 #[test]
 fn sprites_do_not_sleep_on_briefly_blocked_cells() {
     let source = "\
@@ -306,8 +307,8 @@ BasicGame square_size=10
     assert_eq!(state.outcome(), Outcome::Ongoing);
 }
 
-/// A type that spreads into its own kind stops the tick during the updates. Flying sprites not yet updated stay in
-/// place.
+/// A type that spreads into its own kind stops the tick during the updates. Flying sprites that have not been
+/// updated yet stay in place.
 #[test]
 fn a_stop_amid_the_updates_finds_all_sprites_in_place() {
     let source = "\
@@ -334,7 +335,7 @@ BasicGame
     assert_eq!((state.outcome(), state.tick()), (Outcome::Stopped(Limit::SpawnIntoUpdatedType), 2));
 }
 
-/// The avatar's own update stops the tick. No other sprite is then updated, even if it flies.
+/// The avatar's own update stops the tick. After that, no other sprite is updated, not even one that flies.
 #[test]
 fn a_stop_by_the_avatar_ends_the_updates() {
     let source = "\

@@ -1,8 +1,8 @@
-//! `tests/suite/levels/`: bad and good games with one level each, and their expected verdicts.
+//! `tests/suite/levels/`: bad and good games with one level each, and the verdicts expected for them.
 //!
-//! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad case specifies the criterion that it fails
-//! to pass, the expected verdict, and words that the reason and the evidence must contain. A good case meets every
-//! criterion.
+//! A case is a folder with `game.vgdl`, `lvl0.txt` and `expect.toml`. A bad case specifies the criterion that
+//! it does not meet, the expected verdict, and words that the reason and the evidence must contain. A good
+//! case meets every criterion.
 
 use base::Seed;
 use engine::{Game, Level};
@@ -20,19 +20,19 @@ use validators::{
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Expect {
-    /// A note for readers on the merits or faults of the case.
+    /// A note for readers about the merits or faults of the case.
     about: String,
     /// The criterion that a bad level fails.
     criterion: Option<Criterion>,
     /// The expected verdict: `pass`, `fail` or `unknown`.
     verdict: String,
-    /// The words required in the reason and the evidence.
+    /// The words that the reason and the evidence must contain.
     #[serde(default)]
     words: Vec<String>,
-    /// The criteria to check. If empty, all are checked.
+    /// The criteria to check, or empty to check all of them.
     #[serde(default)]
     ask: CriterionSet,
-    /// The criteria settings that differ from the defaults of these tests.
+    /// The criteria settings that differ from these tests' defaults.
     #[serde(default)]
     criteria: toml::Table,
 }
@@ -81,7 +81,7 @@ fn word(finding: &Finding) -> &'static str {
     }
 }
 
-/// Returns a finding's complete text.
+/// Returns the complete text of a finding.
 fn told(finding: &Finding) -> String {
     let mut text = match &finding.verdict {
         Verdict::Fail { reason, .. } => reason.0.clone(),
@@ -145,7 +145,7 @@ fn good_levels_meet_every_criterion() {
     }
 }
 
-/// The corpus levels that meet every level criterion.
+/// The corpus levels that meet every criterion for levels.
 const CORPUS: &[(&str, usize)] = &[
     ("bog-lantern", 0),
     ("bog-lantern", 2),

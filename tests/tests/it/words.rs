@@ -1,5 +1,5 @@
-//! The language of the repository: doc comments open with a noun phrase or a verb, and use standard terms instead of
-//! earlier coinages.
+//! The language of the repository. Doc comments open with a noun phrase or a verb, and use standard terms
+//! instead of earlier coinages.
 
 use tests::{read, rust_files, workspace_files};
 
@@ -9,7 +9,8 @@ const OPENERS: &[&str] = &[
     "Why", "So",
 ];
 
-/// Earlier coinages in lower case, each with its replacement. Comments, texts and pages are searched for them.
+/// Earlier coinages in lower case, each with its replacement. Comments, texts and pages must not contain
+/// them.
 const COINAGES: &[(&str, &str)] = &[
     ("what processors fetch at once", "a cache line"),
     ("hangs on", "depends on"),
@@ -102,7 +103,7 @@ fn is_data(name: &str) -> bool {
     name.starts_with("tests/suite/snapshots") || name.starts_with("crates/evaluation/tests/golden")
 }
 
-/// Returns a line's text in a doc comment.
+/// Returns the text of a line that belongs to a doc comment.
 fn doc_comment(line: &str) -> Option<&str> {
     let line = line.trim_start();
     line.strip_prefix("/// ").or_else(|| line.strip_prefix("//! "))
@@ -113,7 +114,7 @@ fn opener(comment: &str) -> Option<&'static str> {
     OPENERS.iter().copied().find(|opener| *opener == first)
 }
 
-/// Returns the coinages and retired identifiers in a line, with their replacements.
+/// Returns the coinages and retired identifiers in a line, each with its replacement.
 fn found(line: &str) -> Vec<(&'static str, &'static str)> {
     let lower = line.to_lowercase();
     let phrases = COINAGES.iter().filter(|(old, _)| has_word(&lower, old));

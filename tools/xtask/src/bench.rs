@@ -1,9 +1,9 @@
-//! `cargo xtask bench` measures the engine's speed for each game, and compares it with the reference's speed.
+//! `cargo xtask bench` measures the engine's speed on each game, and compares it with the reference's speed.
 //!
 //! The method is the same as for the reference's own figures. Level 0 is played, with actions drawn uniformly
 //! from all of the avatar's actions except NIL. Episodes start from copies made outside the measurement.
-//! Complete steps are measured, including the state hash after each step. Time is the stepping thread's CPU
-//! time.
+//! Complete steps are measured, including the state hash after each of them. Time is the CPU time of the
+//! stepping thread.
 
 use crate::episode_run::{EpisodeRun, Subject, first_digest, subjects};
 use crate::instructions;
@@ -20,10 +20,9 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The number of states in the batch for measuring the speedup.
+/// The number of states in the batch with which the speedup is measured.
 const BATCH: usize = 1024;
-/// The number of states in the batch for measuring the rate. Learners step the same number of states
-/// together.
+/// The number of states in the batch with which the rate is measured. Learners step as many states together.
 const LARGE_BATCH: usize = 4096;
 
 /// Reports the ticks per second, the duration of a copy, and the ratio to the reference, for every game in a
@@ -162,7 +161,7 @@ fn clone_time(start: &State) -> f64 {
     best
 }
 
-/// Measures the forward-model calls per second made by MCTS during an episode, including copies of states.
+/// Measures the forward-model calls per second that MCTS makes during an episode, including copies of states.
 fn mcts_calls(subject: &Subject) -> f64 {
     let mut planner = Mcts::new(MctsConfig::default(), Seed::from_text("bench"));
     let mut state = subject.start.clone();
@@ -185,15 +184,15 @@ pub(crate) fn now() -> Instant {
     Instant::now()
 }
 
-/// Returns the ticks per second of CPU time at which one thread steps a batch of [`LARGE_BATCH`] states. The
-/// result is the best of three runs.
+/// Returns the ticks per second of CPU time with which one thread steps a batch of [`LARGE_BATCH`] states, in
+/// the best of three runs.
 fn batch_rate(subject: &Subject) -> f64 {
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("threads can be started");
     (0..3).map(|_| pool.install(|| batch_speed(subject, LARGE_BATCH, 1)[1])).fold(0.0, f64::max)
 }
 
-/// Returns the speedup of two threads over one thread, for a batch stepped by `ticks` ticks at a time. The
-/// result is computed from the best of three alternating runs with each number of threads.
+/// Returns the speedup of two threads over one thread, for a batch stepped by `ticks` ticks at a time. It is
+/// computed from the best of three runs with each number of threads, which alternate.
 fn speedup(subject: &Subject, ticks: usize) -> f64 {
     let pools = [1, 2].map(|threads| {
         ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
@@ -207,8 +206,8 @@ fn speedup(subject: &Subject, ticks: usize) -> f64 {
     best[1] / best[0]
 }
 
-/// Returns the ticks per second of wall-clock time, and the ticks per second of the calling thread's CPU
-/// time. Both rates include starting new episodes.
+/// Returns the ticks per second of wall-clock time, and those per second of the calling thread's CPU time.
+/// Both rates include starting new episodes.
 fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
     let seed = Seed::from_text(&subject.name);
     let mut batch = Batch::fork(&subject.game, &subject.start, size, seed);
@@ -222,12 +221,13 @@ fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
             batch.reset_over();
         }
     };
-    // Before the measurement, the buffers must grow, the threads must start, and the episodes must diverge.
+    // Before the measurement, the buffers must have grown, the threads must have started, and the episodes
+    // must have diverged.
     round(512 / ticks);
     let (clock, own) = (now(), ThreadTime::now());
     let mut rounds = 0;
     // The speed of a game depends on the part of its episodes that is played. A large batch plays the same
-    // part as learners play.
+    // part as learners do.
     let least = if size == LARGE_BATCH { 640 } else { 1 };
     while rounds * ticks < least || clock.elapsed() < Duration::from_millis(300) {
         round(1);

@@ -43,10 +43,10 @@ const ALIKE: f64 = 0.8;
 /// The minimum number of rows and columns in a drawing.
 const LEAST: (usize, usize) = (5, 7);
 
-/// The kinds of board with which a level is compared.
+/// The kinds of existing boards with which a level is compared.
 const KINDS: [&str; 3] = ["releases", "corpus", "drawings"];
 
-/// A board, represented by its non-floor cells.
+/// A board, represented by the cells that are not floor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Board {
     columns: usize,
@@ -82,8 +82,8 @@ impl Board {
         self.lines[y] >> x & 1 == 1
     }
 
-    /// Returns the board's eight images under its symmetries. Bit 0 exchanges left and right, bit 1 exchanges
-    /// top and bottom, and bit 2 exchanges columns and rows.
+    /// Returns the board's eight symmetric images. Bit 0 exchanges left and right, bit 1 exchanges top and
+    /// bottom, and bit 2 exchanges columns and rows.
     fn images(&self) -> impl Iterator<Item = Board> + '_ {
         (0..8).map(|symmetry| {
             let is_turned = symmetry & 4 != 0;
@@ -102,8 +102,8 @@ impl Board {
         })
     }
 
-    /// Returns the maximum similarity over all shifts at which the other board covers at least half of this
-    /// board.
+    /// Returns the maximum similarity over all shifts for which the other board covers at least half of this
+    /// one.
     fn best_shift(&self, other: &Board) -> f64 {
         let [columns, rows, wide, high] =
             [self.columns, self.rows(), other.columns, other.rows()].map(|side| side as i64);
@@ -137,7 +137,7 @@ impl Board {
 struct Known {
     name: String,
     kind: usize,
-    /// The index of the board's release and the index of its game in the release, if the board belongs to a
+    /// The index of the board's release, and the index of its game in that release, if the board belongs to a
     /// release.
     place: Option<(usize, usize)>,
     images: Vec<Board>,
@@ -330,13 +330,13 @@ mod tests {
 
     #[test]
     fn cells_that_differ_count() {
-        // Eight cells are in both boards, and a ninth cell is in only one board. All shifts that cover half
-        // of the board include the hole.
+        // Eight cells are in both boards, and a ninth is in only one of them. All shifts that cover half of
+        // the board include the hole.
         assert_eq!(likeness("###/###/###", "###/#.#/###"), 8.0 / 9.0);
         assert_eq!(likeness("....", "...."), 0.0);
     }
 
-    /// A match with a small part of a board is not evidence of similarity.
+    /// A match with only a small part of a board is not evidence of similarity.
     #[test]
     fn the_other_covers_half() {
         assert_eq!(likeness("##....../........", "##"), 0.0);

@@ -1,4 +1,4 @@
-//! Plays a game's random episodes one after another, in order to measure time and instructions.
+//! Plays random episodes of a game one after another, in order to measure time and instructions.
 
 use crate::levels::folders;
 use anyhow::{Context, bail};
@@ -9,22 +9,22 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// The maximum number of ticks in an episode, as in the reference's figures.
+/// The maximum number of ticks per episode, as in the reference's figures.
 const EPISODE: usize = 2001;
-/// The number of episodes prepared together, outside the measurement.
+/// The number of episodes that are prepared together, outside the measurement.
 const BATCH: usize = 16;
 
 /// The number of random numbers drawn in advance.
 const DRAWS: usize = 1 << 16;
 
-/// A game at the start of its level 0, loaded in the same way as in the reference.
+/// A game at the start of level 0, loaded in the same way as in the reference.
 pub(crate) struct Subject {
     pub(crate) name: String,
     pub(crate) game: Game,
     pub(crate) start: State,
 }
 
-/// Returns the games with the given names in the subfolders of a folder, or all games if `only` is empty.
+/// Returns the games with the given names in a folder's subfolders, or all games if `only` is empty.
 pub(crate) fn subjects(games: &Path, only: &[String]) -> anyhow::Result<Vec<Subject>> {
     let folders = folders(games, only)?;
     if folders.is_empty() {
@@ -44,16 +44,16 @@ fn subject(name: String, folder: &Path) -> anyhow::Result<Subject> {
     Ok(Subject { name, game, start })
 }
 
-/// A sequence of random episodes from one game.
+/// A sequence of random episodes of one game.
 pub(crate) struct EpisodeRun<'a> {
     subject: &'a Subject,
     episodes: u64,
     states: Vec<State>,
     draws: Vec<u32>,
     pub(crate) ticks: u64,
-    /// The CPU time spent on stepping.
+    /// The CPU time spent on steps.
     pub(crate) time: Duration,
-    /// The combined digest of all visited states' hashes, in visiting order.
+    /// The combined digest of the hashes of all visited states, in the order of the visits.
     pub(crate) digest: u128,
 }
 
@@ -118,8 +118,8 @@ fn chain(digest: u128, hash: u128) -> u128 {
     (digest.rotate_left(5) ^ hash).wrapping_mul(0x2360_ED05_1FC6_5DA4_4385_DF64_9FCC_F645)
 }
 
-/// Returns the digest of the states visited in the first batch. Also checks that the digest equals a digest
-/// computed from scratch.
+/// Returns the digest of the states visited in the first batch. Also checks that it equals a digest computed
+/// from scratch.
 pub(crate) fn first_digest(subject: &Subject) -> anyhow::Result<u128> {
     const TICKS: u64 = 300;
     let mut episode_run = EpisodeRun::new(subject);

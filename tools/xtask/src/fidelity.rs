@@ -1,9 +1,9 @@
-//! `cargo xtask fidelity` tests whether this suite's planners play as well as the reference's own planners.
+//! `cargo xtask fidelity` tests whether this suite's planners play as well as the reference's own.
 //!
 //! The reference's episodes are recorded, with one row per episode: game, level, agent, run, calls per
 //! decision, outcome, ticks and score. This suite's planners play the same games and levels with the same
 //! budgets and tick limit (`spec/04` §10.2). No parameters are fitted, so any deviation means that the rules
-//! differ, and the difference must be found.
+//! differ somewhere, and the difference must be found.
 
 use crate::levels::load;
 use agents::{Budget, Limits, PlannerSpec, Play, play};
@@ -54,7 +54,7 @@ pub(crate) struct Args {
     jobs: usize,
 }
 
-/// For each recorded agent, this suite's corresponding planner.
+/// For each recorded agent, the corresponding planner in this suite.
 const PAIRS: [(&str, &str); 3] = [("sampleMCTS", "mcts"), ("olets", "olets"), ("sampleRHEA", "rhea")];
 /// The tests' false discovery rate.
 const FALSE_DISCOVERIES: f64 = 0.05;
@@ -62,22 +62,21 @@ const FALSE_DISCOVERIES: f64 = 0.05;
 const MEAN_DIFFERENCE: f64 = 0.10;
 /// The maximum relative difference between mean scores in [`SCORED_GAMES`].
 const SCORE_DIFFERENCE: f64 = 0.20;
-/// The games with compared mean scores.
+/// The games whose mean scores are compared.
 const SCORED_GAMES: [&str; 2] = ["aliens", "boulderdash"];
 
-/// The compared figures of an episode.
+/// The figures of an episode that are compared.
 #[derive(Clone, Copy)]
 struct Result {
     level: usize,
     won: bool,
     ticks: f64,
     score: f64,
-    /// The mean number of calls per decision. The amount by which a search exceeds its budget shows its
-    /// depth.
+    /// The mean number of calls per decision. How far a search exceeds its budget shows its depth.
     calls: f64,
 }
 
-/// An agent's recorded episodes in a game, and the corresponding planner's episodes.
+/// An agent's recorded episodes of a game, and the corresponding planner's episodes.
 struct Cell {
     game: String,
     agent: &'static str,
@@ -204,7 +203,7 @@ struct Line {
     score: f64,
 }
 
-/// Reads the recorded episodes by game and agent, in file order.
+/// Reads the recorded episodes, grouped by game and agent, in file order.
 fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     let mut cells: Vec<Cell> = Vec::new();
     for line in csv::Reader::from_path(path)?.deserialize() {
@@ -221,7 +220,7 @@ fn recorded(path: &Path) -> anyhow::Result<Vec<Cell>> {
     Ok(cells)
 }
 
-/// Reads search agents' published win rates. Each rate is given with its agent and game, in percent.
+/// Reads the published win rates of search agents, in percent, each with its agent and game.
 fn published(path: &Path) -> anyhow::Result<Vec<(String, String, f64)>> {
     let mut rates = Vec::new();
     for line in csv::Reader::from_path(path)?.deserialize::<BTreeMap<String, String>>() {

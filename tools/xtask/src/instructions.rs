@@ -1,6 +1,6 @@
 //! `cargo xtask instructions` tests whether a step has become slower. The task counts instructions instead of
-//! measuring time. Other load on the machine does not affect instruction counts, so a change of a few percent
-//! is visible.
+//! measuring time, because other load on the machine does not affect them. Even a change of a few percent is
+//! therefore visible.
 
 use crate::episode_run::{Subject, subjects};
 use anyhow::{Context, bail};
@@ -93,7 +93,7 @@ fn compiler() -> anyhow::Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
-/// Returns the number of instructions per warm tick on a game's level 0, including the hash. Returns `None`
+/// Returns the number of instructions per warm tick on level 0 of a game, including the hash. Returns `None`
 /// if valgrind is not installed.
 pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> {
     let output = Command::new("valgrind")
@@ -112,7 +112,7 @@ pub(crate) fn per_tick(games: &Path, name: &str) -> anyhow::Result<Option<u64>> 
     let text = String::from_utf8_lossy(&output.stderr);
     let collected =
         text.lines().find_map(|line| line.split_once("Collected :")?.1.trim().parse::<u64>().ok());
-    // An interrupted run ends with a count of 0, which is below any expected count.
+    // An interrupted run ends with a count of 0, which is below every expected count.
     let collected = collected.filter(|&count| count > 0 && output.status.success());
     let collected = collected.with_context(|| format!("{name}: valgrind reported no count:\n{text}"))?;
     Ok(Some(collected / TICKS))

@@ -1,4 +1,4 @@
-//! `cargo xtask inventions` invents games, and reports the reasons for failed attempts.
+//! `cargo xtask inventions` invents games, and reports the reasons why attempts fail.
 
 use anyhow::Context;
 use base::{Seed, SeedPath};

@@ -1,4 +1,4 @@
-//! `cargo xtask judging` compares the sequential judging of candidates with full judging.
+//! `cargo xtask judging` compares sequential judging of candidates with full judging.
 
 use anyhow::Context;
 use base::Seed;
@@ -28,20 +28,20 @@ pub(crate) struct Args {
     seed: String,
 }
 
-/// The result of judging a level with one method.
+/// The result of judging a level by one method.
 struct Answer {
-    /// The criterion that the level fails, or `None` if the level passes all criteria.
+    /// The criterion that the level fails, or `None` if it passes all criteria.
     obstacle: Option<Criterion>,
     calls: u64,
 }
 
-/// The results of judging a level with both methods.
+/// The results of judging a level by both methods.
 struct Compared {
     in_full: Answer,
     sequential: Answer,
 }
 
-/// Both methods' judges. Both methods use the same search for a win, so the search runs only once.
+/// The judges of both methods. Both use the same search for a win, so the search runs only once.
 struct Judges {
     search: Panel,
     in_full: Panel,
@@ -78,7 +78,7 @@ impl Judges {
         })
     }
 
-    /// Judges a level of a kernel's game with both methods. Returns `None` if no level can be drawn or no win
+    /// Judges a level of a kernel's game by both methods. Returns `None` if no level can be drawn, or no win
     /// is found.
     fn compare(&self, kernel: &str, slot: Slot, seed: Seed) -> Option<Compared> {
         let genome = KernelGenome::of_kernel(kernel, |_| true, &BTreeSet::new(), seed.child("rules", 0))?;

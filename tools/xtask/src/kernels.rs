@@ -1,4 +1,4 @@
-//! `cargo xtask kernels` reports why each kernel's games fail.
+//! `cargo xtask kernels` reports why the games of each kernel fail.
 
 use anyhow::{Context, bail};
 use base::Seed;
@@ -45,7 +45,7 @@ pub(crate) struct Args {
     seed: String,
 }
 
-/// The name used for a kernel without a form.
+/// The name for a kernel without forms.
 const PLAIN: &str = "plain";
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -105,8 +105,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns a table with the distance from each of a kernel's forms, with and without variants, to the nearest
-/// other form.
+/// Returns a table of distances. For each of a kernel's forms, with and without variants, it states the
+/// distance to the nearest other form.
 fn distances(kernel: &str) -> Table {
     let built = KernelGenome::all_of(kernel).into_iter().filter_map(|genome| genome.build().ok());
     let forms: Vec<(String, GameForm)> = built

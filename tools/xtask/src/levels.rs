@@ -5,8 +5,7 @@ use engine::{Game, Level};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Returns the subfolders of a folder with the given names, or all subfolders if `only` is empty. The
-/// subfolders are sorted by name.
+/// Returns the subfolders with the given names, sorted by name, or all subfolders if `only` is empty.
 pub(crate) fn folders(games: &Path, only: &[String]) -> anyhow::Result<Vec<(String, PathBuf)>> {
     let mut folders: Vec<PathBuf> = fs::read_dir(games)
         .with_context(|| games.display().to_string())?
@@ -21,7 +20,7 @@ pub(crate) fn name_of(folder: &Path) -> String {
     folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// Loads a game and its levels in the same way as the reference.
+/// Loads a game and its levels in the same way as the reference does.
 pub(crate) fn load(folder: &Path) -> anyhow::Result<(Game, Vec<Level>)> {
     let file = ["game.vgdl", "game.txt"].map(|file| folder.join(file)).into_iter().find(|path| path.exists());
     let file =

@@ -1,4 +1,4 @@
-//! The repository's development tasks, `cargo xtask <task>`.
+//! The development tasks of the repository, `cargo xtask <task>`.
 
 #![allow(clippy::print_stdout, reason = "a task prints for its user")]
 

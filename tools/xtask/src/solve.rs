@@ -58,7 +58,7 @@ struct Entry<'a> {
     analysis: &'a Analysis,
 }
 
-/// The search result for a level.
+/// The result of searching a level.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Found {
     Won,

@@ -1,4 +1,4 @@
-//! `cargo xtask sweep` runs all tests, including the slow tests, with every case of the randomised tests.
+//! `cargo xtask sweep` runs all tests, including the slow ones, with every case of the randomised tests.
 
 use anyhow::{Context, bail};
 use std::process::Command;
@@ -20,9 +20,9 @@ pub(crate) struct Args {
     times: usize,
 }
 
-/// The environment variable read by the tests (`tests::sweep::VARIABLE`).
+/// The environment variable that the tests read (`tests::sweep::VARIABLE`).
 const VARIABLE: &str = "ARCADE_SWEEP";
-/// The environment variable with the factor for the number of random games (`tests::sweep::TIMES`).
+/// The environment variable that contains the factor for the number of random games (`tests::sweep::TIMES`).
 const TIMES: &str = "ARCADE_SWEEP_TIMES";
 
 #[expect(

@@ -1,4 +1,4 @@
-//! Tests of `cargo xtask conformance` with the golden traces, and with traces in which one field is altered.
+//! Tests of `cargo xtask conformance`, with the golden traces and with traces in which one field is altered.
 
 use flate2::read::GzDecoder;
 use serde_json::{Value, json};
@@ -9,8 +9,8 @@ use std::process::{Command, Output};
 
 const SIX: [&str; 6] = ["aliens", "boulderdash", "escape", "realsokoban", "sokoban", "zelda"];
 
-/// Runs the comparison with the given flags, and checks whether it reports that all episodes are identical,
-/// or that some differ.
+/// Runs the comparison with the given flags, and checks that it reports the expected result: all episodes are
+/// identical, or some differ.
 #[track_caller]
 fn conformance(folder: &Path, args: &[&str], is_identical: bool) -> Output {
     let xtask = env!("CARGO_BIN_EXE_xtask");
@@ -81,8 +81,7 @@ fn every_public_game_is_identical() {
     assert_eq!(last, format!("identical: {episodes} of {episodes} episodes"));
 }
 
-/// Compares the games in `corpora/` with traces that were recorded by the reference
-/// (`tests/ref/traces/README.md`).
+/// Compares the games in `corpora/` with traces recorded by the reference (`tests/ref/traces/README.md`).
 #[test]
 fn the_corpus_is_identical_in_every_field_of_every_tick() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -110,7 +109,7 @@ fn a_missing_game_or_trace_is_named() {
     assert!(text(&output.stderr).contains("lvl0.cut1"), "{}", text(&output.stderr));
 }
 
-/// A trace as lines of JSON, in which fields can be altered.
+/// A trace as JSON lines, in which fields can be altered.
 struct Trace {
     lines: Vec<Value>,
 }
@@ -123,7 +122,7 @@ impl Trace {
         Trace { lines: plain.lines().map(|line| serde_json::from_str(line).unwrap()).collect() }
     }
 
-    /// Returns the first tick at or after `from` that satisfies a condition.
+    /// Returns the first tick from `from` onwards that satisfies a condition.
     fn tick(&self, from: usize, condition: impl Fn(&Value) -> bool) -> usize {
         let found = self.lines[from + 2..].iter().position(condition);
         from + found.expect("the trace has such a tick")
@@ -133,8 +132,8 @@ impl Trace {
         &mut self.lines[tick + 2]
     }
 
-    /// Alters one field at a tick. Checks that the comparison first reports a difference at that tick and in
-    /// that field.
+    /// Alters one field at a tick, and checks that the first difference reported by the comparison is at that
+    /// tick and in that field.
     #[track_caller]
     fn check(&self, reference: &Path, tick: usize, field: &str, alter: impl FnOnce(&mut Value)) {
         let mut altered = Trace { lines: self.lines.clone() };
@@ -216,7 +215,7 @@ fn an_altered_field_is_reported_at_its_tick() {
     });
 }
 
-/// −0.0 and 0.0 are equal as numbers, but count as different fields.
+/// −0.0 and 0.0 are equal as numbers, but are reported as different fields.
 #[test]
 fn the_sign_of_zero_counts() {
     let Some(reference) = reference() else { return };
@@ -226,7 +225,7 @@ fn the_sign_of_zero_counts() {
     trace.check(&reference, tick, "orientation.x", |line| line["mod"][0][6] = json!(-0.0));
 }
 
-/// There are three games: one with its own counters, one that crashes the reference, and one that the
+/// Compares three games: one with its own counters, one that crashes the reference, and one that the
 /// reference ends because of its messages.
 #[test]
 fn counters_notes_and_errors_of_the_reference_are_compared() {

@@ -1,4 +1,4 @@
-//! Counts the instructions per tick in corpus games, to test whether a step has become slower.
+//! Counts the instructions per tick in corpus games, to test whether steps have become slower.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,8 +7,8 @@ use std::process::Command;
 /// the resulting diff like code.
 ///
 /// The test counts a fifth of the games, or all games in a sweep (`cargo xtask sweep`). Without valgrind, the
-/// test is skipped with a message. It is also skipped in incremental builds, whose code is divided into
-/// different units. `.ci/run` does not build incrementally.
+/// test is skipped with a message. It is also skipped in incremental builds, because their code is divided
+/// into different units. `.ci/run` does not build incrementally.
 #[test]
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn no_tick_costs_more_instructions_than_recorded() {

@@ -14,16 +14,20 @@ use engine::{Action, Analysis, Chance, Episode, Game, Outcome, SpriteRecord, Spr
 use itertools::Itertools;
 use rayon::prelude::*;
 
-/// Passes if every executed interaction matters: with its consequences disabled but its random draws preserved
-/// ([`Game::without`]), an outcome or score changes.
+/// Passes if every executed interaction matters: an outcome or score changes if its consequences are disabled
+/// but its random draws are preserved ([`Game::without`]).
 ///
-/// There are three tests, from cheapest to most expensive. First, recorded episodes that execute the rule are replayed
-/// without it. Second, futures from just before the rule's execution are played with and without the rule, with the
-/// same seeds. Third, a searching player plays an episode without the rule, and the episode is replayed with the rule.
-/// One change suffices for a pass. If no test shows a change, the verdict is unknown. The criterion fails only if a
-/// rule is proved idle: on every level, all sequences of actions have the same outcome and score without the rule.
-/// Rules on walls and the screen edge are guards. Guards are reported but never fail, because the sprites that they
-/// remove far from the player may never matter.
+/// There are three tests, from cheapest to most expensive. First, recorded episodes that execute the rule are
+/// replayed without it. Second, futures from just before the rule's execution are played with and without the
+/// rule, with the same seeds. Third, a searching player plays an episode without the rule, which is then
+/// replayed with it.
+///
+/// One change suffices for a pass. If no test shows a change, the verdict is unknown. The criterion fails
+/// only if a rule is proven idle: on every level, all sequences of actions have the same outcome and score
+/// without it.
+///
+/// Rules on walls and the screen edge are guards. Guards are reported but never fail, because the sprites
+/// that they remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RulesMatter {
     /// The number of forward-model calls per interaction. A proof that an interaction is idle may take up to a quarter
@@ -34,7 +38,7 @@ pub(crate) struct RulesMatter {
     total: Option<u64>,
 }
 
-/// The number of random futures after each execution.
+/// The number of random futures to play from each execution.
 const FUTURES: u64 = 8;
 /// The number of ticks per future.
 const DEPTH: usize = 60;
@@ -44,16 +48,17 @@ const DECISION: Budget = Budget(300);
 const LOOK_AHEAD: u32 = 20;
 /// The maximum number of ticks per episode of the searching player.
 const PLAY: usize = 400;
-/// The divisor that derives the budget for proving a rule idle from the rule's calls.
+/// The divisor by which the budget for proving a rule idle is derived from the rule's calls.
 const PROOF: u64 = 4;
 
 /// The result of disabling one interaction.
 enum Effect {
-    /// An outcome or a score changes without the interaction.
+    /// Without the interaction, an outcome or a score changes.
     Matters,
     /// No test shows a change in outcome or score. `differs` is `true` if a test shows different sprites.
     Unshown { differs: bool },
-    /// All episodes are proved to have the same outcome and score. Contains the number of states in the proof.
+    /// All episodes are proven to have the same outcome and score. Contains the number of states in the
+    /// proof.
     Idle(usize),
 }
 
@@ -206,7 +211,8 @@ impl RulesMatter {
     }
 }
 
-/// Returns advice for a rule that moves sprites back, if these sprites never move and the rule's partner is the avatar.
+/// Returns advice for a rule that moves sprites back, if these sprites never move and their partner in the
+/// rule is the avatar.
 fn swapped(case: GameCase<'_>, line: usize) -> Option<String> {
     let GameCase { game, analysis, .. } = case;
     let written = &game.description().interactions[line];
@@ -245,8 +251,8 @@ fn result_of(game: &Game, recorded: Recorded<'_>, seed: Seed, actions: &[Action]
     (state.outcome(), state.score())
 }
 
-/// An episode's futures from just before a rule's first execution, played with and without the rule, with held keys and
-/// with random keys.
+/// The futures of an episode from just before a rule's first execution. They are played with and without the
+/// rule, both with held keys and with random keys.
 struct Futures<'a> {
     with: &'a Game,
     without: &'a Game,
@@ -256,10 +262,11 @@ struct Futures<'a> {
 }
 
 impl Futures<'_> {
-    /// Returns whether a future ends differently without the rule, whether the board ever looks different, and the
-    /// number of calls.
+    /// Returns `true` if a future ends differently without the rule, `true` if the board ever looks
+    /// different, and the number of calls.
     fn compare(&self, seed: Seed) -> (bool, bool, u64) {
-        // A state carries predictions of its own game, so each game replays the prefix to get its own state.
+        // A state contains predictions made for its own game, so each game replays the prefix to get a state
+        // of its own.
         let before = [self.with, self.without].map(|game| {
             let mut state = game.start(self.recorded.level, self.episode.seed);
             self.episode.actions[..self.tick].iter().for_each(|&action| {
@@ -362,7 +369,7 @@ mod tests {
     #[test]
     fn ineffective_rules_are_idle_and_visible_differences_are_unknown() {
         let [used, matter] = findings(GAME);
-        // The dew that would make a difference does not exist.
+        // The level lacks the dew with which the rule would make a difference.
         let Verdict::Fail { reason, .. } = &used.verdict else { panic!("{used:?}") };
         assert_eq!(reason.0, "`dew` never appears");
         let Verdict::Fail { reason, .. } = &matter.verdict else { panic!("{matter:?}") };

@@ -13,10 +13,10 @@ use std::collections::BTreeSet;
 
 /// Passes if the player can survive the first ticks.
 ///
-/// On a deterministic level, all action sequences are searched tick by tick, and equivalent states are counted once.
-/// If no state remains, death is proved to be unavoidable. In a stochastic game, the search is repeated for several
-/// known seeds. If even a player who knows the random draws dies, death is unavoidable. If doing nothing is deadly,
-/// this is reported, but is not a failure.
+/// On a deterministic level, all action sequences are searched tick by tick, counting equivalent states once.
+/// If no state survives, death is proven to be unavoidable. In a stochastic game, the search is repeated for
+/// several known seeds: if even a player who knows the random draws dies, death is unavoidable. It is
+/// reported if doing nothing is deadly, but this is not a failure.
 #[derive(Clone, Copy, Debug)]
 pub struct NoEarlyDeath {
     /// The number of ticks to survive.
@@ -29,7 +29,7 @@ pub struct NoEarlyDeath {
     pub share: f64,
 }
 
-/// The maximum number of states to expand per tick. If there are more states, the verdict is unknown rather than a
+/// The maximum number of states to expand per tick. If there are more, the verdict is unknown instead of a
 /// failure.
 const MAX_STATES: usize = 2000;
 /// The number of random episodes to try before a search.
@@ -41,7 +41,7 @@ struct Survival {
     survived: bool,
     /// `true` if all sequences of actions were searched.
     complete: bool,
-    /// The longest episode found. `idle` is the idle episode.
+    /// The longest episode found. `idle` is the episode in which the player never acts.
     longest: Episode,
     idle: Episode,
     calls: u64,
@@ -183,8 +183,8 @@ impl NoEarlyDeath {
         episode
     }
 
-    /// Searches all action sequences, tick by tick, until one survives. Returns the longest sequence, whether all
-    /// sequences were tried, and the number of calls.
+    /// Searches all action sequences, tick by tick, until one survives. Returns the longest sequence, `true`
+    /// if all sequences were tried, and the number of calls.
     fn search(&self, case: Case<'_>, seed: Seed) -> (Vec<Action>, bool, u64) {
         let game = case.game;
         let mut layer = vec![(game.start(case.level, seed), Vec::new())];

@@ -9,7 +9,7 @@ use crate::report::Report;
 use crate::validator::Validator;
 use crate::verdict::{Finding, Verdict};
 
-/// Passes if the witness's number of ticks is within bounds.
+/// Passes if the number of ticks in the witness is within bounds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LengthWithin {
     /// The minimum number of ticks.
@@ -21,8 +21,8 @@ pub(crate) struct LengthWithin {
 /// The start of the reason for a win that takes too long. A shorter win may exist.
 const TOO_LONG: &str = "the shortest win found takes";
 
-/// Turns a failure into an unknown verdict if a shorter win might exist, because the search did not prove the win
-/// to be the shortest.
+/// Turns a failure into an unknown verdict if a shorter win might exist because the search did not prove its
+/// win to be the shortest.
 pub(crate) fn without_proof(finding: &mut Finding, report: &Report) {
     let Verdict::Fail { reason, .. } = &finding.verdict else { return };
     let searched = report.finding(Criterion::Winnable);

@@ -1,4 +1,4 @@
-//! The judges for all criteria except gates.
+//! The judges for all criteria other than gates.
 //!
 //! A criterion's module contains its judge, the constant `QUESTION`, and a function `judge` that creates the judge
 //! for a [`Setting`].
@@ -33,7 +33,7 @@ use crate::gates::{
 };
 use crate::validator::{GameJudge, LevelJudge};
 
-/// Defines the questions and judges of [`Criterion`] from the table.
+/// Defines the questions and judges for [`Criterion`] from the table of criteria.
 macro_rules! define {
     (
         levels { $($level:ident = $level_name:literal, $stage:ident, $level_cost:ident, $level_module:ident;)* }

@@ -10,7 +10,8 @@ use crate::verdict::{Finding, Verdict};
 use agents::{Budget, DoNothing, Limits, Play, play};
 use engine::{Episode, Outcome};
 
-/// Passes if an idle player never wins, with several random seeds (or one seed on a deterministic level).
+/// Passes if an idle player never wins with any of several random seeds (or, on a deterministic level, with
+/// one seed).
 #[derive(Clone, Copy, Debug)]
 pub struct NotIdle {
     /// The number of episodes to play.
@@ -51,8 +52,8 @@ pub(crate) struct Failure {
     pub(crate) witness: Episode,
 }
 
-/// Returns the finding for episodes of at most `ticks` ticks. If there is no failure, episodes stopped early make the
-/// verdict unknown.
+/// Returns the finding for episodes of at most `ticks` ticks. If there is no failure, any episode that was
+/// stopped early makes the verdict unknown.
 pub(crate) fn finding(case: Case<'_>, played: Vec<Play>, ticks: usize, failure: Option<Failure>) -> Finding {
     let finding = match failure {
         None => broken_off(&played, ticks).unwrap_or_else(|| Finding::from(Verdict::pass())),

@@ -10,7 +10,7 @@ use agents::{Budget, Limits, Play, Random, play};
 use engine::Outcome;
 use rayon::prelude::*;
 
-/// Passes if random play wins at most a given fraction of its episodes.
+/// Passes if a random player wins at most a given fraction of its episodes.
 #[derive(Clone, Copy, Debug)]
 pub struct NotRandom {
     /// The number of episodes to play.

@@ -12,11 +12,11 @@ use base::Seed;
 use engine::analysis::{Analysis, Reach};
 use engine::{Game, Level, SpriteType};
 
-/// Passes if every interaction is executed, and a sprite of every type is present, in a recorded episode of the game.
+/// Passes if recorded episodes of the game execute every interaction and contain a sprite of every type.
 ///
-/// Rules and types that never occurred and provably cannot occur in any of the levels are a failure. If they might
-/// occur, the verdict is unknown. Rules on the screen edge are reported but never fail, because walls can make these
-/// guards idle.
+/// It is a failure if a rule or type never occurred and provably cannot occur on any of the levels. If it
+/// might occur, the verdict is unknown. Rules on the screen edge are reported but never fail, because walls
+/// can make these guards idle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RuleUse;
 
@@ -85,12 +85,12 @@ impl GameValidator for RuleUse {
 /// The rules and types that occur in a game's recorded episodes, as counted by [`RuleUse`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RulesShown {
-    /// The interactions executed in an episode, as indices into [`Description::interactions`](engine::Description),
-    /// without interactions with the screen edge.
+    /// The interactions executed in some episode, as indices into
+    /// [`Description::interactions`](engine::Description), without interactions with the screen edge.
     pub executed: Vec<usize>,
-    /// The interactions not executed in any episode, without interactions with the screen edge.
+    /// The interactions that no episode executed, without interactions with the screen edge.
     pub idle: Vec<usize>,
-    /// The types that are declared with their own sprites and occurred on the board or as a resource.
+    /// The types that are declared, have sprites of their own, and occurred on the board or as a resource.
     pub present: Vec<SpriteType>,
     /// The types that never occurred.
     pub absent: Vec<SpriteType>,
@@ -110,7 +110,7 @@ impl RulesShown {
     }
 }
 
-/// Returns a reason that includes the number of further reasons.
+/// Returns a reason, extended by the number of further reasons.
 pub(crate) fn with_count(first: &str, others: usize) -> String {
     match others {
         0 => first.to_owned(),
@@ -131,11 +131,11 @@ fn own_types(game: &Game) -> Vec<SpriteType> {
     game.sprite_types().filter(|&stype| game.class(stype).is_some() && declared(game.name(stype))).collect()
 }
 
-/// Returns `true` unless the two sides of an interaction are proved never to meet in any level.
+/// Returns `true` unless the two sides of an interaction are proven never to meet in any level.
 fn meets(analysis: &Analysis, recording: &[Recorded<'_>], reaches: &[Reach], line: usize) -> bool {
     let game = analysis.game();
     let of_line: Vec<_> = analysis.encounters().iter().filter(|encounter| encounter.line == line).collect();
-    // Lines that run on the clock are not encounters.
+    // Timed lines are not encounters.
     if of_line.is_empty() {
         return true;
     }

@@ -10,12 +10,12 @@ use agents::{Play, Stopped};
 use engine::Outcome;
 use statistics::{Interval, Z95};
 
-/// Passes if stronger players win more, or score more, than players that do not look ahead. The difference must reach a
-/// margin and be significant: its 95% interval must be above 0. One ladder player and one held-out player must show
-/// this difference, so that a level is not fitted to the players that found it.
+/// Passes if stronger players win more, or score more, than players that do not look ahead. The difference
+/// must reach a margin and be significant, which means that its 95% interval is above 0. Both a ladder player
+/// and a held-out player must show it, so that a level is not fitted to the players that found it.
 ///
-/// On a deterministic level, a witness counts as a held-out player that always wins. A puzzle too deep for every ladder
-/// player therefore still shows skill, if players that do not look ahead lose it.
+/// On a deterministic level, a witness counts as a held-out player that always wins. A puzzle too deep for
+/// every ladder player therefore still shows skill if players that do not look ahead lose it.
 #[derive(Clone, Debug)]
 pub(crate) struct SkillPays {
     /// The players, and the limits on their episodes.
@@ -28,9 +28,9 @@ pub(crate) struct SkillPays {
     /// The number of forward-model calls after which an episode is stopped. If an episode is stopped, a failure becomes
     /// unknown.
     play_calls: u64,
-    /// `true` to allow stopping after each round of episodes, from the third round on. The judge stops if skill pays
-    /// off by a stricter boundary, or if no player is far ahead of the baseline. More episodes would then rarely change
-    /// the answer; `cargo xtask judging` counts how often they do.
+    /// `true` to allow stopping after each round of episodes, from the third round on. The judge stops if
+    /// skill pays off even by a stricter boundary, or if no player is far ahead of the baseline. More
+    /// episodes would then rarely change the answer: `cargo xtask judging` counts how often they do.
     sequential: bool,
 }
 
@@ -45,12 +45,12 @@ struct Boundary {
     scored_plays: usize,
 }
 
-/// The boundary for stopping early, made stricter to correct for repeated tests on growing data (O'Brien and Fleming
-/// 1979).
+/// The boundary for stopping early, which is stricter to correct for repeated tests on growing data (O'Brien
+/// and Fleming 1979).
 const EARLY: Boundary = Boundary { z: 2.8, confidence: 0.995, scored_plays: 8 };
 /// The boundary for the final answer.
 const FINAL: Boundary = Boundary { z: Z95, confidence: 0.95, scored_plays: 0 };
-/// The number of episodes per player after which skill may be considered shown or missing.
+/// The number of episodes per player after which the judge may decide early that skill is shown or missing.
 const EARLY_PLAYS: usize = 6;
 
 /// The number of resamples per score interval.
@@ -63,12 +63,12 @@ struct Advantage {
     pays: bool,
     /// `true` if the advantage is large enough, but not significant.
     unsure: bool,
-    /// `true` if the advantage is large enough, or at least half as large as required in scores, so that more episodes
-    /// might show it.
+    /// `true` if the advantage is large enough, or at least half as large as required in scores, so that more
+    /// episodes might show that it is.
     leads: bool,
 }
 
-/// The answer according to the episodes so far.
+/// The answer given by the episodes so far.
 struct Answer {
     ladder: Ladder,
     /// The ladder players' advantages, followed by the held-out players' advantages.
@@ -138,7 +138,7 @@ impl Validator for SkillPays {
 }
 
 impl SkillPays {
-    /// Returns the answer according to the episodes so far; `None` without a baseline.
+    /// Returns the answer given by the episodes so far, or `None` if there is no baseline.
     fn answer(&self, case: Case<'_>, played: &LadderPlays, boundary: Boundary) -> Option<Answer> {
         let ladder = self.players.measure(played);
         let range = range(played);
@@ -252,7 +252,8 @@ mod tests {
     use base::Seed;
     use engine::Game;
 
-    /// A game with a path past a sprite that wanders and kills. A player that stands still is safe, but never wins.
+    /// A game with a path past a wandering, deadly sprite. A player that stands still is safe, but never
+    /// wins.
     const GAME: &str = "\
 BasicGame
     SpriteSet
@@ -276,8 +277,8 @@ BasicGame
         Timeout limit=40 win=False
 ";
 
-    /// Judges a level both in full and sequentially. The verdicts must agree, and the sequential judgement must take
-    /// fewer episodes.
+    /// Judges a level both in full and sequentially. The verdicts must agree, and the sequential judgement
+    /// must use fewer episodes.
     #[track_caller]
     fn check(level: &str, strong: &str, passes: bool) {
         let game = Game::from_source(GAME).unwrap();

@@ -1,4 +1,4 @@
-//! The `skill-overall` criterion: checks that skilled play pays off over all levels together.
+//! The `skill-overall` criterion: checks that skilled play pays off across all levels together.
 
 use crate::allowance::Setting;
 use crate::evidence::Evidence;
@@ -8,14 +8,14 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
 
-/// Passes if, over all levels together, two players win more often than the best player that does not look ahead:
-/// the strongest ladder player and the strongest held-out player. Even the lower end of Newcombe's 95% interval of
-/// the difference must reach the margin. A single level has too few episodes for such a test, but five levels have
-/// enough.
+/// Passes if, across all levels together, the strongest ladder player and the strongest held-out player both
+/// win more often than the best player that does not look ahead. Even the lower end of Newcombe's 95%
+/// interval for the difference must reach the margin. A single level has too few episodes for such a test,
+/// but five levels have enough.
 ///
-/// If all of a game's levels are deterministic and have a known win, a player that knows the solutions counts as a
-/// ladder player and as a held-out player. There is no extra cost, because the episodes come from the criterion
-/// `skill`.
+/// If all of a game's levels are deterministic and have a known win, a player that knows the solutions counts
+/// as a ladder player and as a held-out player. The criterion has no extra cost, because its episodes come
+/// from the criterion `skill`.
 #[derive(Clone, Copy, Debug)]
 pub struct SkillOverall {
     /// The margin, as a difference between win rates.
@@ -32,19 +32,19 @@ struct Total {
 }
 
 impl Total {
-    /// Returns the fraction of episodes won by the player.
+    /// Returns the fraction of episodes that the player won.
     fn share(&self) -> f64 {
         self.wins as f64 / self.plays.max(1) as f64
     }
 
-    /// Extrapolates the total with `times` times as many further episodes, won at the rate `share`.
+    /// Extrapolates the total by `times` times as many further episodes, won at the rate `share`.
     fn extrapolated(&self, times: f64, share: f64) -> Total {
         let plays = (self.plays as f64 * times).round();
         let wins = self.wins + (plays * share).round() as u64;
         Total { wins, plays: self.plays + plays as u64, ..self.clone() }
     }
 
-    /// Returns the interval of the difference to the win rate of `baseline`.
+    /// Returns the interval for the difference from the win rate of `baseline`.
     fn difference_to(&self, baseline: &Total) -> Interval {
         statistics::difference([self.wins, baseline.wins], [self.plays, baseline.plays], Z95)
     }
@@ -116,7 +116,7 @@ impl SkillOverall {
     }
 }
 
-/// Returns the best player that does not look ahead, the strongest ladder player and the strongest held-out player;
+/// Returns the best player that does not look ahead, and the strongest ladder player and held-out player, or
 /// `None` if any of the three is missing.
 fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     let rungs = totals(ladders, |ladder| &ladder.rungs);
@@ -149,7 +149,7 @@ fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<PlayerResult>) -> Ve
     first.iter().enumerate().map(total).collect()
 }
 
-/// Returns the player with the highest win rate. Ties go to the first player.
+/// Returns the player with the highest win rate. Ties go to the earlier player.
 fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
     totals.fold(None, |best: Option<&Total>, total| match best {
         Some(best) if best.share() >= total.share() => Some(best),

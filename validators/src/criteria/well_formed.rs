@@ -9,7 +9,7 @@ use crate::verdict::{Finding, Verdict};
 use base::Seed;
 use engine::{Action, Diagnostic, Episode, Game, Level, Limit, Outcome, SpriteClass};
 
-/// Passes if the game can be won in principle, is not over in its first tick, and does not make the engine stop.
+/// Passes if the game can be won in principle, is not over in its first tick, and does not stop the engine.
 ///
 /// The types `Game` and `Level` already guarantee valid VGDL and a level that fits the game.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,7 +26,7 @@ impl Validator for WellFormed {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Case { game, level, analysis, seed, .. } = case;
         if !analysis.can_win() {
-            // Among the swapped rules, report only the one that prevents every win.
+            // Among swapped rules, report only the one that prevents every win.
             let told = game.warnings().iter().find(|warning| {
                 warning.code == "no-win"
                     || warning.code == "swapped-rule" && warning.message.contains("cannot be won")
@@ -89,7 +89,7 @@ fn path_finder(game: &Game) -> Option<Line> {
     Line::sprite(game, name)
 }
 
-/// The number of seeds with which a game must end in its first tick to count as immediately over.
+/// The number of seeds with which a game must end in its first tick to count as over at once.
 const STARTS: u64 = 8;
 
 /// Returns `true` if every first action ends the game in its first tick, with several seeds, so that the level is

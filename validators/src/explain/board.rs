@@ -1,17 +1,17 @@
-//! Boards as characters, for reasons and reports. Each type has its own character.
+//! Boards drawn with characters, one per type, for reasons and reports.
 
 use engine::{Game, SpriteType, State};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// A state of a level as text.
+/// A state of a level, drawn as text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Board {
     /// The rows from top to bottom, with one character per cell that represents the topmost sprite.
     pub rows: Vec<String>,
-    /// The type represented by each character on the board.
+    /// The type that each character on the board represents.
     pub legend: Vec<(char, String)>,
-    /// The characters that do not represent their type in the LevelMapping.
+    /// The characters that do not stand for their type in the LevelMapping.
     #[serde(skip)]
     stand_ins: Vec<char>,
 }
@@ -55,16 +55,16 @@ impl Board {
 /// Characters for types that no level character places alone, in order of preference.
 const SPARE: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@#$%&*+=?!";
 
-/// The character for types when no other character is available.
+/// The character for types for which no other character is left.
 const OTHER: char = '·';
 
-/// Returns a character for every type with a class, and the subset of characters that come from the LevelMapping. A
-/// type gets the character that places it on top. If there is no such character, the type gets the first free
+/// Returns a character for every type with a class, and the subset of characters that come from the
+/// LevelMapping. A type gets a character that places it on top. If there is none, it gets the first free
 /// character of its name or, failing that, of the alphabet.
 fn symbols(game: &Game) -> (Vec<(SpriteType, char)>, BTreeSet<char>) {
     let mut free: BTreeSet<char> = ('!'..='~').collect();
     let mut symbols: Vec<(SpriteType, char)> = Vec::new();
-    // Characters that place fewer sprites say more about the topmost sprite.
+    // The fewer sprites a character places, the more it says about the topmost one.
     let mut mapped: Vec<(usize, char, SpriteType)> = Vec::new();
     for symbol in '!'..='~' {
         let placed = game.places(symbol as u8);

@@ -1,4 +1,4 @@
-//! Explanations for levels that cannot be won. An explanation is the chain of causes proved by the analysis, from the
+//! Explanations for levels that cannot be won: the chain of causes that the analysis proves, from the
 //! termination back to the first obstacle.
 
 use crate::case::Case;
@@ -11,11 +11,12 @@ use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_r
 
 /// The maximum number of chains to report, one per winning termination.
 const MAX_CHAINS: usize = 3;
-/// The maximum product of a level's cells and interactions up to which swapped rules are searched for.
+/// The maximum product of the numbers of cells and interactions up to which swapped rules are searched for.
 const MAX_EFFORT: usize = 1 << 18;
 
-/// Rewrites the failure of a level proved unwinnable: adds the chain of causes, and the rule whose sides are most
-/// likely swapped. Other findings stay unchanged. Cost: several analyses of the level, one per rule.
+/// Rewrites the failure of a level that is proven unwinnable: adds the chain of causes, and the rule whose
+/// sides are most likely swapped. Other findings stay unchanged. Cost: several analyses of the level, one per
+/// rule.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let Case { game, level, analysis, .. } = case;
     if !matches!(finding.verdict, Verdict::Fail { .. }) || analysis.reach(level).can_win() {
@@ -114,7 +115,7 @@ impl Explanation<'_> {
         self.links.push(Evidence::new(text).advise(advice));
     }
 
-    /// Adds removals that cost more of a resource than available.
+    /// Adds the removals that cost more of a resource than is available.
     fn unpaid(&mut self, unpaid: &Unpaid) {
         let Unpaid { target, removals, resource, each, most, removing, taking } = unpaid;
         let (game, name) = (self.analysis.game(), self.name(*resource).to_owned());
@@ -212,7 +213,7 @@ impl Explanation<'_> {
         }
     }
 
-    /// Adds a resource that is required and cannot be obtained.
+    /// Adds a required resource that cannot be obtained.
     fn shortage(&mut self, target: SpriteType, rule: Option<Line>, shortage: &Shortage) {
         let Shortage { resource, needed, capacity, most, rules, sources } = shortage;
         let name = self.name(*resource).to_owned();
@@ -266,7 +267,7 @@ impl Explanation<'_> {
         self.links.push(Evidence::new("no rule creates more").advise(advice));
     }
 
-    /// Adds a position that a sprite never reaches, and the obstacle.
+    /// Adds a position that a sprite never reaches, with the obstacle.
     fn unreachable(&mut self, unreachable: &Unreachable, text: String, rule: Option<Line>) {
         let cell = Some(self.place(unreachable.cell));
         let link = Evidence { cell, rule, ..Evidence::new(text) };
@@ -284,7 +285,7 @@ impl Explanation<'_> {
         }
     }
 
-    /// Returns the type if the level places it in the cell, and otherwise the topmost type in the cell.
+    /// Returns the type if the level places it in the cell, or the cell's topmost type if not.
     fn standing(&self, cell: usize, stype: SpriteType) -> SpriteType {
         let places = self.analysis.game().places(self.level.cells()[cell]);
         let known = places.contains(&stype) || places.is_empty();

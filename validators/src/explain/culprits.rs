@@ -1,8 +1,8 @@
-//! Searches for the line of a game that is responsible for an unwinnable level, or for a level without a known win.
+//! Searches for the line of a game that is responsible if a level is unwinnable or has no known win.
 //!
-//! The module changes one line of the game at a time, and searches for a win in the changed game. A win proves that the
-//! changed game can be won. The win proves that the change is necessary only if the original level is proved
-//! unwinnable.
+//! The module changes one line of the game at a time, and searches for a win in the changed game. A win
+//! proves that the changed game can be won. It proves that the change is necessary only if the original level
+//! is proven unwinnable.
 
 use crate::case::Case;
 use crate::criteria::is_guard;
@@ -14,21 +14,21 @@ use engine::analysis::{Condition, EffectSummary, Motion, Role};
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
 use engine::{Analysis, Description, Episode, Game, Meeting, SpriteType};
 
-/// The divisor that derives the total budget of all these searches from the budget of `winnable`.
+/// The divisor by which the total budget of all these searches is derived from the budget of `winnable`.
 const SHARE: u64 = 2;
-/// The fraction of a search's budget that may be spent with foresight of all randomness, in a stochastic game.
+/// The fraction of a search's budget that may be spent foreseeing all randomness in a stochastic game.
 const FORESIGHT: f64 = 0.4;
 /// The maximum number of lines to report.
 const MAX_NAMED: usize = 3;
 /// The maximum number of searches.
 const MAX_TRIALS: u64 = 200;
-/// The speed given to sprites that carry others. At this speed, a sprite takes several ticks to leave a cell.
+/// The speed given to sprites that carry others, at which a sprite takes several ticks to leave a cell.
 const CARRYING_SPEED: &str = "0.2";
 
 /// The start of the sentence about a line whose presence or absence makes the level winnable.
 pub(crate) const CAN_BE_WON: &str = "the level can be won ";
 
-/// Adds to a `winnable` finding the lines that prevent a win, as far as searches in games without these lines show it.
+/// Adds to a `winnable` finding the lines that prevent a win, as far as searches in changed games show this.
 /// Other findings stay unchanged. Costs half of the search budget.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) {
     let is_open = match &finding.verdict {
@@ -85,7 +85,7 @@ impl Won {
     }
 }
 
-/// The searches, with the number of calls left.
+/// The searches, with the number of remaining calls.
 struct Trials<'a> {
     case: Case<'a>,
     search: &'a PortfolioConfig,
@@ -99,8 +99,8 @@ impl Trials<'_> {
     fn all(&mut self) -> Vec<Evidence> {
         let repairs: Vec<Changed> = self.carriers().into_iter().chain(self.leavers()).collect();
         let dropped = self.dropped();
-        // A swapped push is the most frequent mistake of this kind, and correcting the push keeps all other rules as
-        // they are.
+        // A swapped push is the most frequent mistake of this kind, and correcting it leaves all other rules
+        // as they are.
         let is_push = |(line, _): &(usize, Changed)| {
             let mut encounters = self.case.analysis.encounters().iter();
             encounters.any(|other| other.line == *line && other.does(|effect| *effect == EffectSummary::Push))
@@ -120,7 +120,7 @@ impl Trials<'_> {
             return found;
         }
         let mut lines = Vec::new();
-        // Walls keep the avatar out of many cells. Without walls, more than the cause is gone.
+        // Walls keep the avatar out of many cells, so removing them removes more than the cause.
         let analysis = self.case.analysis;
         let is_wall = |line: Option<usize>| line.is_some_and(|line| is_guard(analysis, line));
         let (walls, others): (Vec<_>, Vec<_>) = dropped.into_iter().partition(|(line, _)| is_wall(*line));
@@ -166,7 +166,7 @@ impl Trials<'_> {
         self.left = self.left.saturating_sub(solved.calls);
         self.calls += solved.calls;
         match solved.solution {
-            // A change that wins at once explains nothing.
+            // A change that wins immediately explains nothing.
             Solution::Won { episode, shortest } if episode.actions.len() > 1 => {
                 Some(Won { changed, episode: *episode, shortest })
             }
@@ -174,7 +174,7 @@ impl Trials<'_> {
         }
     }
 
-    /// Returns the game variants without one interaction, or without one losing termination.
+    /// Returns the game variants that lack one interaction or one losing termination.
     fn dropped(&self) -> Vec<(Option<usize>, Changed)> {
         let Case { game, analysis, .. } = self.case;
         let rules = (0..game.description().interactions.len()).map(|line| {
@@ -278,8 +278,9 @@ impl Trials<'_> {
         game.sprite_types().filter(carries).filter_map(slowed).collect()
     }
 
-    /// Returns the evidence about a rule whose removal makes the level winnable. The evidence states where the rule
-    /// would act in that win, and whether moving the rule further down, or shielding the avatar from it, is sufficient.
+    /// Returns the evidence about a rule whose removal makes the level winnable. The evidence states where
+    /// the rule would act in that win, and whether it is enough to move the rule further down or to shield
+    /// the avatar from it.
     fn without_rule(&mut self, line: usize, won: Won) -> Vec<Evidence> {
         let game = self.case.game;
         let (place, others) = self.first_meeting(line, &won);
@@ -347,8 +348,8 @@ impl Trials<'_> {
         Some(Changed { game: changed, line: rule, how, advice })
     }
 
-    /// Returns the position at which a disabled rule would first act in a win, and the names of the other types at that
-    /// position.
+    /// Returns the position at which a disabled rule would first act in a win, and the names of the other
+    /// types there.
     fn first_meeting(&self, line: usize, won: &Won) -> (Option<Evidence>, Vec<String>) {
         let (case, game) = (self.case, &won.changed.game);
         let mut state = game.start(case.level, won.episode.seed);
@@ -382,7 +383,7 @@ impl Trials<'_> {
     }
 }
 
-/// Returns the game with changed interactions; `None` if it does not compile.
+/// Returns the game with changed interactions, or `None` if it does not compile.
 fn with_lines(game: &Game, change: impl FnOnce(&mut Vec<InteractionLine>)) -> Option<Game> {
     let mut description: Description = game.description().clone();
     change(&mut description.interactions);

@@ -1,4 +1,4 @@
-//! An episode's ending and the lines that caused it, for a verdict's reason.
+//! An episode's ending and the lines that caused it, for the reason of a verdict.
 
 use crate::evidence::{Evidence, Line};
 use crate::explain::board::Board;
@@ -14,8 +14,8 @@ pub(crate) struct Ending {
     outcome: Outcome,
     /// The termination that holds, as an index into the description's terminations.
     termination: Option<usize>,
-    /// The interaction in the last tick that caused the ending by removing the avatar or the sprite that had to be
-    /// removed.
+    /// The last tick's interaction that caused the ending, by removing the avatar or the sprite that had to
+    /// be removed.
     cause: Option<Meeting>,
     /// The board before the last tick.
     before: Option<Board>,
@@ -58,7 +58,7 @@ impl Ending {
         }
     }
 
-    /// Returns the last tick's events, with one sentence per line involved.
+    /// Returns the last tick's events, as one sentence per line involved.
     pub(crate) fn evidence(&self, game: &Game) -> Vec<Evidence> {
         let mut list = Vec::new();
         let key = self.action.filter(|action| *action != Action::Nil);
@@ -93,7 +93,7 @@ fn ends(analysis: &Analysis, meeting: &Meeting, types: &[SpriteType]) -> bool {
     first || meeting.second.is_some_and(|second| types.contains(&second)) && ends(Side::Second)
 }
 
-/// Converts a cell to a column and row counted from 1.
+/// Converts a cell's coordinates to a column and row counted from 1.
 fn placed((column, row): (i32, i32)) -> Option<(usize, usize)> {
     Some((usize::try_from(column).ok()? + 1, usize::try_from(row).ok()? + 1))
 }

@@ -31,7 +31,7 @@ impl Judgement {
                 "no win found: the budget allows no search".to_owned()
             }
             Verdict::Unknown { spent: 0 } => "needs a win, but no win was found".to_owned(),
-            // Work that the budget stopped comes first.
+            // Evidence about work that the budget stopped comes first.
             Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_budget_note) => {
                 finding.evidence[0].text.clone()
             }

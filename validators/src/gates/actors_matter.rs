@@ -9,14 +9,16 @@ use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Passes if two conditions are met. Self-moving sprites, not counting the player's shots, must sweep an average of at
-/// least [`Gates::sweep`] cells each. On at least [`Gates::met_levels`] of the levels with such sprites, a sprite must
-/// also enter or come next to a cell on the win's route, and come next to the player. If contact with such sprites can
-/// kill, a third condition applies: the sprites must cause at least [`Gates::foe_losses`] of careless players' losses.
+/// Passes if two conditions are met. Self-moving sprites, not counting the player's shots, must sweep an
+/// average of at least [`Gates::sweep`] cells each. On at least [`Gates::met_levels`] of the levels with such
+/// sprites, a sprite must also enter (or come next to) a cell on the win's route, and come next to the
+/// player. If contact with such sprites can kill, a third condition applies: they must cause at least
+/// [`Gates::foe_losses`] of careless players' losses.
 ///
-/// The sprites are observed in the shortest known wins and in careless episodes. A sprite counts if it lived for twenty
-/// ticks. The sprites cause a loss if, in the tick of the loss, the avatar meets one of them or one of their products.
-/// Games without self-moving sprites pass. Costs the careless episodes, and an inspection of all sprites in each tick.
+/// The sprites are observed in the shortest known wins and in careless episodes. A sprite counts if it lived
+/// for twenty ticks. Such sprites cause a loss if the avatar meets one of them, or one of their products, in
+/// the tick of the loss. Games without self-moving sprites pass. Costs the careless episodes, and an
+/// inspection of all sprites in each tick.
 #[derive(Clone, Debug)]
 pub(crate) struct ActorsMatter(Gates);
 
@@ -97,7 +99,7 @@ struct Actors<'a> {
     analysis: &'a Analysis,
     /// For each type, `true` if it is self-moving.
     moves: Vec<bool>,
-    /// For each type, `true` if it is self-moving or is created by a self-moving type.
+    /// For each type, `true` if it is self-moving or created by a self-moving type.
     foes: Vec<bool>,
     /// `true` if contact with any foe is harmful.
     deadly: bool,
@@ -106,7 +108,7 @@ struct Actors<'a> {
 /// The observations made during an episode.
 #[derive(Default)]
 struct Watched {
-    /// The number of cells swept by each sprite that lived long enough.
+    /// The number of cells that each sprite swept, for sprites that lived long enough.
     sweeps: Vec<f64>,
     /// `true` if any self-moving sprites were present.
     present: bool,
@@ -179,14 +181,14 @@ impl<'a> Actors<'a> {
     }
 }
 
-/// The flag for sprite records that are no longer in play.
+/// The flag in the records of sprites that are no longer in play.
 const DISABLED: u16 = 1;
 
 fn next_to((x, y): (i32, i32), (u, v): (i32, i32)) -> bool {
     (x - u).abs() + (y - v).abs() <= 1
 }
 
-/// A watcher for the avatar's contacts with foes.
+/// A watcher that detects the avatar's contacts with foes.
 struct Meetings<'a> {
     actors: &'a Actors<'a>,
     any: bool,

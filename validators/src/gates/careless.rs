@@ -1,4 +1,4 @@
-//! Careless players: the nearest-goal player, with random slips.
+//! Careless players: nearest-goal players that slip at random.
 
 use super::Gates;
 use agents::{Budget, Limits, NearestGoal, play};
@@ -8,15 +8,16 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// The maximum length of an episode, as a multiple of the win's ticks. [`GRACE`] is added to the product.
+/// The maximum length of an episode as a multiple of the number of ticks in the win, before [`GRACE`] is
+/// added.
 const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
-/// The number of episodes in a closer evaluation, as a multiple of the number in the first evaluation. Before a gate
-/// fails because of a few episodes, it requests more.
+/// The number of episodes in a closer evaluation, as a multiple of the number in the first one. A gate
+/// requests it before it fails because of a few episodes.
 pub(super) const CLOSER: u32 = 4;
 
-/// The careless players' episodes. The episodes are played when first requested by a gate, and shared by all gates.
+/// The careless players' episodes, which are played when a gate first requests them, and shared by all gates.
 pub(crate) struct CarelessPlays<'a> {
     game: &'a Game,
     seed: Seed,
@@ -70,8 +71,8 @@ impl WonLevel<'_> {
     }
 }
 
-/// Plays the numbered episodes with the nearest-goal player and a fraction of slips, on a level won in `ticks` ticks.
-/// Cost: one call per action and tick.
+/// Plays the episodes with the given numbers with a nearest-goal player that slips in a fraction of its
+/// ticks, on a level won in `ticks` ticks. Cost: one call per action and tick.
 pub(super) fn nearest_goal(
     game: &Game,
     level: &Level,
@@ -89,8 +90,8 @@ pub(super) fn nearest_goal(
     numbers.into_par_iter().map(run).collect()
 }
 
-/// Returns the fraction of careless episodes on a level that end by the rules, with a win or a loss. All other episodes
-/// got stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
+/// Returns the fraction of careless episodes on a level that end by the rules, with a win or a loss. All
+/// other episodes get stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
 pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
     let numbers = 0..gates.careless_plays;
     let plays = nearest_goal(game, level, win.actions.len(), gates.careless_slips, numbers, seed);

@@ -1,4 +1,4 @@
-//! The `drama` gate: checks that winning is in doubt along the way.
+//! The `drama` gate: checks that a win is in doubt along the way.
 
 use super::{Gates, NO_WIN, measured, without_subject, won_levels};
 use crate::PlayMeasures;

@@ -1,4 +1,4 @@
-//! The removable elements of a game: placed types and rules, except guards.
+//! The removable elements of a game: rules except guards, and placed types.
 
 use crate::evidence::{Evidence, Line};
 use crate::measures::Guards;
@@ -12,8 +12,8 @@ pub(super) struct Element {
     /// The rule's text, or the type's name.
     pub(super) text: String,
     line: Option<Line>,
-    /// The indices of the levels on which the element occurs: on which the type is placed, or on which a recorded
-    /// episode executes the rule.
+    /// The indices of the levels on which the element occurs, because the type is placed there or a recorded
+    /// episode executes the rule there.
     pub(super) levels: Vec<usize>,
     pub(super) without: Game,
     /// `true` if the element is a type, so that levels must be parsed again without it.
@@ -23,7 +23,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Returns the level for the game without the element; `None` if the level cannot be parsed.
+    /// Returns the level for the game without the element, or `None` if it cannot be parsed.
     pub(super) fn level(&self, level: &Level) -> Option<Level> {
         if !self.is_type {
             return Some(level.clone());
@@ -31,7 +31,7 @@ impl Element {
         self.without.level(&level.to_string()).ok()
     }
 
-    /// Returns evidence for a problem with the element.
+    /// Returns evidence of a problem with the element.
     pub(super) fn problem(&self, text: String) -> Evidence {
         Evidence { rule: self.line.clone(), ..Evidence::new(text) }
             .advise("remove this rule or type, or make winning depend on it")
@@ -39,10 +39,10 @@ impl Element {
 }
 
 /// Returns a game's elements: interactions and placed types. Guards ([`Guards`]) are excluded, and so are
-/// interactions by which a wall keeps sprites other than avatars in bounds. Avatars, walls, background, and types
-/// counted by an ending are also excluded.
+/// interactions by which a wall keeps sprites other than avatars in bounds. Avatars, walls, the background,
+/// and types that an ending counts are excluded as well.
 ///
-/// `executed` lists, by level, the rules executed in addition to the rules in the recording.
+/// `executed` lists, by level, the rules that were executed in addition to those in the recording.
 pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]) -> Vec<Element> {
     let (game, analysis) = (case.game, case.analysis);
     let guards: BTreeSet<usize> = Guards::of(analysis).lines().collect();
@@ -97,7 +97,7 @@ pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]
     rules.chain(types).collect()
 }
 
-/// Returns the game whose levels do not place a type; `None` if the game does not compile.
+/// Returns the game whose levels do not place a type, or `None` if it does not compile.
 fn without_type(game: &Game, stype: SpriteType) -> Option<Game> {
     let mut description = game.description().clone();
     for line in &mut description.mapping {

@@ -1,8 +1,8 @@
-//! Gates: criteria for a game with its levels in order that measure what people observe in play.
+//! Gates: criteria that measure what people notice when they play a game's levels in order.
 //! `docs/reference/gates.md` explains each gate, with the evidence for its thresholds.
 //!
-//! A gate examines the shortest known win of each level. Levels without a known win are skipped. A finding's
-//! figure is meant for tables: [`Finding::figure`].
+//! A gate examines the shortest known win of each level. Levels without a known win are skipped. The figure
+//! in a finding is meant for tables: see [`Finding::figure`].
 
 pub(crate) mod actors_matter;
 mod careless;
@@ -30,7 +30,7 @@ use crate::validator::GameCase;
 use crate::verdict::{Finding, Verdict};
 use engine::Outcome;
 
-/// Returns the levels with a known win, in order; `None` if no level has a known win.
+/// Returns the levels with a known win, in order, or `None` if there are none.
 fn won_levels<'a>(case: GameCase<'a>) -> Option<Vec<WonLevel<'a>>> {
     let won = |(number, recorded): (usize, &crate::Recorded<'a>)| {
         let wins = recorded.episodes.iter().filter(|episode| episode.outcome == Outcome::Won);
@@ -49,7 +49,7 @@ fn without_subject(why: &str) -> Finding {
 /// A gate's message for games without a known win.
 const NO_WIN: &str = "skipped: no win of any level is known";
 
-/// Returns a gate's finding. The gate fails if there are problems. The most important problem comes first.
+/// Returns a gate's finding. The gate fails if there are problems, of which the most important comes first.
 fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -> Finding {
     let verdict = match problems.first() {
         None => Verdict::pass(),
@@ -58,7 +58,7 @@ fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -
     Finding { figure, ..Finding::from(verdict).seen(problems).seen(notes) }
 }
 
-/// Returns the finding for a gate that makes one statement. The statement is a problem unless the game passes.
+/// Returns the finding for a gate that makes one statement. It is a problem unless the game passes.
 fn measured(passes: bool, seen: Evidence, figure: f64) -> Finding {
     match passes {
         true => finding(Vec::new(), vec![seen], Some(figure)),

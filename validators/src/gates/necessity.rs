@@ -16,25 +16,26 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards, and placed
-/// types, except avatars, walls, background and types counted by an ending. An element matters if the game without it
-/// meets one of the following conditions, on at least [`Gates::needed_levels`] of the levels on which the element
-/// occurs. The conditions are tested from cheapest to most expensive:
+/// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards, and
+/// placed types, except avatars, walls, the background and types that an ending counts. An element matters
+/// if, on at least [`Gates::needed_levels`] of the levels on which it occurs, the game without it meets one
+/// of the following conditions. They are tested from cheapest to most expensive:
 ///
 /// 1. the shortest known win no longer wins, or wins earlier by [`Gates::plan_change`], so that different actions are
 ///    needed;
 /// 2. at least [`Gates::plan_change`] of the careless episodes change between win and loss, so that players who do not
 ///    foresee everything do better or worse;
-/// 3. a search that foresees the random draws of the win finds a much shorter win. The win must be shorter by
-///    [`Gates::plan_change`] than the known win, and than the win that the search finds with the element.
+/// 3. a search that foresees the random draws of the win finds a much shorter win. It must be shorter by
+///    [`Gates::plan_change`] than both the known win and the win that the search finds with the element.
 ///
-/// The gate fails only if it would also fail if every element not proved idle mattered. On deterministic levels,
-/// searches prove that an element is idle by proving the shortest wins with and without the element. Otherwise the
-/// verdict is unknown.
+/// The gate fails only if it would fail even if every element not proven idle mattered; if not, the verdict
+/// is unknown. On deterministic levels, searches can prove an element idle by proving the shortest wins with
+/// and without it.
 ///
-/// Removing a moving type shifts the random draws of a stochastic game, so the game's win is not replayed without the
-/// type. Costs the replays and the careless episodes. For each element not shown to matter by these, it also costs a
-/// search with [`Gates::needed_calls`] calls on each of the element's levels until the answer is certain.
+/// Removing a moving type shifts the random draws of a stochastic game, so the known win is not replayed
+/// without the type. Costs the replays and the careless episodes. For each element that these do not show to
+/// matter, also costs a search with [`Gates::needed_calls`] calls on each of the element's levels until the
+/// answer is certain.
 #[derive(Clone, Debug)]
 pub(crate) struct Necessity(Gates);
 
@@ -103,7 +104,7 @@ impl GameValidator for Necessity {
         let found = if share >= gates.needed_share {
             finding(Vec::new(), [note].into_iter().chain(idle).collect(), Some(share))
         } else if share_of(needed + open) >= gates.needed_share {
-            // Elements that no test shows to matter may still matter.
+            // Elements may matter even if no test shows that they do.
             let found = Finding::from(Verdict::Unknown { spent }).seen(idle).seen([note]);
             Finding { figure: Some(share), ..found }
         } else {
@@ -120,11 +121,11 @@ enum Need {
     Shown,
     /// No test shows that the element matters, and the searches were not exhaustive.
     NotShown,
-    /// The element is proved not to matter in the sense of the tests.
+    /// The element is proven not to matter in the sense of the tests.
     Refuted,
 }
 
-/// The length of the shortest known win, if any. `sure` is `true` if that win is proved to be the shortest.
+/// The length of the shortest known win, if any. `sure` is `true` if that win is proven to be the shortest.
 #[derive(Clone, Copy)]
 struct Shortest {
     ticks: Option<usize>,
@@ -142,7 +143,7 @@ struct Subject<'a> {
 }
 
 impl Necessity {
-    /// Returns whether an element is shown to matter, and a sentence with the number of levels on which it matters.
+    /// Returns the answer for an element, and a sentence with the number of levels on which it matters.
     fn matters(
         &self,
         case: GameCase<'_>,
@@ -205,8 +206,8 @@ impl Necessity {
         differing as f64 >= self.0.plan_change * subject.careless.len() as f64
     }
 
-    /// Returns whether a search shows that a level can be won much sooner without the element, and whether this result
-    /// is proved.
+    /// Returns `true` if a search shows that a level can be won much sooner without the element, and `true`
+    /// if this result is proven.
     fn hinders(&self, case: GameCase<'_>, element: &Element, subject: &Subject<'_>) -> (bool, bool) {
         let WonLevel { level, win, .. } = subject.won;
         let known = win.actions.len();
@@ -222,8 +223,8 @@ impl Necessity {
         (hinders, found.sure && shortest.sure)
     }
 
-    /// Returns the number of ticks in a win that a search finds with the known win's random draws. Searches for the
-    /// shortest win first, and then for any win.
+    /// Returns the number of ticks in a win that a search finds with the known win's random draws. Searches
+    /// first for the shortest win and then for any win.
     fn search(&self, analysis: &Analysis, level: &Level, subject: &Subject<'_>) -> Shortest {
         let start = analysis.game().start(level, subject.won.win.seed);
         if start.is_over() {

@@ -12,10 +12,16 @@ use std::collections::BTreeSet;
 /// Passes if the longest stretch without progress in the shortest known win takes at most [`Gates::dead_share`] of the
 /// win's ticks, or at most [`Gates::dead_ticks`] ticks.
 ///
-/// A tick makes progress if one of these changes: the score, the avatar's type, the avatar's resources, the number of
-/// sprites counted by a termination, the number of stationary sprites of a type, or the position of a pushable sprite.
-/// A tick also makes progress if the avatar enters a cell not visited since the last such change. Waiting, pacing to
-/// and fro and walking back are dead time. Costs one replay of each win.
+/// A tick makes progress if one of these changes:
+///
+/// - the score
+/// - the avatar's type or resources
+/// - the number of sprites that a termination counts
+/// - the number of a type's stationary sprites
+/// - the position of a pushable sprite
+///
+/// It also makes progress if the avatar enters a cell not visited since the last such change. Waiting, pacing
+/// to and fro and walking back are dead time. Costs one replay of each win.
 #[derive(Clone, Debug)]
 pub(crate) struct NoDeadTime(Gates);
 
@@ -51,11 +57,11 @@ impl GameValidator for NoDeadTime {
     }
 }
 
-/// The types whose numbers or positions indicate progress.
+/// The types whose sprite counts or positions indicate progress.
 struct Telling {
-    /// The types whose number counts.
+    /// The types whose sprite counts indicate progress.
     counted: Vec<SpriteType>,
-    /// The types whose positions count.
+    /// The types whose sprites' positions indicate progress.
     pushed: Vec<SpriteType>,
     resources: Vec<SpriteType>,
 }

@@ -10,15 +10,19 @@ use base::Seed;
 use engine::analysis::{Attainable, Role};
 use engine::{Analysis, Episode, Game, Level, SpriteClass, SpriteType, Term};
 
-/// Passes if each level after the first meets two conditions. The shortest known win must take at least
-/// [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of the slowest spawner on the level. The
-/// nearest-goal player ([`agents::NearestGoal`]) must win at most [`Gates::bot_wins`] of its episodes. If the player
-/// wins more, it plays four times as many episodes. A fraction [`Gates::instant_levels`] of these levels may be
-/// exceptions. The game's time limit must be within [`Gates::time_limit`] times the longest known win.
+/// Passes if each level after the first meets two conditions:
 ///
-/// A spawner counts if the level places it and its sprites can harm, are needed for an ending or give something. A
-/// spawner's period is the mean time between two sprites: its cooldown divided by its probability. The time limit does
-/// not matter in games won by surviving. Costs the nearest-goal player's episodes.
+/// - The shortest known win takes at least [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of
+///   the slowest spawner on the level.
+/// - The nearest-goal player ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its episodes. If
+///   it wins more, it plays four times as many episodes.
+///
+/// A fraction [`Gates::instant_levels`] of these levels may be exceptions. In addition, the game's time limit
+/// must be within [`Gates::time_limit`] times the longest known win.
+///
+/// A spawner counts if the level places it and its sprites can do harm, are needed for an ending or give
+/// something. Its period is the mean time between two sprites: its cooldown divided by its probability. The
+/// time limit does not matter in games won by surviving. Costs the nearest-goal player's episodes.
 #[derive(Clone, Debug)]
 pub struct NotInstant(pub Gates);
 
@@ -80,10 +84,10 @@ impl GameValidator for NotInstant {
 }
 
 impl NotInstant {
-    /// Returns `true` if the nearest-goal player wins a level more often than is allowed after the first level. The
-    /// player may take as long as for a win of `ticks` ticks. This check does not include the gate's closer evaluation.
-    /// The check does not need a known win, so a level can be rejected before a win search. Costs the player's
-    /// episodes.
+    /// Returns `true` if the nearest-goal player wins a level more often than is allowed after the first
+    /// level. The player may take as long as for a win of `ticks` ticks. This check needs no known win, so it
+    /// can reject a level before a win search. It does not include the gate's closer evaluation. Costs the
+    /// player's episodes.
     pub fn is_walked_through(&self, game: &Game, level: &Level, ticks: usize, seed: Seed) -> bool {
         NotInstant::nearest_goal_wins(game, level, ticks, self.0.bot_plays, seed) > self.0.bot_wins
     }
@@ -98,7 +102,7 @@ impl NotInstant {
         careless::win_share(&careless::nearest_goal(game, level, ticks, 0.0, 0..plays, seed))
     }
 
-    /// Returns the problems with a win that comes too soon.
+    /// Returns the problems with a win if it comes too soon.
     fn too_short(
         &self,
         analysis: &Analysis,

@@ -10,14 +10,14 @@ use engine::{Analysis, Level};
 
 /// Passes if the fraction of narrow ground averages at most [`Gates::narrow`] over the levels.
 ///
-/// Ground is a cell without a wall. A wall ([`Role::Wall`]) is stationary, always blocks and cannot be removed.
-/// Ground is narrow if no 2×2 square of ground cells contains it, as in corridors, doorways and alcoves. No
-/// episodes are played. Cost: O(cells) per level.
+/// Ground is any cell without a wall ([`Role::Wall`]), which is stationary, always blocks and cannot be
+/// removed. Ground is narrow if no 2×2 square of ground cells contains it, as in corridors, doorways and
+/// alcoves. No episodes are played. Cost: O(cells) per level.
 #[derive(Clone, Debug)]
 pub struct OpenGround(pub Gates);
 
 impl OpenGround {
-    /// Returns the fraction of narrow ground in a level; `None` without ground.
+    /// Returns the fraction of narrow ground in a level, or `None` if the level has no ground.
     pub fn narrow(analysis: &Analysis, level: &Level) -> Option<f64> {
         let game = analysis.game();
         let is_wall = |cell: &u8| game.places(*cell).iter().any(|&stype| analysis.role(stype) == Role::Wall);
@@ -79,7 +79,7 @@ mod tests {
         check(Criterion::OpenGround, GAME, &[tunnel], Some("100% of the ground is narrow"));
         let hall = "wwwwwwwww\nwA     pw\nw   w   w\nw       w\nwwwwwwwww\n";
         check(Criterion::OpenGround, GAME, &[hall], None);
-        // Obstacles that can be removed are ground.
+        // Removable obstacles count as ground.
         let gates = "wwwwwwwww\nwAg g gpw\nwgg g  gw\nwwwwwwwww\n";
         check(Criterion::OpenGround, GAME, &[gates], None);
         // A narrow level is allowed among wide levels.

@@ -1,4 +1,4 @@
-//! The `progression` gate: checks that later levels need more mechanics and are not easier.
+//! The `progression` gate: checks that later levels need more mechanics than earlier ones and are not easier.
 
 use super::{Gates, NO_WIN, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -8,15 +8,18 @@ use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
-/// Passes if the mechanics needed to win grow over the levels. A level's mechanics are the interactions executed in
-/// its shortest known win, not counting guards. At least [`Gates::growth`] levels must need mechanics that no earlier
-/// level needed. The last level must need as many mechanics as the first, and at least [`Gates::last_share`] of all
-/// mechanics needed on any level. The last level must not be easier than either of the first two by more than
-/// [`Gates::easier`].
+/// Passes if the mechanics needed to win grow over the levels. A level's mechanics are the interactions
+/// executed in its shortest known win, not counting guards. There are three conditions:
 ///
-/// If a ladder was played on every level, ease is the ease for the ladder. Otherwise ease is the win rate of careless
-/// players, with four times as many episodes if the last level seems easier. Games with fewer than three levels have
-/// no progression to judge. Costs one replay of each win, and the careless episodes.
+/// - At least [`Gates::growth`] levels need mechanics that no earlier level needed.
+/// - The last level needs as many mechanics as the first, and at least [`Gates::last_share`] of all mechanics
+///   needed on any level.
+/// - The last level is not easier than either of the first two by more than [`Gates::easier`].
+///
+/// If a ladder was played on every level, a level's ease is its ease for the ladder. If not, its ease is the
+/// win rate of careless players, with four times as many episodes if the last level seems easier. Games with
+/// fewer than three levels have no progression to judge. Costs one replay of each win, and the careless
+/// episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Progression(Gates);
 
@@ -91,8 +94,8 @@ impl GameValidator for Progression {
 }
 
 impl Progression {
-    /// Returns the levels' ease, from 0 to 1. If ease is measured by careless episodes and the first episodes count
-    /// against the game, the compared levels are evaluated more closely.
+    /// Returns the levels' ease, from 0 to 1. If careless episodes measure ease and the first ones count
+    /// against the game, evaluates the compared levels more closely.
     fn eases(&self, case: GameCase<'_>, wins: &[super::WonLevel<'_>]) -> Vec<f64> {
         let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
         let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();
@@ -111,7 +114,7 @@ impl Progression {
     }
 }
 
-/// Returns the ease of the last level, and the smaller ease of the first two levels.
+/// Returns the ease of the last level, and the smaller of the first two levels' eases.
 fn last_and_easiest(eases: &[f64]) -> (f64, f64) {
     (eases[eases.len() - 1], eases[0].min(eases[1]))
 }

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The thresholds of the gates, which are the `[criteria.gates]` table of a recipe. The page
-    /// `docs/reference/gates.md` gives the source of each threshold.
+    /// The gates' thresholds: a recipe's `[criteria.gates]` table. `docs/reference/gates.md` gives the source
+    /// of each threshold.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {
@@ -66,7 +66,7 @@ impl Gates {
         *self == Gates::default()
     }
 
-    /// Returns stricter thresholds for the measures that involve randomness. Games that pass these thresholds also pass
+    /// Returns stricter thresholds for the measures that involve randomness. Games that pass them also pass
     /// the original thresholds with other seeds.
     #[must_use]
     pub fn with_margin(&self) -> Gates {
@@ -87,7 +87,7 @@ impl Gates {
         Gates { growth: 0, drama: self.drama / 2.0, ..self.clone() }
     }
 
-    /// Returns the first value that is out of range, as its key and the reason.
+    /// Returns the key of the first value that is out of range, and the reason.
     pub(crate) fn problem(&self) -> Option<(&'static str, String)> {
         let shares = [
             ("gates.narrow", self.narrow),

@@ -8,14 +8,14 @@ use crate::verdict::Finding;
 use engine::State;
 use engine::analysis::Resource;
 
-/// Passes if the fraction of consumables left after a win, averaged over the levels, is within [`Gates::spare`].
-/// Careless players must also win at most [`Gates::careless_wins`] of their episodes after the first level. If careless
-/// players win more, they play four times as many episodes.
+/// Passes if the fraction of consumables left after a win, averaged over the levels, is within
+/// [`Gates::spare`]. Careless players must also win at most [`Gates::careless_wins`] of their episodes on
+/// levels after the first. If they win more, they play four times as many episodes.
 ///
-/// A consumable is a resource that a rule takes, or that shots cost. Its supply is the amount that the avatar spends in
-/// the win, holds at the end, and could still collect from the board. Levels whose win does not spend consumables are
-/// skipped. Careless players walk to the nearest goal and slip ([`Gates::careless_slips`]). Costs one replay of each
-/// win, and the careless episodes.
+/// A consumable is a resource that a rule takes, or that shots cost. Its supply is the amount that the avatar
+/// spends in the win, holds at the end, and could still collect from the board. Levels on which the win
+/// spends no consumables are skipped. Careless players walk to the nearest goal and slip
+/// ([`Gates::careless_slips`]). Costs one replay of each win, and the careless episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Tight(Gates);
 
@@ -70,7 +70,8 @@ impl GameValidator for Tight {
     }
 }
 
-/// Returns the amounts of a resource that a win spends and leaves; `None` if the win does not spend the resource.
+/// Returns the amounts of a resource that a win spends and leaves, or `None` if it does not spend the
+/// resource.
 fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option<(f64, f64)> {
     let held = |state: &State| state.amount_held(resource.stype);
     let mut state = case.game.start(won.level, won.win.seed);

@@ -1,4 +1,4 @@
-//! Comparison of a game with and without one of its rules, in every reachable state.
+//! Compares a game with and without one of its rules, in every reachable state.
 
 use base::Seed;
 use engine::{Analysis, Level, State};
@@ -9,20 +9,20 @@ use std::collections::{BTreeSet, VecDeque};
 pub(crate) enum Comparison {
     /// Some sequence of actions ends or scores differently in the two games.
     Differs,
-    /// All sequences of actions are proved to end and score the same. Contains the number of state pairs in the
-    /// proof.
+    /// All sequences of actions are proven to end and score the same. Contains the number of state pairs in
+    /// the proof.
     Equal(usize),
     /// The result is unknown, because the level is stochastic or the calls ran out.
     Open,
 }
 
-/// The maximum number of state pairs to distinguish.
+/// The maximum number of distinct state pairs to examine.
 const MAX_PAIRS: usize = 50_000;
 
-/// Compares two games that differ in one rule, breadth-first on a level, with at most `most` forward-model calls.
-/// Returns the result and the number of calls.
+/// Compares two games that differ in one rule by a breadth-first search on a level, with at most `most`
+/// forward-model calls. Returns the result and the number of calls.
 ///
-/// State pairs with equal search keys have the same future, so only one of them is continued.
+/// State pairs with equal search keys have the same future, so the search continues from only one of them.
 pub(crate) fn compare(games: [&Analysis; 2], level: &Level, seed: Seed, most: u64) -> (Comparison, u64) {
     let start = games.map(|analysis| analysis.game().start(level, seed));
     let abstractions = [0, 1].map(|at| games[at].abstraction(&start[at]));

@@ -1,8 +1,8 @@
-//! Random futures from a moment in an episode, compared with the episode as played. The futures show which side is in
-//! the lead, and how far ahead a player must look.
+//! Random futures from a moment in an episode, compared with the episode as played. They show which side is
+//! in the lead, and how far ahead a player must look.
 //!
-//! The futures press random keys, but undo a key that loses immediately. Otherwise, any deadly game would look
-//! hopeless at every moment.
+//! The futures press random keys, but undo a key that loses immediately. Without this, any deadly game would
+//! look hopeless at every moment.
 
 use base::{Sampler, Seed};
 use engine::{Game, Outcome, State};
@@ -49,7 +49,7 @@ impl Future<'_> {
     }
 }
 
-/// The standing of a game, compared first by outcome, then by score.
+/// The standing of a game, compared first by outcome and then by score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Standing {
     outcome: i8,
@@ -76,8 +76,8 @@ impl Standing {
 pub(super) struct Futures(Vec<[Standing; CHECKPOINTS.len()]>);
 
 impl Futures {
-    /// Plays the futures, each with its own random seed. Cost: [`FUTURES`] × [`SIGHT`] forward-model calls, and at
-    /// most three times as many.
+    /// Plays the futures, each with its own random seed. Cost: [`FUTURES`] × [`SIGHT`] forward-model calls,
+    /// or up to three times as many.
     pub(super) fn of(game: &Game, state: &State, seed: Seed) -> Futures {
         let play = |number: u64| {
             let seed = seed.child("future", number);
@@ -101,9 +101,9 @@ impl Futures {
         f64::from(sum) / FUTURES as f64
     }
 
-    /// Returns the number of ticks after which a line of play is better than most futures. The line is given by its
-    /// standing at each tick, starting at the moment of the futures. Returns [`SIGHT`] if the line becomes better
-    /// later or never, and `None` if the line wins but most futures do equally well.
+    /// Returns the number of ticks after which a line of play is better than most futures. The line is given
+    /// by its standing at each tick, starting at the moment of the futures. Returns [`SIGHT`] if it becomes
+    /// better later or never, and `None` if it wins but most futures do equally well.
     pub(super) fn sight(&self, line: &[Standing]) -> Option<usize> {
         let last = line.len() - 1;
         let seen = |checkpoint: &usize| {

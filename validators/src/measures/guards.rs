@@ -5,8 +5,8 @@ use crate::measures::is_guard;
 use engine::analysis::Role;
 use engine::{Analysis, Meeting, SpriteType};
 
-/// A game's guards: interactions with the screen edge, and moves that walls undo at no cost. A wall ([`Role::Wall`])
-/// is stationary, always blocks and cannot be removed.
+/// A game's guards: interactions with the screen edge, and interactions in which a wall undoes a move at no
+/// cost. A wall ([`Role::Wall`]) is stationary, always blocks and cannot be removed.
 #[derive(Clone, Debug)]
 pub struct Guards {
     /// Each interaction line's kind.
@@ -19,7 +19,7 @@ pub struct Guards {
 enum GuardKind {
     /// An interaction with the screen edge.
     Edge,
-    /// An interaction that runs on the clock, independently of contacts.
+    /// A timed interaction, which does not depend on contacts.
     Clock,
     /// An interaction that only undoes a move. `walls` is `true` if all of the interaction's partners are walls.
     Block { walls: bool },
@@ -62,8 +62,8 @@ impl Guards {
         (0..self.lines.len()).filter(guards)
     }
 
-    /// Returns `true` for an execution of a guard: the line is a guard, or the execution involves a wall although
-    /// the line also has other partners.
+    /// Returns `true` for an execution of a guard: either the line is a guard, or the execution involves a
+    /// wall, although the line also has other partners.
     pub fn covers(&self, meeting: Meeting) -> bool {
         match self.lines[meeting.line] {
             GuardKind::Edge => true,
@@ -72,7 +72,7 @@ impl Guards {
         }
     }
 
-    /// Returns `true` if a line runs on the clock.
+    /// Returns `true` if a line is timed.
     pub(super) fn runs_by_clock(&self, line: usize) -> bool {
         self.lines[line] == GuardKind::Clock
     }

@@ -60,10 +60,10 @@ impl AvatarKind {
 }
 
 base::named_enum! {
-    /// The task required to win, according to the analysed goals. If several tasks fit, the first in declaration order
-    /// counts.
+    /// The task required to win, according to the analysed goals. If several tasks fit, the first one in
+    /// declaration order counts.
     pub enum GoalKind {
-        /// Other sprites head for the same goal. The first to arrive wins.
+        /// Other sprites head for the same goal, and the first to arrive wins.
         Race = "race",
         /// Pushed sprites must reach their targets.
         Deliver = "deliver",
@@ -73,9 +73,11 @@ base::named_enum! {
         Eliminate = "eliminate",
         /// Moving sprites must be caught.
         Hunt = "hunt",
-        /// Items on the board must be taken: all items of a type, or many of a resource that an exit requires.
+        /// Items on the board must be taken: either all items of a type, or many of a resource that an exit
+        /// requires.
         Collect = "collect",
-        /// A sprite must be reached or taken that is inaccessible until the avatar has the key or the right form.
+        /// A sprite must be reached or taken, but is inaccessible until the avatar has the key or the right
+        /// form.
         Unlock = "unlock",
         /// A location must be reached.
         Reach = "reach",
@@ -92,7 +94,7 @@ base::named_enum! {
     }
 }
 
-/// The minimum number at which a goal is considered to be about quantity.
+/// The minimum number for which a goal counts as being about quantity.
 const MANY: i32 = 3;
 
 impl GoalKind {
@@ -213,7 +215,7 @@ impl ChanceKind {
             .collect::<Vec<ChanceKind>>()[..]
         {
             [one] => one,
-            // Randomness decides in a different way, such as by the bounces of missiles.
+            // Randomness decides in some other way, such as through bouncing missiles.
             [] => ChanceKind::Movers,
             _ => ChanceKind::Several,
         }
@@ -234,7 +236,7 @@ pub struct GameKind {
     pub effects: Vec<EffectFamily>,
     /// The self-moving classes that can be present, in alphabetical order.
     pub npcs: Vec<String>,
-    /// The classes that can be present and create others by themselves, in alphabetical order.
+    /// The classes that can be present and whose sprites create others by themselves, in alphabetical order.
     pub producers: Vec<String>,
     /// The number of lines in the InteractionSet, not counting guards.
     pub interactions: usize,

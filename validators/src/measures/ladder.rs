@@ -16,7 +16,8 @@ fn play_once(
     limits: Limits,
     stopped: Stopped<'_>,
 ) -> Play {
-    // All players get the same seed in episodes of the same number, so that they can be compared episode by episode.
+    // All players get the same seed in episodes with the same number, so that they can be compared episode by
+    // episode.
     let chance = case.seed.child("chance", run);
     let seed = case.seed.seed().child(player.name(), run);
     play_until(case.game, case.level, &mut player.player(seed), player.budget(), chance, limits, stopped)
@@ -32,10 +33,10 @@ pub struct PlayerResult {
     pub looks_ahead: bool,
     /// The player's win rate.
     pub rate: Rate,
-    /// The mean number of ticks over the won episodes; `None` if no episode was won.
+    /// The mean number of ticks in the won episodes, or `None` if no episode was won.
     pub win_ticks: Option<f64>,
-    /// The mean score, scaled from 0 (lowest) to 1 (highest). The range covers all episodes of the rungs, excluding the
-    /// held-out players. `None` if all scores are equal.
+    /// The mean score, scaled from 0 (lowest) to 1 (highest). The range covers the episodes of all rungs, but
+    /// not those of the held-out players. `None` if all scores are equal.
     pub reward: Option<f64>,
 }
 
@@ -45,9 +46,9 @@ pub struct PlayerResult {
 pub struct Ladder {
     /// The players from weakest to strongest, in the order of the criteria.
     pub rungs: Vec<PlayerResult>,
-    /// The players held out until acceptance.
+    /// The players that are held out until acceptance.
     pub held_out: Vec<PlayerResult>,
-    /// The ease, from 0 to 1 (`spec/06` §2.6); `None` if no player looks ahead.
+    /// The level's ease, from 0 to 1 (`spec/06` §2.6), or `None` if no player looks ahead.
     pub ease: Option<f64>,
     /// The difficulty label for the ease.
     pub difficulty: Difficulty,
@@ -81,7 +82,7 @@ impl Difficulty {
         (Difficulty::VeryHard, [0.0, 0.2]),
     ];
 
-    /// Returns a label's ease range; `None` for [`Difficulty::Unbeaten`].
+    /// Returns a label's ease range, or `None` for [`Difficulty::Unbeaten`].
     pub fn eases(self) -> Option<[f64; 2]> {
         Difficulty::LABELS.into_iter().find(|(label, _)| *label == self).map(|(_, eases)| eases)
     }
@@ -123,16 +124,15 @@ pub struct LadderConfig {
     pub held_out: Vec<ReferencePlanner>,
     /// The maximum number of episodes per player.
     pub plays: u64,
-    /// The total number of forward-model calls, over all episodes, after which no further round begins.
+    /// The total number of forward-model calls across all episodes after which no further round begins.
     pub calls: u64,
     /// The maximum number of ticks per episode.
     pub ticks: usize,
-    /// The limit on an episode's ticks if there is a witness, as a multiple of the witness's ticks. The total limit is
-    /// this multiple plus 50 ticks.
+    /// If there is a witness, an episode's tick limit is this multiple of the witness's ticks, plus 50.
     pub patience: usize,
 }
 
-/// The number of ticks added to the multiple of the witness's ticks.
+/// The number of ticks added to the multiple of the witness's ticks to get the tick limit.
 const GRACE: usize = 50;
 
 /// The number of episodes per player in a round.
@@ -144,7 +144,7 @@ pub(crate) struct LadderPlays {
 }
 
 impl LadderPlays {
-    /// Returns the number of episodes stopped because their calls ran out.
+    /// Returns the number of episodes that were stopped because their calls ran out.
     pub(crate) fn broken_off(&self, calls: u64) -> usize {
         let is_cut = |play: &&Play| {
             play.episode.outcome == Outcome::Ongoing
@@ -174,7 +174,8 @@ impl LadderConfig {
         ROUND * self.players().count() as u64
     }
 
-    /// Lets every player play the same number of episodes. Rounds continue until the episodes or the calls run out.
+    /// Plays the same number of episodes with every player, in rounds, until the episodes or the calls run
+    /// out.
     pub(crate) fn play_all(&self, case: Case<'_>) -> LadderPlays {
         self.play_within(case, u64::MAX, |_| false, &|| false)
     }
@@ -250,9 +251,10 @@ fn won_in(episode: &Episode) -> Option<f64> {
     (episode.outcome == Outcome::Won).then_some(episode.actions.len() as f64)
 }
 
-/// Returns the weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2). The step efficiency
-/// is `1 − mean ticks of wins / ticks of the longest episode`. The reward is missing if all scores are equal, and the
-/// efficiency is missing without a win. A missing value's weight is distributed over the remaining values.
+/// Returns the weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2). The step
+/// efficiency is `1 − mean ticks of wins / ticks of the longest episode`. The reward is missing if all scores
+/// are equal, and the efficiency if there is no win. The weight of a missing value is distributed over the
+/// others.
 fn ease(result: &PlayerResult, longest: f64) -> f64 {
     let Rate { wins, plays, .. } = result.rate;
     let won = wins as f64 / plays.max(1) as f64;
@@ -262,7 +264,7 @@ fn ease(result: &PlayerResult, longest: f64) -> f64 {
     terms.iter().map(|(weight, term)| weight * term.unwrap_or_default()).sum::<f64>() / weight
 }
 
-/// The win rate over some episodes, with their scores.
+/// The win rate in some episodes, with their scores.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// The number of episodes won.

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The measures of a level with a win. The first six measures are computed from the witness, and describe the shortest
-/// win found. `shortest` and `skill` describe the level itself.
+/// The measures of a level with a win. The first six are computed from the witness, and therefore describe
+/// the shortest win found. `shortest` and `skill` describe the level itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measures {
@@ -22,36 +22,36 @@ pub struct Measures {
     /// The number of pushes that moved or removed a sprite. In Sokoban, this is the number of pushes in the solution.
     pub pushes: usize,
     /// The effect of choices, from 0 to 1: the fraction of actions that lead to distinct states
-    /// ([`State::search_key`]), averaged over the witness's ticks. At 1, every action matters. At 1 / actions, no
-    /// action matters.
+    /// ([`State::search_key`]), averaged over the witness's ticks. At 1, every action matters; at 1 /
+    /// actions, none does.
     pub branching: f64,
-    /// The mechanics used, from 0 to 1: the fraction of the game's interactions executed by the witness. Interactions
-    /// with the screen edge do not count, because walls can make these guards idle.
+    /// The mechanics used, from 0 to 1: the fraction of the game's interactions that the witness executes.
+    /// Interactions with the screen edge do not count, because walls can make these guards idle.
     pub mechanics: f64,
-    /// The interactions executed by the witness, as returned by [`used_rules`].
+    /// The interactions that the witness executes, as returned by [`used_rules`].
     pub rules: Vec<usize>,
     /// The risk of losing along the witness, from 0 to 1: the probability that a random action, followed by
     /// [`FORESIGHT`] − 1 more random actions, loses the game, averaged over the witness's ticks.
     pub pressure: f64,
-    /// The number of ticks in the shortest win, if the win is proved to be the shortest.
+    /// The number of ticks in the shortest win, if it is proven to be the shortest.
     pub shortest: Option<usize>,
     /// The advantage of looking ahead, if a ladder was played.
     pub skill: Option<SkillGap>,
 }
 
-/// The advantage of players that look ahead over players that do not (`random`, `do-nothing`). The advantage is
-/// computed from the mean over the players of each kind, including held-out players.
+/// The advantage of players that look ahead over players that do not (`random`, `do-nothing`). It is the
+/// difference between the means over the players of each kind, including held-out players.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkillGap {
     /// The difference between the win rates, from −1 to 1.
     pub wins: f64,
-    /// The difference between the rewards ([`PlayerResult::reward`]), from −1 to 1; `None` if all episodes had the same
-    /// score.
+    /// The difference between the rewards ([`PlayerResult::reward`]), from −1 to 1, or `None` if all episodes
+    /// had the same score.
     pub reward: Option<f64>,
 }
 
-/// The number of ticks by which pressure looks ahead.
+/// The number of ticks that pressure looks ahead.
 pub const FORESIGHT: usize = 8;
 /// The number of random futures per action.
 const FUTURES: u64 = 3;
@@ -59,10 +59,12 @@ const FUTURES: u64 = 3;
 const MOMENTS: usize = 60;
 
 impl Measures {
-    /// Measures a judged level, with or without a played ladder. Returns `None` if the report does not contain a
-    /// witness. The same arguments give the same numbers on every machine. Costs a replay of the witness, and trials of
-    /// every action at up to 60 of its ticks. Each action is tried once for branching, and three times for up to
-    /// [`FORESIGHT`] ticks for pressure. With five actions, the trials take at most 7,500 forward-model calls.
+    /// Measures a judged level, with or without a played ladder. Returns `None` if the report does not
+    /// contain a witness. The same arguments give the same numbers on every machine.
+    ///
+    /// Costs a replay of the witness, and trials of every action at up to 60 of its ticks: one for branching,
+    /// and three of up to [`FORESIGHT`] ticks for pressure. With five actions, the trials take at most 7,500
+    /// forward-model calls.
     pub fn of(
         analysis: &Analysis,
         level: &Level,
@@ -169,8 +171,8 @@ fn different(game: &Game, state: &State) -> f64 {
     keys.len() as f64 / actions.len() as f64
 }
 
-/// Returns the fraction of random futures that lose. All actions get the same random draws, and the same subsequent
-/// actions.
+/// Returns the fraction of random futures that lose. All actions get the same random draws and are followed
+/// by the same actions.
 fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
     let (mut lost, mut all) = (0u64, 0u64);
     for action in actions(game, state) {
@@ -227,9 +229,9 @@ pub(crate) fn pushes_of(analysis: &Analysis, level: &Level, episode: &Episode) -
     pushes
 }
 
-/// Runs the reference's tree search ([`Mcts`]) on a level with a witness, and returns its win rate. An episode is
-/// stopped after [`Criteria::patience`] times the witness's ticks plus 50. Cost: `mcts_plays` episodes with `decision`
-/// calls per tick.
+/// Runs the reference's tree search ([`Mcts`]) on a level with a witness, and returns its win rate. An
+/// episode stops after [`Criteria::patience`] times the witness's ticks, plus 50. Cost: `mcts_plays` episodes
+/// with `decision` calls per tick.
 pub fn mcts_rate(game: &Game, level: &Level, witness: &Episode, criteria: &Criteria, seed: Seed) -> Rate {
     let ticks = witness.actions.len().saturating_mul(criteria.patience).saturating_add(50);
     let limits = Limits { ticks, ..Limits::default() };
@@ -278,7 +280,7 @@ impl Watch for MeetingRecorder {
     }
 }
 
-/// A running mean; 0 if no values were added.
+/// A running mean, which is 0 as long as no values were added.
 #[derive(Default)]
 pub(crate) struct Mean {
     sum: f64,
@@ -330,7 +332,7 @@ mod tests {
         assert_eq!((solved.ticks, solved.pushes, solved.rules.as_slice()), (2, 2, &[1, 3][..]));
         assert!((solved.mechanics - 2.0 / 6.0).abs() < 1e-12, "{solved:?}");
         assert_eq!(solved.pressure, 0.0);
-        // Nothing moves against a wall, and a step past the crate pushes nothing.
+        // A move against a wall has no effect, and a step past the crate pushes nothing.
         let stuck = check("wwwwww\nwAcw w\nw   ow\nwwwwww\n", &[Right, Right, Left]);
         assert_eq!(stuck.pushes, 0, "{stuck:?}");
     }

@@ -10,38 +10,42 @@ use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// A game's measures in play, as means over its levels with one episode per level: the first won episode or, if no
-/// episode is won, the first episode.
+/// A game's measures in play, as means over its levels, with one episode per level: the first won episode or,
+/// if none is won, the first episode.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlayMeasures {
     /// The pace, from 0 to 1: the fraction of ticks in which something other than the avatar moves, turns, appears,
     /// disappears or changes.
     pub pace: f64,
-    /// The number of executed interactions per tick, not counting guards ([`Guards`]). An interaction that returns the
-    /// same sprite to the same position tick after tick counts once.
+    /// The number of executed interactions per tick, not counting guards ([`Guards`]). An interaction that
+    /// returns the same sprite to the same position in every tick counts only once.
     pub density: f64,
     /// The randomness, from 0 to 1: the fraction of actions, at some ticks, whose result differs between random seeds.
     pub chance: f64,
-    /// The total number of different interactions, not counting guards, executed in won episodes.
+    /// The total number of distinct interactions executed in won episodes, not counting guards.
     pub mechanics: usize,
-    /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT). From a given moment, this is the look-ahead
-    /// needed to see that the episode is better than careless play: that the episode wins, does not lose, or scores
-    /// more. Careless play presses random keys, except keys that lose immediately. The value is low in a game that
-    /// rewards every step or kills an inactive player. The value is high in a game where, for a long time, the good
-    /// move looks like any other or worse than a greedy move. The measure shows how far away the consequences are.
-    /// Unlike a planner's required look-ahead, its cost does not grow with the branching factor. Moments from which
-    /// careless play also wins do not count. The value is 0 if no moment counts.
+    /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT). From a given moment, this is the
+    /// look-ahead needed to see that the episode is better than careless play: that it wins, does not lose,
+    /// or scores more. Careless play presses random keys, except keys that lose immediately. Moments from
+    /// which careless play also wins do not count, and the value is 0 if no moment counts.
+    ///
+    /// The value is low in a game that rewards every step or kills an inactive player. It is high in a game
+    /// in which the good move looks for a long time like any other, or worse than a greedy one. The measure
+    /// shows how far away the consequences are. Unlike a planner's required look-ahead, its cost does not
+    /// grow with the branching factor.
     pub sight: f64,
-    /// The despair on the way to a win, from 0 to 1. The lead at a moment is the fraction of careless futures that win
-    /// minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean, over all moments, of the
-    /// square root of the deficit if the game leads, and of 0 otherwise. The measure follows Browne and Maire
-    /// ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with three changes. The game is the opponent, careless
-    /// futures give the value of a position, and the mean is taken over all moments, so that a single bad moment does
-    /// not make a drama. A game that careless play can neither win nor lose has a drama of 0.
+    /// The despair on the way to a win, from 0 to 1. The lead at a moment is the fraction of careless futures
+    /// that win minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean, over
+    /// all moments, of the square root of the deficit, or of 0 at moments at which the game does not lead. A
+    /// game that careless play can neither win nor lose has a drama of 0.
+    ///
+    /// The measure follows Browne and Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with three
+    /// changes. The game is the opponent, careless futures give the value of a position, and the mean is
+    /// taken over all moments, so that a single bad moment does not make a drama.
     pub drama: f64,
-    /// The mean number of times that the lead changes sides on the way to the win, at which point the player leads. The
-    /// measure is Browne and Maire's *lead change*, not divided by the number of moves.
+    /// The mean number of times that the lead changes sides on the way to the win, at which the player leads.
+    /// This is Browne and Maire's *lead change*, but not divided by the number of moves.
     pub lead_changes: f64,
     /// The number of levels with a measured episode.
     pub levels: usize,
@@ -55,9 +59,10 @@ const CHANCES: u64 = 3;
 const WINS: usize = 12;
 
 impl PlayMeasures {
-    /// Measures a game's recorded episodes. Returns `None` if there are no recorded episodes. The same arguments give
-    /// the same numbers on every machine. Costs a replay of the episodes, and a few milliseconds of forward-model calls
-    /// per level. Futures take 12 × 8 × 64 calls, and at most three times as many. Randomness takes 12 × 6 × 3 calls.
+    /// Measures a game's recorded episodes. Returns `None` if there are no recorded episodes. The same
+    /// arguments give the same numbers on every machine. Costs a replay of the episodes, and a few
+    /// milliseconds of forward-model calls per level. Futures take 12 × 8 × 64 calls, or up to three times as
+    /// many, and randomness takes 12 × 6 × 3 calls.
     pub fn of(analysis: &Analysis, recording: &[Recorded<'_>], seed: Seed) -> Option<PlayMeasures> {
         let game = analysis.game();
         let guards = Guards::of(analysis);
@@ -159,8 +164,8 @@ fn others(game: &Game, state: &State) -> Vec<SpriteRecord> {
     records
 }
 
-/// Returns the fraction of actions whose result differs between random seeds. Cost: actions × [`CHANCES`] calls, or no
-/// calls in a game without effective randomness.
+/// Returns the fraction of actions whose result differs between random seeds. Cost: actions × [`CHANCES`]
+/// calls, or none in a game in which randomness has no effect.
 fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     if !analysis.is_stochastic() {
         return 0.0;
@@ -200,7 +205,7 @@ impl Counter<'_> {
 
 impl Watch for Counter<'_> {
     fn interaction(&mut self, line: usize) {
-        // Count only lines that run on the clock here. All other executions are reported with their sprites.
+        // Count only timed lines here. All other executions are reported with their sprites.
         if self.guards.runs_by_clock(line) {
             self.count(line);
         }
@@ -242,14 +247,14 @@ mod tests {
 
     #[test]
     fn puzzles_have_no_pace() {
-        // First there are two steps through the open, then the crate moves, and then it falls.
+        // The first two steps are in the open, then the crate moves, and then it falls.
         let found = check("wwwwwwww\nwA  c ow\nw      w\nwwwwwwww\n", &[Nil, Right, Right, Right, Right]);
         assert_eq!(found.pace, 2.0 / 5.0, "{found:?}");
         // These are `bounceForward` twice and `killSprite` once. The guards do not count.
         assert_eq!((found.density, found.mechanics), (3.0 / 5.0, 2), "{found:?}");
         // Nothing can be lost, and the level is deterministic without a beetle.
         assert_eq!((found.drama, found.lead_changes, found.chance), (0.0, 0.0, 0.0), "{found:?}");
-        // The win is seen 8, 4, 4, 2 and 1 tick ahead.
+        // The win is seen 8, 4, 4, 2 and 1 ticks ahead.
         assert_eq!(found.sight, 3.8, "{found:?}");
     }
 
@@ -264,7 +269,8 @@ mod tests {
 
     #[test]
     fn danger_raises_drama_and_shortens_planning_depth() {
-        // The wasp is ahead of an avatar that stays in the row. Below, the crate is one push away from its pit.
+        // In the wasp's row, the wasp leads against an avatar that stays there. In the row below, the crate
+        // is one push away from its pit.
         let danger = check("wwwwwwwww\nwA     sw\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);
         assert!(danger.drama > 0.9, "{danger:?}");
         let calm = check("wwwwwwwww\nwA      w\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);

@@ -1,4 +1,4 @@
-//! A user-written reference to a game rule: `box hole`, `box hole killSprite`, or the rule's line number.
+//! A user's reference to a rule of a game: `box hole`, `box hole killSprite`, or the rule's line number.
 
 use crate::evidence::Line;
 use crate::measures::EDGE;
@@ -9,12 +9,12 @@ use itertools::Itertools;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleRef {
     text: String,
-    /// The indices of the lines in the description, each with the pair that must meet. `None` allows any of the line's
-    /// partners.
+    /// The indices of the lines in the description, each with the pair that must meet, or `None` to allow any
+    /// of the line's partners.
     meant: Vec<(usize, Option<Pair>)>,
 }
 
-/// The sprite that is acted upon, and its partner; `None` for the screen edge.
+/// The sprite that is acted upon, and its partner, or `None` for the screen edge.
 type Pair = (SpriteType, Option<SpriteType>);
 
 /// The error for a name that does not refer to any rule.
@@ -31,14 +31,16 @@ pub struct RuleRefError {
 const MAX_LISTED: usize = 4;
 
 impl RuleRef {
-    /// Parses a rule name. The name is either the number of the rule's line in the InteractionSet, counted from 1, or
-    /// the names of the two sprites. Each sprite is named as in the line, or by a type below it. The effect is needed
-    /// if the two sprites meet in more than one way. `box hole > killSprite` is equivalent to `box hole killSprite`.
-    /// If the two sprites occur only in the opposite order, the name refers to that interaction.
+    /// Parses a rule name, which is either the number of the rule's line in the InteractionSet, counted from
+    /// 1, or the names of the two sprites. Each sprite is named as on the line, or by a type below it.
+    ///
+    /// If the two sprites meet in more than one way, the effect must follow: `box hole killSprite`, or
+    /// equivalently `box hole > killSprite`. If the two sprites occur only in the opposite order, the name
+    /// refers to that interaction.
     ///
     /// # Errors
-    /// Returns an error if the number is too large, or if the game does not contain the interaction, sprite or effect.
-    /// The message suggests alternatives.
+    /// Returns an error if the number is too large, or if the game does not contain such an interaction,
+    /// sprite or effect. The message suggests alternatives.
     pub fn parse(analysis: &Analysis, text: &str) -> Result<RuleRef, RuleRefError> {
         let game = analysis.game();
         let wrong = |reason: String| Err(RuleRefError { text: text.to_owned(), reason });
@@ -148,7 +150,7 @@ impl Watch for MeetingRecorder<'_> {
     }
 }
 
-/// Splits a written rule into its sprites and its effect. Without `>`, a third word is the effect.
+/// Splits a written rule into its sprites and its effect. If there is no `>`, a third word is the effect.
 fn words<'a>(analysis: &Analysis, text: &'a str) -> (Vec<&'a str>, Option<&'a str>) {
     if let Some((sprites, effect)) = text.split_once('>') {
         return (sprites.split_whitespace().collect(), effect.split_whitespace().next());
@@ -218,7 +220,7 @@ mod tests {
         check("crate pit", &[3, 4]);
         check("crate pit killSprite", &[3]);
         check("crate pit > killsprite", &[3]);
-        // The pairs are in the opposite order, of a type below the written one, and at the edge.
+        // These pairs are in the opposite order, name a type below the written one, or are at the edge.
         check("pit crate", &[3, 4]);
         check("barrel avatar", &[1]);
         check("avatar EOS", &[5]);

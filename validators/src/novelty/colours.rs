@@ -1,6 +1,6 @@
-//! Colour refinement: distinguishes nodes by their neighbours (Weisfeiler and Leman 1968).
+//! Colour refinement: tells nodes apart by their neighbours (Weisfeiler and Leman 1968).
 //!
-//! A colour is a hash of the structure that it represents, so that the colours of different games can be compared.
+//! A colour is a hash of the structure that it represents, so colours are comparable across games.
 
 use super::graph::RuleGraph;
 use base::Digest;
@@ -17,7 +17,8 @@ pub(super) fn colour(bytes: &[u8]) -> Colour {
 
 /// A graph's adjacency lists, for refinement.
 pub(super) struct Neighbours {
-    /// For each node, its neighbours, each with the role that links the two nodes, including the link's direction.
+    /// For each node, its neighbours, each with the role of the link between the two nodes, which includes
+    /// its direction.
     of: Vec<Vec<(Colour, usize)>>,
 }
 
@@ -50,7 +51,7 @@ impl Neighbours {
         self.of.iter().enumerate().map(&mut refine).collect()
     }
 
-    /// Refines the colours until no further nodes are distinguished.
+    /// Refines the colours until another round distinguishes no further nodes.
     pub(super) fn settled(&self, mut colours: Vec<Colour>) -> Vec<Colour> {
         let mut kinds = count(&colours);
         loop {

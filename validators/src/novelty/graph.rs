@@ -1,5 +1,5 @@
-//! The rules of a game as a graph: nodes for types, rules and the objects that level characters place, and edges from
-//! each rule to the types named in it.
+//! A game's rules as a graph. The nodes are types, rules and the objects that level characters place, and the
+//! edges lead from each rule to the types that it names.
 
 use crate::measures::EffectFamily;
 use engine::{Analysis, Clauses, Game, InteractionClause, Party, SpriteType, Term, Terms, TypeClause};
@@ -22,7 +22,7 @@ impl Grain {
 /// A node in the graph.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    /// The labels, by grain, without type names.
+    /// The label at each grain, without type names.
     pub(super) labels: [String; 3],
     /// The node's weight in the distance.
     pub(super) weight: u32,
@@ -36,12 +36,12 @@ pub(super) struct RuleGraph {
     pub(super) nodes: Vec<Node>,
     /// The number of type nodes.
     pub(super) types: usize,
-    /// The game's types represented by the type nodes.
+    /// The game's types that the type nodes represent.
     pub(super) stypes: Vec<SpriteType>,
 }
 
-/// The weights of nodes. Rules found in nearly every game weigh least: blocking at walls and at the screen edge, and
-/// the placement of a character. Terminations weigh most.
+/// The weights of nodes. Rules that nearly every game has weigh least: blocking at walls and at the screen
+/// edge, and what a character places. Terminations weigh most.
 const FRAME: u32 = 1;
 const TYPE: u32 = 2;
 const RULE: u32 = 4;
@@ -103,9 +103,9 @@ impl RuleGraph {
                 sets.push(set);
             }
         }
-        // A placement that is included in a different placement is left out. `w` and `A` place only a wall and an
-        // avatar in every game that gives them no other meaning, so a different choice of characters would otherwise
-        // give a different form.
+        // A placement that another placement includes is left out. In every game that gives `w` and `A` no
+        // other meaning, they place just a wall and an avatar. If such placements counted, the choice of
+        // characters could change the form.
         let within = |set: &[usize], other: &[usize]| {
             set.len() < other.len() && set.iter().all(|at| other.contains(at))
         };
@@ -147,8 +147,8 @@ fn used(clauses: &Clauses) -> Vec<bool> {
     used
 }
 
-/// Returns `true` for a rule found in nearly every game: blocking without a price or reward, or handling of the screen
-/// edge.
+/// Returns `true` for a rule that nearly every game has: blocking without a price or reward, or handling of
+/// the screen edge.
 fn is_frame(clause: &InteractionClause) -> bool {
     let blocks = EffectFamily::of(clause.effect) == Some(EffectFamily::Block);
     clause.second == Party::Edge || (blocks && clause.terms.is_empty())
@@ -180,11 +180,11 @@ fn labels_of_interaction(clause: &InteractionClause) -> [String; 3] {
     ]
 }
 
-/// The numbers that change the kind of a rule by being present and positive.
+/// The numeric parameters that change a rule's kind if they are present and positive.
 const COMPARED_PARAMETERS: [&str; 5] =
     ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
 
-/// Writes the parameters in key order, each after a space. Types are represented by edges, and are omitted.
+/// Writes the parameters in key order, each after a space. Omits types, which edges represent.
 fn spell(terms: &Terms, grain: Grain) -> String {
     let mut spelled: Vec<String> = Vec::new();
     for (key, term) in terms {

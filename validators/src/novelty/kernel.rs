@@ -1,11 +1,12 @@
 //! The similarity of two rule graphs: a Weisfeiler–Lehman kernel.
 //!
-//! After each of several rounds of colour refinement, the node colours are counted. A colour after h rounds represents
-//! the subtree of depth h below a node (Shervashidze et al., "Weisfeiler–Lehman graph kernels", JMLR 12, 2011). Counts
-//! are compared by intersection, as in the optimal-assignment form of the kernel (Kriege, Giscard and Wilson, "On
-//! valid optimal assignment kernels", NIPS 2016). With products of counts, ten walls would outweigh everything else.
-//! The intersection is divided by the union, which makes the distance a metric on the counts. The distance is 0 only
-//! for equal counts.
+//! The node colours are counted after each of several rounds of colour refinement. A colour after h rounds
+//! represents the subtree of depth h below a node (Shervashidze et al., "Weisfeiler–Lehman graph kernels",
+//! JMLR 12, 2011). Counts are compared by intersection, as in the optimal-assignment form of the kernel
+//! (Kriege, Giscard and Wilson, "On valid optimal assignment kernels", NIPS 2016).
+//!
+//! With products of counts instead, ten walls would outweigh everything else. The intersection is divided by
+//! the union, which makes the distance a metric on the counts: it is 0 only for equal counts.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};

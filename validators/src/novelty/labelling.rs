@@ -1,22 +1,26 @@
-//! Canonical labelling: produces the same text for all games that differ only in names and order.
+//! Canonical labelling, which produces the same text for all games that differ only in names and order.
 //!
-//! Colours are refined. While several types share a colour, one of them is individualized and the colours are refined
-//! again. The smallest of all texts produced in this way is the canonical text (McKay and Piperno, "Practical graph
-//! isomorphism, II", 2014). Types that can be exchanged without changing the rules, and branches found equivalent to
-//! an earlier branch, are individualized only once.
+//! After the colours are refined, one of the types that still share a colour is individualized, and the
+//! colours are refined again, until no colour is shared. The smallest of all texts produced in this way is
+//! the canonical text (McKay and Piperno, "Practical graph isomorphism, II", 2014). Types that can be
+//! exchanged without changing the rules, and branches found equivalent to an earlier branch, are
+//! individualized only once.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 use itertools::Itertools;
 
-/// The maximum number of texts to write. Games need far fewer texts if their types are distinguished by colours or can
-/// be exchanged. Beyond the limit, the first type with a given colour represents all types with this colour. The
-/// result is the same if these types are equivalent, which is the case unless the rule graph is adversarial. In an
-/// adversarial graph, two versions of the same rules may get different texts. Different rules never get the same text.
+/// The maximum number of texts to write. Games whose types are distinguished by colours, or can be exchanged,
+/// need far fewer texts.
+///
+/// Beyond the limit, the first type with a given colour represents all types with this colour. The result is
+/// the same if these types are equivalent, as they are unless the rule graph is adversarial. In an
+/// adversarial graph, two versions of the same rules may get different texts. Different rules never get the
+/// same text.
 const MAX_LABELLINGS: usize = 200;
 
-/// The canonical text, with the types in text order. The text is equal for all graphs that differ only in names and
-/// order.
+/// The canonical text, with the types in text order. It is the same for all graphs that differ only in names
+/// and order.
 #[derive(Clone, Debug)]
 pub(super) struct Labelled {
     pub(super) text: String,
@@ -25,13 +29,14 @@ pub(super) struct Labelled {
 }
 
 impl Labelled {
-    /// Returns the labelling with the smaller text, or the first labelling if the texts are equal.
+    /// Returns the labelling with the smaller text, or `self` if the texts are equal.
     fn min(self, other: Labelled) -> Labelled {
         if other.text < self.text { other } else { self }
     }
 }
 
-/// Returns the canonical text of a graph. Cost: about 20 µs per node, and at worst [`MAX_LABELLINGS`] times that.
+/// Returns the canonical text of a graph. Cost: about 20 µs per node, and up to [`MAX_LABELLINGS`] times
+/// that.
 pub(super) fn canonical(graph: &RuleGraph) -> Labelled {
     let neighbours = Neighbours::of(graph);
     let first = graph.nodes.iter().map(|node| colour(node.labels[Grain::Fine as usize].as_bytes())).collect();
@@ -69,8 +74,8 @@ impl Labelling<'_> {
         best
     }
 
-    /// Returns the types with the first colour shared by several types, without types that can be exchanged for an
-    /// earlier type.
+    /// Returns the types with the first colour that several types share, without types that can be exchanged
+    /// for an earlier one.
     fn first_cell(&self, colours: &[Colour]) -> Vec<usize> {
         let types = &colours[..self.graph.types];
         let Some(&twice) = types.iter().duplicates().min() else { return Vec::new() };

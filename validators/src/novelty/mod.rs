@@ -11,8 +11,8 @@ use engine::{Game, SpriteType};
 use graph::RuleGraph;
 use kernel::Features;
 
-/// The rules of a game without names, symbols, colours and order. Two games are the same game in different themes if
-/// their forms have the same [`digest`](GameForm::digest).
+/// The rules of a game without names, symbols, colours or order. Two games are the same game in different
+/// themes if their forms have the same [`digest`](GameForm::digest).
 ///
 /// The following parts of a game's text do not count:
 ///
@@ -22,7 +22,7 @@ use kernel::Features;
 /// - whether a parameter is inherited, written, or written with its default value;
 /// - types without sprites that only serve as parents and do not have a class of their own;
 /// - lines that are not enabled;
-/// - `wall` and `avatar`, if neither the file declares them nor a rule names them.
+/// - `wall` and `avatar`, if the file does not declare them and no rule names them.
 ///
 /// Games whose rules run in a different order can play differently and yet share a form. Such games count as one game.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub struct GameForm {
     features: Features,
 }
 
-/// The distance below which two games are duplicates. Duplicates have the same rules with different numbers or in a
+/// The distance below which two games count as duplicates: the same rules with different numbers or in a
 /// different theme.
 pub const NEAR: f64 = 0.3;
 
@@ -43,14 +43,15 @@ impl GameForm {
         GameForm { digest, features: Features::of(&graph) }
     }
 
-    /// Returns the digest: equal for games that differ only in parts that do not count. Different rules never share a
-    /// digest. The converse holds except for games with many types that look alike but are not equivalent, as the
+    /// Returns the digest, which depends only on the parts that count. Different rules never share a digest.
+    /// Equal rules always do, except in games with many types that look alike but are not equivalent, as the
     /// source of `labelling` explains.
     pub fn digest(&self) -> Digest {
         self.digest
     }
 
-    /// Returns the index and distance of the nearest form. Ties go to the first form. Cost: O(rules) per form.
+    /// Returns the index and distance of the nearest form. Ties go to the earlier form. Cost: O(rules) per
+    /// form.
     pub fn nearest<'a>(&self, forms: impl IntoIterator<Item = &'a GameForm>) -> Option<(usize, f64)> {
         let apart = forms.into_iter().map(|form| distance(self, form)).enumerate();
         apart.reduce(|best, next| if next.1 < best.1 { next } else { best })
@@ -68,10 +69,10 @@ pub fn distance(one: &GameForm, two: &GameForm) -> f64 {
     one.features.distance(&two.features)
 }
 
-/// Returns the types of a game in a canonical order, independent of names and file order. In games with equal forms,
-/// types at the same position correspond to each other. Types that can be exchanged without changing the rules may
-/// trade positions. Types not named in any rule or placed by any character are omitted. Costs as much as
-/// [`GameForm::of`].
+/// Returns the types of a game in a canonical order, independent of names and file order. In games with equal
+/// forms, types at the same position correspond to each other. Types that can be exchanged without changing
+/// the rules may trade positions. Types that no rule names and no character places are omitted. Costs as much
+/// as [`GameForm::of`].
 pub fn canonical_types(game: &Game) -> Vec<SpriteType> {
     let graph = RuleGraph::of(game);
     labelling::canonical(&graph).order.into_iter().map(|at| graph.stypes[at]).collect()
@@ -105,8 +106,8 @@ mod tests {
         let ring = chase(&[1, 2, 3, 4, 5, 0]);
         assert_eq!(ring.digest(), chase(&[3, 4, 0, 5, 2, 1]).digest());
         assert_eq!(ring.digest(), chase(&[5, 0, 1, 2, 3, 4]).digest());
-        // Colours alone do not distinguish two rings of three from one ring of six. The digest distinguishes them, and
-        // the distance does not.
+        // Colours alone do not distinguish two rings of three from one ring of six. The digest distinguishes
+        // them, but the distance does not.
         let rings = chase(&[1, 2, 0, 4, 5, 3]);
         assert_ne!(ring.digest(), rings.digest());
         assert_eq!(distance(&ring, &rings), 0.0);

@@ -6,12 +6,12 @@ use base::Seed;
 use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
-/// A greedy player that chooses the action with the most progress towards a win. Among equally good actions,
-/// it chooses the action that brings the avatar closest to a sprite that a win needs. The player looks one
-/// tick ahead, so it neither plans nor waits, and it notices a danger only in a neighbouring cell. A level
-/// that the player wins requires nothing but walking.
+/// A greedy player that chooses the action that makes the most progress towards a win. Among equally good
+/// actions, it chooses the one that brings the avatar closest to a sprite that a win needs. The player looks
+/// one tick ahead, so it neither plans nor waits, and it notices a danger only in a neighbouring cell. A
+/// level that the player wins requires nothing but walking.
 ///
-/// With `slips`, the player is careless: it presses a random key in a fraction `slips` of the ticks.
+/// With `slips`, the player is careless: it presses a random key in the fraction `slips` of its ticks.
 ///
 /// Cost: one forward-model call per available action, regardless of the budget.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -27,7 +27,7 @@ pub struct NearestGoal {
 }
 
 impl NearestGoal {
-    /// Creates a player that presses a random key in a fraction `slips` of the ticks, with its own random
+    /// Creates a player that presses a random key in the fraction `slips` of its ticks, with its own random
     /// streams.
     pub fn new(slips: f64, seed: Seed) -> NearestGoal {
         let (streams, distances) = (Streams::new(seed), Distances::default());
@@ -66,5 +66,5 @@ impl Planner for NearestGoal {
     }
 }
 
-/// The scale of the noise that decides between equal actions.
+/// The scale of the noise that breaks ties between actions.
 const TIE: f64 = 1e-6;

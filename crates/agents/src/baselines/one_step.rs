@@ -15,7 +15,7 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct OneStepConfig {
-        /// The evaluation of the next states.
+        /// The heuristic that evaluates the next states.
         pub heuristic: Heuristic = Heuristic::Simple,
         /// The number of times to try each action, at least 1. The results of all tries are averaged. The
         /// reference tries each action once, so a single random draw decides.

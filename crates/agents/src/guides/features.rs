@@ -4,7 +4,7 @@ use engine::analysis::{Analysis, Motion, StateAbstraction};
 use engine::{Direction, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// The number of distinguished amounts of a resource, and of distinguished sprite counts.
+/// The number of amounts of a resource that features distinguish, and the number of sprite counts.
 const AMOUNTS: usize = 16;
 
 /// The atoms of all states reachable from a start state. An atom is a fact such as "a sprite of this type is
@@ -18,7 +18,7 @@ pub(crate) struct Features {
     /// The number of avatar types, which come first in `types`. Their orientation counts too, because some avatars turn before
     /// they move.
     avatars: usize,
-    /// The types whose number of sprites is a feature.
+    /// The types whose sprite count is a feature.
     numbers: Vec<u16>,
     resources: Vec<u16>,
 }
@@ -42,8 +42,8 @@ impl Features {
     }
 
     /// Returns the features from [`Features::of`], but without the positions of types that move by themselves
-    /// or soon vanish. Their positions change constantly, regardless of the player. Such types count only by
-    /// their number of sprites.
+    /// or soon vanish. Their positions change constantly, regardless of the player. Only the sprite counts of
+    /// such types are features.
     pub(crate) fn without_moving_types(
         analysis: &Analysis,
         abstraction: &StateAbstraction,

@@ -2,8 +2,8 @@
 //!
 //! The measure has two parts. *Progress* counts the sprites that must still disappear or appear for a winning
 //! termination, and the keys that the avatar holds. *Closeness* is the proximity of the next useful target,
-//! measured around obstacles. Closeness is below 1, so that taking a target is worth more than standing in
-//! front of the next target.
+//! measured around obstacles. Closeness stays below 1, so that taking a target is worth more than standing in
+//! front of the next one.
 
 use base::Digest;
 use engine::analysis::{Attainable, Fate, Goal, Harm, Key, Removal, Touch};
@@ -27,7 +27,7 @@ pub(crate) struct GoalGuide {
     pushes: Vec<(SpriteType, SpriteType)>,
 }
 
-/// The roles of types for avatars of one type.
+/// The roles of the types in a game for avatars of one type.
 #[derive(Clone, Debug)]
 struct Targets {
     avatar: SpriteType,
@@ -82,7 +82,8 @@ impl GoalGuide {
         self.digest == game.digest()
     }
 
-    /// Returns a state's progress: minus one for each missing sprite, plus up to one for the held keys.
+    /// Returns a state's progress: minus one for each sprite that must still disappear or appear, plus up to
+    /// one for the held keys.
     pub(crate) fn progress(&self, state: &State) -> f64 {
         let missing = self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min();
         let avatar = state.avatar_type();
@@ -107,7 +108,7 @@ impl GoalGuide {
         self.flood(targets, state, at, distances);
         let (columns, rows) = state.size();
         let mut nearest = f64::INFINITY;
-        // The distance of a cell that cannot be entered is that of its nearest neighbour plus one.
+        // The distance of a cell that cannot be entered is its nearest neighbour's distance plus one.
         let mut consider = |place: (i32, i32), further: f64, distances: &Distances| {
             let (x, y) = cell(state, place);
             let reached = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)].into_iter().filter_map(|(dx, dy)| {

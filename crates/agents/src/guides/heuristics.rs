@@ -1,5 +1,5 @@
-//! Evaluations of a state by its observable features: the reference's two heuristics (`spec/04` §9),
-//! including their quirks.
+//! State evaluations from observable features: the reference's two heuristics (`spec/04` §9), including their
+//! quirks.
 
 use engine::{Category, Game, Outcome, SpriteType, State};
 use serde::{Deserialize, Serialize};
@@ -49,8 +49,8 @@ fn simple(game: &Game, root: &State, state: &State) -> f64 {
 
 /// Summarises the observed sprites of one category.
 struct Sighting {
-    /// `true` if a type in the category existed at the root or exists now. The reference's copies remember
-    /// the original's types.
+    /// `true` if a type in the category existed at the root or exists now. In the reference, a copied state
+    /// remembers the types of the original.
     known: bool,
     count: usize,
     /// The squared distance in pixels from the avatar to the nearest sprite of the last type that has any

@@ -1,5 +1,5 @@
-//! Random search: the reference's `sampleRS` (`spec/04` §4), a baseline for evolution with an equal number
-//! of calls.
+//! Random search: the reference's `sampleRS` (`spec/04` §4), a baseline for evolution with the same number of
+//! calls.
 
 use super::sequences::Sequences;
 use crate::guides::heuristics::Heuristic;
@@ -15,7 +15,7 @@ base::with_defaults! {
     pub struct RandomSearchConfig {
         /// The length of a sequence in ticks.
         pub horizon: usize = 10,
-        /// The evaluation of the final state of a sequence.
+        /// The heuristic that evaluates a sequence's final state.
         pub heuristic: Heuristic = Heuristic::WinScore,
     }
 }

@@ -23,10 +23,10 @@ base::with_defaults! {
         pub horizon: usize = 10,
         /// The number of genes to redraw in each child, possibly with the same value.
         pub mutations: usize = 1,
-        /// The evaluation of the final state of a plan.
+        /// The heuristic that evaluates a plan's final state.
         pub heuristic: Heuristic = Heuristic::WinScore,
-        /// `true` to keep the previous decision's plans, shifted by one tick and with a random last action.
-        /// The reference begins each decision with random plans instead. Off by default.
+        /// `true` to start from the previous decision's plans, shifted by one tick and with a random last
+        /// action. The reference begins each decision with random plans instead. Off by default.
         pub shift: bool = false,
     }
 }
@@ -84,7 +84,7 @@ impl Rhea {
         population
     }
 
-    /// Creates a child of two different plans. The child inherits each gene from either plan, and then a few
+    /// Creates a child of two different plans. Each gene comes from one of the two plans, and then a few
     /// genes are redrawn. If there is only one plan, creates a mutant of that plan. The reference's
     /// tournament is as large as the set of parents, so it does not select.
     fn child(
@@ -123,8 +123,7 @@ impl Planner for Rhea {
         let mut sequences = Sequences::new(game, state, heuristic, budget, self.scratch.take());
         let mut population = self.first(&mut sequences, budget, &mut decision);
         while !sequences.is_spent() {
-            // The best plan stays. The number of children equals the number of other plans, but is at least
-            // one.
+            // The best plan survives. Children replace all other plans, and there is at least one child.
             let mut next = Vec::with_capacity(population.len());
             for _ in 1..population.len().max(2) {
                 if sequences.is_spent() {
@@ -135,8 +134,8 @@ impl Planner for Rhea {
                 next.push(Individual { genes, value });
             }
             let size = population.len();
-            // If the budget ran out, some plans stay that would have been replaced. The remaining plans are
-            // no better than the best.
+            // If the budget ran out, some plans survive that would otherwise have been replaced. None of them
+            // is better than the best plan.
             population.splice(1..(1 + next.len()).min(size), next);
             best_first(&mut population);
             population.truncate(size);

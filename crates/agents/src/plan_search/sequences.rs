@@ -54,8 +54,8 @@ impl<'a> Sequences<'a> {
         self.alphabet[usize::from(gene)]
     }
 
-    /// Returns the value of the state after a sequence, or at the end of the episode. If the budget runs out
-    /// earlier, returns the value of the state at that point, like the reference.
+    /// Returns the value of the state after a sequence, or at the end of the episode if it comes first. If
+    /// the budget runs out earlier, returns the value of the state at that point, as the reference does.
     pub(crate) fn value(&mut self, genes: &[Gene], decision: &mut Decision) -> f64 {
         decision.fork_with_random_future(&mut self.copy, self.state);
         for &gene in genes {

@@ -7,9 +7,8 @@ use engine::State;
 use engine::analysis::Analysis;
 
 /// Searches for the shortest win (Hart, Nilsson and Raphael 1968). Expands states in ascending order of a
-/// lower bound on the length, in ticks, of a win through the state. The bound is the number of ticks to
-/// reach the state plus the [`Pushes`] that the state needs. Without pushes, the search is a breadth-first
-/// search.
+/// lower bound on the number of ticks in a win through the state. The bound is the number of ticks to reach
+/// the state plus the [`Pushes`] that it needs. Without pushes, this is a breadth-first search.
 ///
 /// A proof requires a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost: at
 /// most the number of states times the number of actions, in calls. Each call costs O(size of a state).
@@ -28,8 +27,8 @@ pub(crate) fn a_star_until(
     Tree::new(analysis, pushes, start, limits).until(stopped).search(|_, _| Buckets::default())
 }
 
-/// Open states in buckets by their estimate, a small number of ticks. Among states with equal estimates, the
-/// most recent comes first.
+/// Open states in buckets, one for each estimate in ticks. Among states with equal estimates, the most recent
+/// comes first.
 #[derive(Default)]
 struct Buckets {
     buckets: Vec<Vec<(NodeId, StoredState)>>,
@@ -40,8 +39,9 @@ impl Frontier for Buckets {
     const SHORTEST: bool = true;
 
     fn push(&mut self, _: &State, node: NodeId, depth: u32, least: u32, kept: StoredState) {
-        // Every push takes a tick, every tick has at most one push, and at least one tick is needed. So the estimate never falls
-        // by more than the tick that passes, and the shortest path to each state is known when the state is expanded.
+        // A tick has at most one push, and a win needs at least one more tick. The remaining estimate
+        // therefore never falls by more than one per tick, and the shortest path to a state is known when it
+        // is expanded.
         let estimate = (depth + least.max(1)) as usize;
         if self.buckets.len() <= estimate {
             self.buckets.resize_with(estimate + 1, Vec::new);

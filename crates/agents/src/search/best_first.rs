@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 /// disappear or appear, and the score.
 ///
 /// Unlike in the paper, states that are not novel are not pruned. The search is therefore complete: if it
-/// finds no win, no win exists. Conditions and costs are the same as for [`a_star`](super::a_star).
+/// finds no win, none exists. The conditions and costs are those of [`a_star`](super::a_star).
 pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     best_first_until(analysis, pushes, start, limits, &|| false)
 }
@@ -44,7 +44,7 @@ struct Queue<'a> {
     features: Features,
     /// The atoms seen so far, by distance from the goal and score.
     seen: BTreeMap<(u32, i64), Atoms>,
-    /// The open states by rank. Nodes with equal ranks are expanded in the order of their discovery.
+    /// The open states by rank. Nodes with equal ranks are expanded in order of discovery.
     open: BTreeMap<(Rank, NodeId), StoredState>,
 }
 
@@ -62,7 +62,7 @@ impl Frontier for Queue<'_> {
         let mut new = 0;
         self.features.each(state, |atom| new += u32::from(seen.insert(atom)));
         let rank = (u32::from(new == 0), missing.saturating_add(least), -score, depth);
-        // A node that is added again has a smaller depth, so no entry is replaced.
+        // A node that is added again has a smaller depth and thus a different rank, so no entry is replaced.
         self.open.insert((rank, node), kept);
     }
 

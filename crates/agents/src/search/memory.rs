@@ -1,8 +1,8 @@
 //! A limit on the total memory for all systematic searches in the process.
 //!
-//! The limit is useful if many searches run at the same time. A search that outgrows [`FREE`] then waits
-//! until enough memory is available for its own limit. The results, and everything derived from the results,
-//! are therefore the same as without the process-wide limit.
+//! The limit is useful if many searches run at the same time: a search that outgrows [`FREE`] waits until
+//! enough memory is available for its own limit. All results are therefore the same as without the
+//! process-wide limit.
 
 use crate::play::Stopped;
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -10,9 +10,10 @@ use std::time::Duration;
 
 /// The number of bytes that each search may use at any time.
 const FREE: usize = 64 << 20;
-/// The number of bytes that a process uses in addition to its searches: for rules, levels, episodes and results.
+/// The number of bytes that a process uses besides its searches: for rules, levels, episodes and results.
 const REST: usize = 256 << 20;
-/// The memory in bytes for the largest usual search. See [`SearchLimits::calls`](super::SearchLimits::calls).
+/// The number of bytes that the largest typical search needs. See
+/// [`SearchLimits::calls`](super::SearchLimits::calls).
 const LARGEST: usize = 1 << 30;
 
 /// The memory available to searches that outgrow [`FREE`].
@@ -31,7 +32,7 @@ static GIVEN_BACK: Condvar = Condvar::new();
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{threads} search threads need at least {} MiB", .least >> 20)]
 pub struct TooLittle {
-    /// The number of threads.
+    /// The number of threads that may search at the same time.
     pub threads: usize,
     /// The minimum limit for this number of threads, in bytes.
     pub least: usize,
@@ -42,8 +43,7 @@ pub struct TooLittle {
 ///
 /// # Errors
 ///
-/// Returns an error if the limit is too small for one search with a gibibyte and small searches on all
-/// threads.
+/// Returns an error if the limit is too small for one search of a gibibyte and small searches on all threads.
 pub fn bound(bytes: usize, threads: usize) -> Result<(), TooLittle> {
     let small = FREE.saturating_mul(threads).saturating_add(REST);
     let least = small.saturating_add(LARGEST - FREE);
@@ -63,7 +63,7 @@ pub(super) struct Lease {
 }
 
 impl Lease {
-    /// Reserves memory for a search that uses `bytes` and may use `limit`, and waits for the memory if
+    /// Reserves memory for a search that uses `bytes` bytes and may grow to `limit`, waiting for memory if
     /// necessary. Does not wait if the search is small or there is no process-wide limit. Returns `false` if
     /// the search was stopped while it waited.
     pub(super) fn grow(&mut self, bytes: usize, limit: usize, stopped: Stopped<'_>) -> bool {
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// Must be the only test that limits the memory, because the limit applies to the whole process.
+    /// No other test may limit the memory, because the limit applies to the whole process.
     #[test]
     fn large_searches_take_turns() {
         let never = || false;

@@ -1,10 +1,10 @@
-//! Systematic search for wins. From a state with a deterministic future, the search proves the minimum
-//! number of ticks for a win, or that the level cannot be won. In other games, the search explores one
-//! random future, as if the player foresaw all randomness, and proves nothing.
+//! Systematic search for wins. From a state with a deterministic future, the search proves the minimum number
+//! of ticks in a win, or proves that the level cannot be won. In other games, the search explores one random
+//! future, as if the player foresaw all randomness, and proves nothing.
 //!
 //! States are distinguished by [`engine::analysis::StateAbstraction`] and stored as differences from the
 //! start ([`engine::Packed`]). The cost is counted in forward-model calls. A search stops at the first win,
-//! after all reachable states, or at its limits. Only the second case proves that no win exists.
+//! when it has covered all reachable states, or at its limits. Only full coverage proves that no win exists.
 
 mod a_star;
 mod best_first;
@@ -47,9 +47,8 @@ pub struct Searched {
     pub calls: u64,
     /// The number of distinct states found.
     pub states: u64,
-    /// The actions that lead to the state closest to a win: the state in which the minimum number of sprites
-    /// must still disappear or appear. If several states are equally close, the first of these states
-    /// counts.
+    /// The actions that lead to the state closest to a win: the state in which the fewest sprites must still
+    /// disappear or appear. If several states are equally close, the first one found counts.
     pub nearest: Vec<Action>,
 }
 

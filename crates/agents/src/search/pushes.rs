@@ -1,20 +1,21 @@
-//! A lower bound on the pushes that a state needs for a win. A box in a corner, for example, can never be
-//! pushed to its goal.
+//! A lower bound on the number of pushes between a state and a win. A box in a corner, for example, can never
+//! be pushed to its goal.
 
 use base::Seed;
 use engine::analysis::{Analysis, Condition, EffectSummary, Encounter, Motion, Precondition, Reach, Side};
 use engine::{Level, SpriteClass, SpriteType, State};
 use smallvec::SmallVec;
 
-/// The pushes that a level's pushable sprites need.
+/// Lower bounds on the number of pushes that a level's pushable sprites need.
 ///
 /// Each bound is for one cell and one type that moves only by being pushed. The bound is the minimum number
 /// of pushes after which a rule may remove the sprite or turn it into a sprite that may stay. The bounds
 /// generalise the distances and the "simple deadlocks" of Sokoban solvers (Junghanns and Schaeffer 2001,
 /// "Sokoban: enhancing general single-agent search methods using domain knowledge"), derived from the rules.
+///
 /// Each sprite is treated as if it were alone on the board, and everything else is assumed to be as helpful
-/// as [`Reach`] allows. No state therefore needs fewer pushes than the bound, and a state reported as dead
-/// cannot be won.
+/// as [`Reach`] allows. So no state needs fewer pushes than the bound, and a state reported as dead cannot be
+/// won.
 #[derive(Clone, Debug, Default)]
 pub struct Pushes {
     columns: i32,
@@ -27,7 +28,7 @@ pub struct Pushes {
 struct Need {
     /// The number of sprites that may remain.
     limit: usize,
-    /// The counted types, each with the number of pushes that its sprites need, by cell.
+    /// The counted types, each with the number of pushes that a sprite needs from each cell.
     pushes: Vec<(SpriteType, Vec<u16>)>,
 }
 
@@ -63,7 +64,7 @@ impl Need {
                 needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
             }
         }
-        // The sprites that need the most pushes may be the sprites that remain.
+        // The sprites that may remain are assumed to be the ones that need the most pushes.
         if self.limit > 0 {
             needed.sort_unstable();
             needed.truncate(needed.len().saturating_sub(self.limit));
@@ -73,7 +74,7 @@ impl Need {
     }
 }
 
-/// Computes the bounds. Returns `None` if the rules cannot be modelled, because no bound is certain then.
+/// Computes the bounds. Returns `None` if the rules cannot be modelled, because then no bound is certain.
 fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     let game = analysis.game();
     let is_modelled = !analysis.has_timed_effects() && steps_are_whole(analysis);
@@ -131,8 +132,8 @@ fn steps_are_whole(analysis: &Analysis) -> bool {
         })
 }
 
-/// Returns `true` if the level places an avatar that the game's analysis omits, with a character that the
-/// game does not use.
+/// Returns `true` if the level places, with a character that the game does not use, an avatar that the game's
+/// analysis omits.
 fn has_other_avatar(analysis: &Analysis, level: &Level) -> bool {
     let game = analysis.game();
     let is_other = |stype: &SpriteType| {
@@ -153,8 +154,8 @@ struct Board<'a> {
 }
 
 impl Board<'_> {
-    /// Returns the rules that involve a sprite of the type, with the sprite's side and the rule's index in
-    /// the tick.
+    /// Returns the rules that involve a sprite of the type, with the sprite's side in the rule and the rule's
+    /// index in the tick.
     fn rules_of(&self, stype: SpriteType) -> impl Iterator<Item = (usize, Side, &Encounter)> {
         let analysis = self.analysis;
         analysis.encounters().iter().enumerate().flat_map(move |(at, encounter)| {
@@ -164,7 +165,7 @@ impl Board<'_> {
         })
     }
 
-    /// Returns the index in the tick of the first rule by which a fixed sprite in the cell undoes the
+    /// Returns the index, within the tick, of the first rule by which a fixed sprite in the cell undoes the
     /// movement of a sprite of the type. Returns `None` if a later rule in the tick may push the sprite there
     /// again.
     fn thrown_back(&self, stype: SpriteType, cell: usize) -> Option<usize> {
@@ -226,7 +227,7 @@ impl Board<'_> {
         })
     }
 
-    /// Returns `true` if a sprite may meet, in the cell, the edge or the rule's partner on that side.
+    /// Returns `true` if a sprite in the cell may meet the rule's partner on that side, or the edge.
     fn may_be_met(&self, rule: &Encounter, side: Side, cell: usize) -> bool {
         let partner = match side {
             Side::First => rule.first,
@@ -290,8 +291,9 @@ impl Board<'_> {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Returns, by cell, the number of pushes after which a sprite of the type can cease to have a counted
-    /// type. The result is a fixed point, computed backwards from the possible final cells of the sprite.
+    /// Returns, for each cell, the minimum number of pushes after which a sprite of the type may no longer be
+    /// of a counted type. The result is a fixed point, computed backwards from the possible final cells of
+    /// the sprite.
     fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
         let cells = self.columns * self.rows;
         // The types that the sprite may turn into while it is still counted, by index.

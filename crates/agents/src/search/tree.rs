@@ -11,7 +11,7 @@ use engine::{Action, Outcome, Packed, SearchKey, State};
 use std::hash::{BuildHasherDefault, Hasher};
 use std::rc::Rc;
 
-/// The index of a node.
+/// A node's index in the tree.
 pub(super) type NodeId = u32;
 /// The initial state's node.
 const ROOT: NodeId = 0;
@@ -49,10 +49,11 @@ impl Hasher for KeyHasher {
 #[expect(clippy::disallowed_types, reason = "the map is used for look-ups and never iterated")]
 type Met = std::collections::HashMap<SearchKey, NodeId, BuildHasherDefault<KeyHasher>>;
 
-/// The maximum number of steps to replay to restore a state, which is rarely more expensive than storing the state whole.
+/// The maximum number of steps to replay to restore a state, chosen so that replaying is rarely more
+/// expensive than storing the whole state.
 const MAX_REPLAYED: usize = 7;
 
-/// An open state: a packed state, and the few actions that lead from it to the open state.
+/// An open state, stored as a packed earlier state and the few actions that lead from it to the open state.
 pub(super) struct StoredState {
     whole: Rc<Packed>,
     steps: ArrayVec<Action, MAX_REPLAYED>,
@@ -60,7 +61,7 @@ pub(super) struct StoredState {
 
 /// A search's open states, in order of expansion.
 pub(super) trait Frontier {
-    /// `true` if the first win found in this order is a shortest win.
+    /// `true` if the first win found in this order is the shortest possible.
     const SHORTEST: bool;
 
     /// Adds a state, with the number of ticks to reach the state and a lower bound on the pushes that it
@@ -100,7 +101,7 @@ const STOP_STRIDE: u64 = 256;
 
 /// The result of an expansion.
 enum Expanded {
-    /// The new successors were passed on.
+    /// The search goes on: the new successors were passed to the frontier.
     On,
     /// A successor wins.
     Won(NodeId),
@@ -119,8 +120,8 @@ impl<'a> Tree<'a> {
     ) -> Tree<'a> {
         let game = analysis.game();
         let abstraction = analysis.abstraction(start);
-        // Waiting and the actions of every avatar type are included, regardless of the avatar that the level
-        // starts with.
+        // Waiting and the actions of every avatar type are included, regardless of the level's initial
+        // avatar.
         let mut actions = vec![Action::Nil];
         for stype in game.sprite_types() {
             actions.extend(game.actions_of(stype));
@@ -153,8 +154,8 @@ impl<'a> Tree<'a> {
     }
 
     /// Expands states in the order of a frontier until one state wins, no state is open, or a limit is
-    /// reached. In stochastic games, keys include the random state and nothing is proven, so exhausting all
-    /// states yields [`Answer::OutOfCalls`].
+    /// reached. In stochastic games, keys include the random state and exhausting all states proves nothing,
+    /// so it yields [`Answer::OutOfCalls`].
     pub(super) fn search<F: Frontier>(mut self, frontier: impl FnOnce(&Tree<'_>, &State) -> F) -> Searched {
         let start = self.base.clone();
         if start.is_over() {

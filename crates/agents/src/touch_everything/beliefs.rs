@@ -3,8 +3,8 @@
 use engine::Observation;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The context of a contact: the avatar's type, and the resources that the avatar holds. A lock, for example,
-/// is worth another try with a key.
+/// The context of a contact: the avatar's type and the resources that it holds. A lock, for example, is worth
+/// another try with a key.
 pub(super) type Circumstances = (String, Vec<String>);
 
 /// The experience with one kind of sprite.
@@ -17,8 +17,8 @@ pub struct Experience {
     /// The number of contacts after which the score had risen, minus the number of contacts after which the
     /// score or the avatar's health had fallen.
     pub gain: i32,
-    /// The number of contacts after which there was one sprite fewer of this kind, the avatar held more
-    /// resources, or the avatar had changed its type.
+    /// The number of contacts after which there was one sprite fewer of this kind, or the avatar held more
+    /// resources or had changed its type.
     pub taken: u32,
     /// The number of contacts that pushed a sprite of this kind.
     pub pushed: u32,
@@ -57,7 +57,7 @@ pub(super) struct Beliefs {
 pub(super) struct Passed<'a> {
     pub(super) before: &'a Observation,
     pub(super) now: &'a Observation,
-    /// The touched kinds, and the kinds beside the avatar that may have come into contact with it.
+    /// The touched kinds, and kinds beside the avatar that may have touched it.
     pub(super) touched: &'a [String],
     pub(super) beside: &'a [String],
     /// The kinds that blocked the avatar, if the avatar faced them but did not move.
@@ -118,8 +118,8 @@ impl Beliefs {
         }
     }
 
-    /// Finds the likely killers: touched kinds that are not known to be harmless, or else the kinds beside
-    /// the avatar.
+    /// Records a death for the likely killers: touched kinds that are not known to be harmless, or else the
+    /// kinds beside the avatar.
     fn blame(&mut self, passed: &Passed<'_>, circumstances: &Circumstances) {
         let is_suspect = |kind: &&String| self.of(kind).is_none_or(|known| known.deaths >= known.survived);
         let touched: Vec<String> = passed.touched.iter().filter(is_suspect).cloned().collect();

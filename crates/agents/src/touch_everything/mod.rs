@@ -11,14 +11,14 @@ use beliefs::{Beliefs, Circumstances, Passed, circumstances};
 use engine::{Action, Game, Observation, State};
 use std::collections::BTreeMap;
 
-/// The number of presses towards a sprite after which it counts as touched, regardless of their effect.
+/// The number of key presses towards a sprite after which it counts as touched, even if they had no effect.
 const MOST_PRESSES: u32 = 4;
 
-/// The odds of a random step: one decision out of `RANDOM_STEP_ODDS`. Without random steps, the player could
+/// The odds of a random step: one in `RANDOM_STEP_ODDS` decisions. Without random steps, the player could
 /// repeat a fruitless path forever.
 const RANDOM_STEP_ODDS: usize = 16;
 
-/// The odds of pressing the use key: one decision out of `USE_ODDS`, until the key has had no effect
+/// The odds of pressing the use key: one in `USE_ODDS` decisions, until the key has had no effect
 /// `MOST_IDLE_USES` times in the same context.
 const USE_ODDS: usize = 6;
 const MOST_IDLE_USES: u32 = 3;
@@ -27,10 +27,10 @@ const MOST_IDLE_USES: u32 = 3;
 const DANGER_COST: u32 = 8;
 const PUSH_COST: u32 = 5;
 
-/// A player that does not know the rules. The player walks to the nearest kind of sprite that it has not
-/// touched yet, preferring motionless kinds. From its observations, the player learns which contacts end the
-/// game, bring a reward or block the avatar. The player takes rewarding kinds first and avoids deadly kinds.
-/// It retries a blocking kind when the avatar holds something different.
+/// A player that does not know the rules. It walks to the nearest kind of sprite that it has not touched yet,
+/// preferring motionless kinds. From its observations, it learns which contacts end the game, bring a reward
+/// or block the avatar. It takes rewarding kinds first, avoids deadly kinds, and retries a blocking kind when
+/// the avatar holds something different.
 ///
 /// The player sees only observations, even when used as a [`Planner`]. It uses no other information about the
 /// game or the state, and makes no forward-model calls. Its knowledge persists from level to level, until
@@ -43,7 +43,8 @@ pub struct TouchEverything {
     last: Option<(Observation, Vec<Action>)>,
     /// The number of presses towards each kind since it was last touched.
     presses: BTreeMap<String, u32>,
-    /// The number of presses of the use key after which nothing appeared, disappeared or changed, by context.
+    /// The number of presses of the use key that had no visible effect (nothing appeared, disappeared or
+    /// changed), by context.
     idle_uses: BTreeMap<Circumstances, u32>,
 }
 
@@ -59,8 +60,8 @@ impl TouchEverything {
         }
     }
 
-    /// Chooses at least one and at most `due` actions. Several actions are chosen as if only the avatar
-    /// moved. Cost: O(cells log cells) per target.
+    /// Chooses at least one and at most `due` actions. If it chooses several, it assumes that nothing but the
+    /// avatar moves. Cost: O(cells log cells) per target.
     pub fn act(&mut self, seen: &Observation, actions: &[Action], due: usize) -> Vec<Action> {
         self.learn(seen);
         let mut imagined = seen.clone();
@@ -264,7 +265,8 @@ impl View<'_> {
         Some(1 + if is_near_danger { DANGER_COST } else { 0 } + if is_pushed { PUSH_COST } else { 0 })
     }
 
-    /// Returns `true` for a kind that the avatar has never touched with its current type and resources.
+    /// Returns `true` for a kind that the avatar has never touched while it had its current type and
+    /// resources.
     fn is_worth_another_try(&self, kind: &str) -> bool {
         self.beliefs.of(kind).is_none_or(|known| !known.touched.contains(&self.circumstances))
             && !self.circumstances.1.is_empty()
@@ -300,7 +302,7 @@ fn cell(seen: &Observation) -> Option<usize> {
     Some(row * seen.columns + column)
 }
 
-/// Returns the number of cells of each kind.
+/// Returns the number of cells that contain each kind.
 fn kinds(seen: &Observation) -> BTreeMap<&str, usize> {
     let mut kinds = BTreeMap::new();
     for kind in seen.cells.iter().flatten() {

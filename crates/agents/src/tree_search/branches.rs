@@ -8,7 +8,7 @@ pub(crate) const WIDTH: usize = Action::ALL.len();
 /// The index of a branch without a node.
 pub(crate) const UNEXPANDED: u32 = u32::MAX;
 
-/// Chooses a branch without a node, with uniform probability.
+/// Chooses a branch without a node, uniformly at random.
 pub(crate) fn unexpanded(children: &[u32], choices: &mut Sampler) -> Option<usize> {
     let open = children.iter().filter(|&&child| child == UNEXPANDED).count();
     if open == 0 {
@@ -19,8 +19,8 @@ pub(crate) fn unexpanded(children: &[u32], choices: &mut Sampler) -> Option<usiz
     branches.nth(drawn).map(|(branch, _)| branch)
 }
 
-/// Applies the reference's tie-breaking noise, based on a draw in [0, 1). The noise is multiplicative, so it
-/// is zero at 0 and several units at a win.
+/// Applies the reference's tie-breaking noise, based on a draw in [0, 1). The noise is proportional to the
+/// value, so it is zero at a value of 0 and several units at a win's value.
 pub(crate) fn blurred(value: f64, epsilon: f64, noise: f64) -> f64 {
     (value + epsilon) * (1.0 + epsilon * (noise - 0.5))
 }
@@ -37,7 +37,7 @@ pub(crate) fn best(width: usize, mut value: impl FnMut(usize) -> f64) -> usize {
     best.0
 }
 
-/// Copies the subtree under a node, breadth first, with that node as the root. Returns an empty tree if the
+/// Copies the subtree under a node, breadth first, making that node the root. Returns an empty tree if the
 /// node does not exist.
 pub(crate) fn subtree<N: Clone>(
     tree: &[N],

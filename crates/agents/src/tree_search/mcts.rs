@@ -32,16 +32,16 @@ base::with_defaults! {
 }
 
 impl MctsConfig {
-    /// Returns parameters with which wins and losses weigh about as much as points. With the reference's
-    /// ±10⁷, one loss seen through a node hides all score differences there, and the search avoids all danger
-    /// instead of playing. On the corpus, the bold parameters win about a quarter more episodes with an equal
-    /// number of calls.
+    /// Returns bold parameters, for which wins and losses weigh about as much as points. With the reference's
+    /// ±10⁷, a single loss seen through a node hides all score differences there, so the search avoids every
+    /// danger instead of playing. On the corpus, the bold parameters win about a quarter more episodes with
+    /// the same number of calls.
     pub fn bold(depth: u32) -> MctsConfig {
         MctsConfig { depth, win: 10.0, loss: 1.0, ..MctsConfig::default() }
     }
 }
 
-/// A planner that plans each decision from scratch, on a fresh tree.
+/// A planner that uses UCT and builds a new tree for each decision.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Mcts {
     config: MctsConfig,
@@ -142,8 +142,8 @@ impl Mcts {
         best(width, |branch| value(branch, choices.unit()))
     }
 
-    /// Chooses the most visited branch, or the visited branch with the best mean if all visited branches have
-    /// equal numbers of visits.
+    /// Chooses the most visited branch, or the visited branch with the best mean if all of them have the same
+    /// number of visits.
     fn decide(&self, width: usize, choices: &mut Sampler) -> usize {
         let root = &self.tree[0];
         let child = |branch: usize| self.tree.get(root.children[branch] as usize);

@@ -1,5 +1,5 @@
-//! Monte-Carlo tree search guided by the game's rules. This search fixes the known weaknesses of the
-//! reference's search.
+//! Monte-Carlo tree search guided by the game's rules. It fixes the known weaknesses of the reference's
+//! search.
 //!
 //! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off
 //! individually. `docs/reference/planners.md` lists the gain from each field. The sources are:
@@ -54,12 +54,13 @@ base::with_defaults! {
         /// The weight of progress as measured by the rules, including the distance to useful targets. The
         /// reference uses 0.
         pub guidance: f64 = 1.0,
-        /// `true` if a win that the search finds in a deterministic game is played to its end without another search.
+        /// `true` if the planner plays a win that it finds in a deterministic game to the end without
+        /// searching again.
         pub commit: bool = true,
     }
 }
 
-/// A planner that searches with the rules as a guide.
+/// A planner that uses tree search guided by the rules.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct GuidedMcts {
     config: GuidedMctsConfig,
@@ -68,7 +69,7 @@ pub struct GuidedMcts {
     tree: Vec<Node>,
     /// The action of each branch of the tree.
     actions: Vec<Action>,
-    /// The number of visits of each combination of the avatar's position, type and progress.
+    /// The number of visits to each combination of the avatar's position, type and progress.
     #[serde(with = "pairs")]
     visits: BTreeMap<u64, u32>,
     /// The largest number of points gained or lost in a rollout.
@@ -118,7 +119,7 @@ mod pairs {
     }
 }
 
-/// The root's values, for comparison with results.
+/// The root's values, with which results are compared.
 struct Root {
     score: f64,
     progress: f64,

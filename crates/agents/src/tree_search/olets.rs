@@ -30,9 +30,9 @@ base::with_defaults! {
         /// The penalty for a node that leads to a remembered position.
         pub penalty: f64 = 0.5,
         /// `true` to correct how the reference counts nodes retained from the last decision (`spec/04` §2).
-        /// Each retained node should count as one visit with the mean of the results seen. The reference
-        /// leaves the sum of the results that ended at a node unchanged, and divides the sum by that one
-        /// visit. If `true`, the sum is divided by the number of these results.
+        /// Each retained node should count as one visit, with the mean of its results so far. The reference
+        /// keeps the sum of the results that ended at a node, but divides it by that one visit. If `true`,
+        /// the sum is divided by the number of results instead.
         pub fixed_refresh: bool = false,
     }
 }
@@ -47,8 +47,8 @@ pub struct Olets {
     tree: Vec<Node>,
     /// The action of each branch of the tree.
     actions: Vec<Action>,
-    /// The avatar's positions at the last decisions, excluding the very first decision. The current
-    /// decision's position comes last.
+    /// The avatar's positions at the most recent decisions, except the very first. The current position comes
+    /// last.
     places: VecDeque<(i32, i32)>,
     /// `true` once a decision has been made.
     begun: bool,
@@ -62,7 +62,7 @@ pub struct Olets {
 struct Node {
     children: [u32; WIDTH],
     visits: f64,
-    /// The sum of the results seen through this node.
+    /// The sum of the results of all iterations through this node.
     total: f64,
     /// The number of iterations that ended at this node, and the sum of their results.
     exits: f64,
@@ -207,8 +207,8 @@ impl Olets {
         })
     }
 
-    /// Chooses the most visited branch, or the branch with the greatest sum if all visited branches have
-    /// equal numbers of visits.
+    /// Chooses the most visited branch, or the branch with the greatest sum if all of them have the same
+    /// number of visits.
     fn decide(&self, decision: &mut Decision) -> usize {
         let width = self.actions.len();
         let child = |branch: usize| self.tree.get(self.tree[0].children[branch] as usize);
@@ -228,10 +228,10 @@ impl Olets {
     }
 }
 
-/// Returns the actions in the reference's order, which breaks ties during the descent and between equal
-/// numbers of visits. If no branch is better and no other position can be reached immediately, an avatar that
-/// shoots keeps shooting. It is unknown where the reference adds tie-breaking noise. See
-/// `docs/reference/planners.md` for the evidence from the recorded episodes.
+/// Returns the actions in the reference's order, which breaks ties in the descent and in the final choice. If
+/// no branch is better and no other position can be reached immediately, an avatar that shoots keeps
+/// shooting. It is unknown where the reference adds tie-breaking noise. See `docs/reference/planners.md` for
+/// the evidence from the recorded episodes.
 fn in_order(actions: &[Action]) -> Vec<Action> {
     use Action::{Down, Left, Nil, Right, Up, Use};
     [Use, Left, Right, Down, Up, Nil].into_iter().filter(|action| actions.contains(action)).collect()

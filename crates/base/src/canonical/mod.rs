@@ -1,17 +1,17 @@
-//! Canonical JSON: one text per value, so that digests and diffs are meaningful.
+//! Canonical JSON: exactly one text per value, so that digests and diffs are meaningful.
 //!
 //! - Object keys are sorted by their UTF-8 bytes, at every depth, regardless of the order in which the type
 //!   serialises them.
-//! - Indentation is two spaces, but an array without arrays or objects inside stays on one line.
+//! - Indentation is two spaces, but an array that contains no arrays or objects stays on one line.
 //! - Strings are escaped like in `serde_json`: only `"`, `\` and control characters.
-//! - Integers are plain (64 bits). Floats have the shortest form that parses back to the same bits, always
-//!   with a `.` or an exponent (`1.0`, not `1`; `1e+16`). An `f32` is first widened to `f64`.
+//! - Integers are plain 64-bit numbers. Floats have the shortest form that parses back to the same bits,
+//!   always with a `.` or an exponent (`1.0`, not `1`; `1e+16`). An `f32` is first widened to `f64`.
 //! - The text ends in one line feed.
 //!
-//! A value that JSON cannot represent exactly is an error, and is never written as a different value.
-//! Examples are NaN and infinities, a duplicate key, and nesting that the parser would reject. A
-//! `serde_json::Value` and the type from which it was created yield the same text. Parsing a canonical text
-//! and writing it again yields the same bytes.
+//! A value that JSON cannot represent exactly is an error; it is never written as a different value. Examples
+//! are NaN and infinities, a duplicate key, and nesting that the parser would reject. A `serde_json::Value`
+//! and the type from which it was created yield the same text. Parsing a canonical text and writing it again
+//! yields the same bytes.
 
 mod float;
 mod node;

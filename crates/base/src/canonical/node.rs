@@ -1,7 +1,7 @@
 //! Serialisable values as JSON trees with sorted, distinct keys.
 //!
-//! `serde_json::to_value` does not suffice. It turns NaN into `null` and silently keeps the last of two equal
-//! keys. Its maps are not sorted if any crate in the build enables `preserve_order`.
+//! `serde_json::to_value` does not suffice. It turns NaN into `null` and silently keeps the last of two
+//! duplicate keys. Its maps are not sorted if any crate in the build enables `preserve_order`.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;

@@ -1,5 +1,5 @@
-//! The book page with the help of every command, generated from the command line. This module also finds the
-//! commands on all other pages.
+//! The book page with the help of every command, generated from the command-line parser. This module also
+//! finds the commands on all other pages.
 
 use crate::usage::tests::for_each_verb;
 use clap::Command;
@@ -27,7 +27,7 @@ fn page() -> String {
         if path == "arcade" {
             return;
         }
-        // Flags that every command accepts are listed once, at the head of the page.
+        // Flags accepted by every command are listed once, at the head of the page.
         let own = verb.clone().term_width(COLUMNS).mut_args(|argument| {
             let is_shared =
                 argument.is_global_set() || ["help", "version"].contains(&argument.get_id().as_str());

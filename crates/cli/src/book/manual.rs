@@ -17,8 +17,8 @@ pub(crate) struct Page {
     path: String,
     /// The page's title in the table of contents.
     pub(crate) label: String,
-    /// The page's depth in the table of contents: 0 for a page listed directly in a section, and more for
-    /// pages listed only by name.
+    /// The page's depth in the table of contents: 0 for a page listed directly in a section, greater than 0
+    /// for pages listed only by name.
     pub(crate) depth: usize,
     /// The page's Markdown text.
     pub(crate) text: &'static str,
@@ -29,7 +29,7 @@ pub(crate) struct Page {
 pub(crate) enum Section {
     /// Tutorials.
     Start,
-    /// Guides to single tasks.
+    /// Guides to individual tasks.
     HowTo,
     /// Commands, keys, files and terms.
     Reference,
@@ -68,7 +68,7 @@ impl Section {
 /// The table of contents in mdBook's format: section headings, and nested lists of links to pages.
 const CONTENTS: &str = "SUMMARY.md";
 
-/// Replaced pages, each with the page to read instead.
+/// Removed pages, each with the page to read instead.
 const REPLACED: [(&str, &str); 1] = [("decision", "decisions")];
 
 /// Returns all pages in the order of the table of contents.
@@ -91,7 +91,7 @@ pub(crate) fn page(wanted: &str) -> Result<Page, Failure> {
     }
 }
 
-/// Returns the failure for a word that is neither a page name nor on any page.
+/// Returns the failure for a word that is not a page name and does not occur on any page.
 pub(crate) fn absent(pages: &[Page], wanted: &str) -> Failure {
     let near = engine::nearest(wanted, pages.iter().map(|page| page.name.as_str()));
     let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
@@ -101,7 +101,7 @@ pub(crate) fn absent(pages: &[Page], wanted: &str) -> Failure {
 /// A page that contains the search terms.
 pub(crate) struct Hit<'a> {
     pub(crate) page: &'a Page,
-    /// The best matching line: the title, or else a heading, if it contains the search terms.
+    /// The best matching line: the title or a heading that contains the search terms, if there is one.
     pub(crate) line: String,
 }
 
@@ -111,11 +111,11 @@ const POINTS: [usize; 3] = [30, 8, 1];
 /// The maximum number of lines scored as other lines.
 const COUNTED: usize = 10;
 
-/// The minimum number of matching lines for a beginners' page to count as an explanation. Such a page ranks
-/// before all other pages.
+/// The minimum number of matching lines for a beginners' page to count as an explanation of the search terms.
+/// Such a page ranks before all other pages.
 const EXPLAINED: usize = 3;
 
-/// Returns the pages that contain all words in `wanted`, best match first.
+/// Returns the pages that contain every word in `wanted`, best match first.
 pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
     let wanted: Vec<String> = words(wanted).collect();
     let mut hits: Vec<((bool, usize), Hit<'a>)> = Vec::new();
@@ -182,11 +182,11 @@ fn words(text: &str) -> impl Iterator<Item = String> + '_ {
         .filter(|word| !word.is_empty())
 }
 
-/// The suffixes of inflected words.
+/// The suffixes of inflected forms.
 const ENDINGS: [&str; 7] = ["", "s", "es", "ed", "ing", "er", "ers"];
 
-/// Returns `true` if a word is a form of a wanted word. For example, `pushes` and `pushing` match `push`, and `boat`
-/// matches `boats`.
+/// Returns `true` if a word is an inflected form of a search term. For example, `pushes` and `pushing` match
+/// `push`, and `boat` matches `boats`.
 fn is_form(own: &str, wanted: &str) -> bool {
     let stem = wanted.strip_suffix('s').unwrap_or(wanted);
     own == wanted || own.strip_prefix(stem).is_some_and(|end| ENDINGS.contains(&end))
@@ -195,7 +195,7 @@ fn is_form(own: &str, wanted: &str) -> bool {
 /// The maximum length of a line in search results, in characters.
 const LINE: usize = 80;
 
-/// Returns a line of Markdown as shown in search results, without the markup for headings, lists and tables.
+/// Formats a line of Markdown for search results, without the markup for headings, lists and tables.
 fn shown(line: &str) -> String {
     let mut words = line.to_owned();
     for (link, inner, _) in links(line).into_iter().rev() {
@@ -220,7 +220,8 @@ fn stem(wanted: &str) -> &str {
     wanted.strip_suffix("/README").unwrap_or(wanted)
 }
 
-/// Finds a page by its name or path, or by the end of its path, because pages have moved between folders.
+/// Finds a page by its name or path, or by the end of its path: pages have moved between folders, so an old
+/// path may be given.
 fn find(pages: &[Page], wanted: &str) -> Option<usize> {
     let wanted = stem(wanted);
     let is_it = |page: &Page| page.name == wanted || page.path == wanted;
@@ -243,8 +244,8 @@ impl Page {
         Some(Page { name, path, label: label.replace('`', ""), depth: (line.len() - item.len()) / 2, text })
     }
 
-    /// Returns the page's folder below `docs/`, or an empty text for a top-level page. A folder's own page
-    /// lies in that folder.
+    /// Returns the page's folder below `docs/`, or an empty text for a top-level page. A folder's README
+    /// belongs to that folder.
     pub(crate) fn folder(&self) -> &str {
         // A folder of images beside a page is not the page's own folder.
         match DOCS.get_file(format!("{}/README.md", self.path)) {
@@ -266,8 +267,8 @@ impl Page {
         self.text.lines().next().unwrap_or_default().trim_start_matches('#').trim()
     }
 
-    /// Returns the page with its links converted to text. The names of other pages are in brackets, and
-    /// addresses and source files are in parentheses.
+    /// Returns the page with its links converted to text: names of other pages in brackets, and addresses and
+    /// source files in parentheses.
     pub(crate) fn plain(&self, pages: &[Page]) -> String {
         let mut plain = String::with_capacity(self.text.len());
         let mut done = 0;
@@ -321,7 +322,7 @@ fn links(text: &str) -> Vec<(Range<usize>, Range<usize>, String)> {
     links
 }
 
-/// Returns the path of a link target in the source tree. The target is relative to its page's folder.
+/// Resolves a link target to a path in the source tree. The target is relative to its page's folder.
 fn resolved(folder: &str, file: &str) -> String {
     let mut parts = vec!["docs"];
     for part in folder.split('/').chain(file.split('/')) {
@@ -368,7 +369,7 @@ mod tests {
         assert!(error.contains("did you mean `prompts`?"), "{error}");
     }
 
-    /// The table of contents lists the sections in order, and every page under its folder's section.
+    /// The table of contents lists the sections in order, and lists every page under its folder's section.
     #[test]
     fn the_contents_page_lists_every_page_once() {
         let contents = DOCS.get_file(CONTENTS).expect("a contents page").contents_utf8().expect("text");
@@ -440,7 +441,7 @@ mod tests {
     }
 
     /// A search for beginners' terms lists the tutorials before all other pages, starting with the tutorial
-    /// about a first game.
+    /// on writing a first game.
     #[test]
     fn words_of_beginners_lead_to_the_tutorials() {
         let pages = pages();
@@ -507,7 +508,8 @@ mod tests {
         }
     }
 
-    /// An installed binary has no `docs/` folder, so messages for users must refer to pages of `arcade docs`.
+    /// An installed binary has no `docs/` folder, so messages for users must refer to pages that `arcade
+    /// docs` can show.
     #[test]
     fn messages_and_templates_name_pages_that_the_binary_has() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -523,7 +525,8 @@ mod tests {
             let place = file.strip_prefix(&root).expect("below").display();
             let product = text.split("#[cfg(test)]").next().unwrap_or_default();
             for (number, line) in product.lines().enumerate() {
-                // Comments are for readers of the source. A different test covers the comments that become help texts.
+                // Comments are for readers of the source. Another test covers the comments that become help
+                // texts.
                 let names_files = file.ends_with("manual.rs") || file.ends_with("command_page.rs");
                 if line.trim_start().starts_with("//") || names_files {
                     continue;

@@ -38,7 +38,8 @@ impl FromStr for Bytes {
 }
 
 impl Display for Bytes {
-    /// Formats the size so that [`from_str`](Bytes::from_str) parses it. Dividing by a power of two is exact.
+    /// Formats the size in a form that [`from_str`](Bytes::from_str) parses. Dividing by a power of two is
+    /// exact.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let bytes = self.0 as f64;
         match self.0 {

@@ -9,8 +9,8 @@ use std::ffi::OsString;
 use std::sync::OnceLock;
 use std::thread::available_parallelism;
 
-/// The maximum number of threads in a pool. More threads would only wait for each other, and starting
-/// thousands of threads would need minutes.
+/// The maximum number of threads in a pool. Additional threads would only wait for each other, and starting
+/// thousands of them would take minutes.
 const MAX_THREADS: usize = 256;
 
 /// The limits that the user sets for a run. No output depends on them.
@@ -25,12 +25,12 @@ pub(crate) struct Limits {
     memory: Option<Bytes>,
 }
 
-/// The process's limits.
+/// The process-wide limits.
 static LIMITS: OnceLock<Limits> = OnceLock::new();
 
 impl Limits {
-    /// Starts the threads, and limits the memory for their searches. Without this call, rayon would start the
-    /// number of threads in `RAYON_NUM_THREADS`, without a limit.
+    /// Starts the threads, and limits the memory for their searches. Without this call, rayon would start as
+    /// many threads as `RAYON_NUM_THREADS` specifies, and memory would be unlimited.
     pub(crate) fn apply(self) -> Result<(), Failure> {
         let threads = match self.jobs {
             Some(0) => bail!("--jobs takes a number of threads, at least 1"),
@@ -61,7 +61,7 @@ pub(crate) fn jobs() -> Option<usize> {
     LIMITS.get().and_then(|limits| limits.jobs)
 }
 
-/// Returns the flags that set the process's limits, for a command that resumes the run.
+/// Returns the flags that set the process-wide limits, for a command that resumes the run.
 pub(crate) fn flags() -> Vec<OsString> {
     LIMITS.get().copied().unwrap_or_default().flags()
 }
@@ -83,7 +83,7 @@ fn usual() -> usize {
     bounded(wanted.as_deref(), cores)
 }
 
-/// Returns the requested number if it is sensible, and otherwise one thread per core.
+/// Returns the requested number of threads if it is within bounds, or one thread per core.
 fn bounded(wanted: Option<&str>, cores: usize) -> usize {
     let wanted =
         wanted.and_then(|text| text.parse().ok()).filter(|wanted| (1..=MAX_THREADS).contains(wanted));

@@ -29,7 +29,8 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
         Ok(Recorded::Witness(witness)) => Ok(witness.episode),
         Ok(Recorded::Episode(episode)) => Ok(episode),
         Err(_) => {
-            // The untagged enum's error only says that no variant fits, so the error for an episode is more helpful.
+            // The untagged enum's error says only that no variant matches. The error for an episode is more
+            // helpful.
             let error = serde_json::from_str::<Episode>(&text).err();
             let why = error.map_or(String::new(), |error| format!(" ({error})"));
             Err(malformed!(
@@ -40,7 +41,7 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
     }
 }
 
-/// Rejects, before the work starts, a path to which an episode cannot be written. Also rejects the paths of
+/// Rejects a path to which an episode cannot be written, before the work starts. Also rejects the paths of
 /// the game, its levels and the `others` read by the command.
 pub(crate) fn check(path: &Path, input: &GameInput, others: &[&str]) -> Result<(), Failure> {
     let others = others.iter().map(Path::new);
@@ -75,8 +76,8 @@ pub(crate) fn recorded(
     Ok((named, level, episode))
 }
 
-/// Finds the level to show: the level specified by the user, or else the level on which the episode was
-/// recorded, or else the first level.
+/// Finds the level to show: the level specified by the user, else the level on which the episode was
+/// recorded, else the first level.
 fn level(
     input: &GameInput,
     game: &Game,

@@ -19,7 +19,7 @@ pub(crate) struct GameInput {
     /// The game's file, or `None` for a corpus game.
     pub(crate) path: Option<PathBuf>,
     pub(super) levels: Vec<LevelInput>,
-    /// The levels specified by the user, if any. Otherwise, all levels count.
+    /// The levels specified by the user. If empty, all levels count.
     pub(super) asked: Vec<LevelInput>,
     /// Set once the user has been told which files were not recognised as levels.
     pub(super) told: Arc<OnceLock<()>>,
@@ -81,14 +81,14 @@ impl GameInput {
         self.levels.len()
     }
 
-    /// Returns the levels specified by the user in place of the game, or else the levels that accompany the
-    /// game.
+    /// Returns the levels specified by the user in place of the game, or, if there are none, the levels that
+    /// accompany the game.
     pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
         self.tell_strays();
         self.wanted().iter().map(LevelInput::read).collect()
     }
 
-    /// Reports, once, any files and folders beside the game that look like levels but are not. Reports
+    /// Reports files and folders beside the game that look like levels but are not, at most once. Reports
     /// nothing if the user specified levels.
     fn tell_strays(&self) {
         let Some(path) = self.path.as_deref().filter(|_| self.asked.is_empty()) else { return };
@@ -122,8 +122,8 @@ impl GameInput {
         }
     }
 
-    /// Returns [`levels`](Self::levels) with the numbers in their names, or with their positions if a number
-    /// is missing or duplicated.
+    /// Returns [`levels`](Self::levels), numbered as in their names. If a number is missing or duplicated,
+    /// returns their positions instead.
     pub(crate) fn numbered_levels(&self) -> Result<Vec<(usize, Named)>, Failure> {
         self.tell_strays();
         let numbers: BTreeSet<usize> = self.wanted().iter().filter_map(|level| level.number).collect();
@@ -203,7 +203,7 @@ pub(super) fn number_like(name: &str) -> bool {
     name.strip_prefix("lvl").unwrap_or(name).chars().all(|c| c.is_ascii_digit())
 }
 
-/// Returns the game in a file. Its levels are among `names`, the names of the files beside it.
+/// Creates the input for the game in a file. Its levels are among `names`, the names of the files beside it.
 pub(super) fn of_source(path: &Path, text: String, title: String, names: &[String]) -> GameInput {
     let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let levels = layout::levels(own, names.iter().map(String::as_str));

@@ -96,7 +96,8 @@ fn file(path: &Path) -> Result<Found, Failure> {
     Ok(Found::Level(level, Some(input)))
 }
 
-/// Returns a failure with advice for a level without a game beside it. The game may be in the parent folder.
+/// Returns the failure for a level without a game beside it, with advice. The game may be in the parent
+/// folder.
 fn lost_level(path: &Path) -> Failure {
     let name = path.in_message();
     let beside = games_in(folder_of(path)).unwrap_or_default();
@@ -125,7 +126,7 @@ fn lost_level(path: &Path) -> Failure {
     )
 }
 
-/// Rejects a Python file, and suggests the command that converts its game.
+/// Rejects a Python file, and suggests the command that converts a Python game.
 fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
     let Some(found) = dialect::python_file(text) else { return Ok(()) };
     let levels = match found.levels.len() {
@@ -142,11 +143,11 @@ fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
     )
 }
 
-/// The argument that selects all corpus games, unless a folder has the same name.
+/// The argument that selects all corpus games, unless a folder of that name exists.
 pub(crate) const CORPUS: &str = "corpus";
 
-/// Finds all games specified by an argument: the game found by [`game`], all games in a folder of games or of
-/// such folders, or the corpus games for `corpus`.
+/// Finds all games specified by an argument: the game found by [`game`], all games in a folder of games (or
+/// in a folder of such folders), or the corpus games for `corpus`.
 pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     let path = Path::new(name);
     let found = paths::metadata(path)?;
@@ -173,8 +174,8 @@ pub(crate) fn games(name: &str) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Returns `true` if new games can be created at `place`. The path must not exist, or must be a folder
-/// without games and visible subfolders. A name with an extension counts as a file, and the name of a corpus
+/// Returns `true` if new games can be created at `place`. The path must either not exist or be a folder
+/// without games or visible subfolders. A name with an extension counts as a file, and the name of a corpus
 /// game counts as a game.
 pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
     let Some(found) = paths::metadata(place)? else {
@@ -189,7 +190,7 @@ pub(crate) fn is_without_games(place: &Path) -> Result<bool, Failure> {
     Ok(!sorted_entries(place)?.iter().any(|path| path.is_dir() && !is_hidden(path)))
 }
 
-/// Returns the game or path for which the nonexistent `place` may be a misspelling.
+/// Returns the game or path that the user probably meant by the nonexistent path `place`.
 pub(crate) fn nearest_place(place: &Path) -> Result<Option<String>, Failure> {
     let corpus = embedded::corpus()?;
     let names = corpus.games.iter().map(|game| game.name.as_str());
@@ -202,9 +203,9 @@ fn has_whole_game(input: &GameInput) -> bool {
     stem.is_some_and(|stem| stem.eq_ignore_ascii_case("game"))
 }
 
-/// Finds the games in a list of arguments. A level selects itself within its game. It can be followed by more
-/// levels of that game, or by the game. A number, or a level without a game beside it, belongs to the
-/// preceding game.
+/// Finds the games in a list of arguments. A level file selects only that level of its game. It can be
+/// followed by more levels of that game, or by the game itself. A number, or a level without a game beside
+/// it, belongs to the preceding game.
 pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
     let mut games: Vec<GameInput> = Vec::new();
     for name in names {
@@ -236,8 +237,8 @@ pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Returns a failure with advice for a folder without a game. The folder may be a release, whose games are in
-/// subfolders.
+/// Returns the failure for a folder without a game, with advice. The folder may be a release, whose games are
+/// in subfolders.
 fn no_game_in(folder: &Path) -> Failure {
     let name = folder.in_message();
     let below = folder.join("games");
@@ -256,7 +257,7 @@ fn no_game_in(folder: &Path) -> Failure {
     }
 }
 
-/// Finds the path with the most similar name in the same folder, for typing errors.
+/// Finds the path in the same folder with the most similar name, in case of a typing error.
 fn nearest_sibling(path: &Path) -> Option<String> {
     let folder = path.parent()?;
     let wanted = path.file_name()?.to_string_lossy();

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// The first bytes of a release archive.
 pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
-/// Reads a text file of up to `limit` bytes, without ever reading more.
+/// Reads a text file of up to `limit` bytes. Never reads more, even if the file is larger.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.in_message();
     let read = disk::read_start(path, limit as u64 + 1);
@@ -29,7 +29,7 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     })
 }
 
-/// Returns a file's folder.
+/// Returns the folder that contains a file.
 pub(super) fn folder_of(path: &Path) -> &Path {
     let folder = path.parent().unwrap_or(Path::new("."));
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
@@ -58,13 +58,14 @@ pub(crate) fn sorted_entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(paths)
 }
 
-/// Returns `true` if a text looks like a level: rows of equal width, without text that occurs only in games.
+/// Returns `true` if a text looks like a level: its rows have equal width, and it contains no text that
+/// occurs only in games.
 pub(super) fn is_level(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}').trim_end_matches(['\n', '\r']).replace("\r\n", "\n");
     let rows: Vec<&str> = text.split(['\n', '\r']).map(str::trim_end).collect();
     let width = |row: &&str| row.chars().count();
     let widest = rows.iter().map(width).max().unwrap_or_default();
-    // Rows must have one width, ignoring trailing spaces. A single word may be anything.
+    // All rows must have the same width, ignoring trailing spaces. A single word could be anything.
     let full = rows.iter().filter(|row| width(row) == widest).count();
     let is_vgdl = |row: &&str| {
         let words =
@@ -74,7 +75,8 @@ pub(super) fn is_level(text: &str) -> bool {
     rows.len() > 1 && widest > 1 && 2 * full >= rows.len() && !rows.iter().any(is_vgdl)
 }
 
-/// Returns `true` if a text is definitely a game: two of the sections are present, each on its own line.
+/// Returns `true` if a text is definitely a game: at least two section names are present, each on its own
+/// line.
 pub(super) fn is_game(text: &str) -> bool {
     let sections = ["SpriteSet", "LevelMapping", "InteractionSet", "TerminationSet"];
     text.split(['\n', '\r']).filter(|line| sections.contains(&line.trim())).count() > 1

@@ -1,4 +1,4 @@
-//! Keys specified by the user, and the check of a release's signatures, which several subcommands share.
+//! Keys specified by the user, and the signature check for releases, which several subcommands share.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -93,7 +93,7 @@ pub(crate) struct OriginArgs {
     trust: TrustArgs,
 }
 
-/// The checks made on a release's root, for the record.
+/// The checks made on a release's root, in the form in which they are recorded.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Origin {
     /// The release's root.
@@ -157,7 +157,7 @@ pub(crate) fn anchor(file: &Path) -> Result<Anchor, Failure> {
     Ok(Anchor::parse(&read_bounded(file, MAX_ANCHOR)?, &file.in_message().to_string())?)
 }
 
-/// Returns the sentence for valid signatures.
+/// Returns the sentence that reports valid signatures.
 pub(crate) fn sentence(signed: &Signed) -> String {
     let keys = signed.keys.map_or(String::new(), |version| format!("; newest set of keys: {version}"));
     let commit = signed.commit.as_ref().map_or(String::new(), |commit| format!("; sources: commit {commit}"));
@@ -176,13 +176,13 @@ pub(crate) struct SecretArgs {
 }
 
 impl SecretArgs {
-    /// Opens the secret keys. Prompts for the passwords of encrypted keys.
+    /// Opens the secret keys, prompting for the passwords of encrypted keys.
     pub(crate) fn open(&self) -> Result<Vec<SecretKey>, Failure> {
         self.secret.iter().map(|file| open_secret(file, self.password_file.as_deref())).collect()
     }
 }
 
-/// Warns about a secret that other users on the machine can read.
+/// Warns about a secret file that other users on the machine can read.
 pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
     if disk::is_readable_by_others(file) {
         let place = shell::quoted(file);
@@ -192,7 +192,7 @@ pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
     }
 }
 
-/// Opens a secret key. Prompts for its password if the key is encrypted.
+/// Opens a secret key, prompting for its password if the key is encrypted.
 pub(crate) fn open_secret(file: &Path, password_file: Option<&Path>) -> Result<SecretKey, Failure> {
     let named = |error: TrustError| malformed!("`{}`: {error}", file.in_message());
     let text = read_bounded(file, MAX_KEY_FILE)?;
@@ -223,7 +223,7 @@ pub(crate) fn password(prompt: &str, file: Option<&Path>) -> Result<String, Fail
     })
 }
 
-/// Ensures that the terminal echoes input again if Ctrl-C ends the program at the password prompt.
+/// Ensures that the terminal echoes input again if Ctrl-C ends the program during a password prompt.
 #[cfg(unix)]
 fn keep_echo() {
     use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};

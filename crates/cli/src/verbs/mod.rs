@@ -1,5 +1,5 @@
-//! The subcommands, each in its own file or folder: flags, behaviour and output. The folders correspond to
-//! the help groups.
+//! The subcommands. Each has its own file or folder, with its flags, behaviour and output. The folders
+//! correspond to the help groups.
 
 pub(crate) mod games;
 pub(crate) mod players;

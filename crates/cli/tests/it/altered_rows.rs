@@ -1,5 +1,5 @@
-//! Tests of results whose logs were altered, before or after their row was entered in a public log. Each alteration is
-//! tried in many ways, and in 1,000 ways in a sweep.
+//! Tests of results whose logs were altered, before or after their row was entered in a public log. Each test
+//! tries many alterations, and 1,000 in a sweep.
 
 use crate::arcade::{TINY, arcade, copy_tree, files, run, sweeping, text};
 use base::{Digest, Sampler, Seed};
@@ -15,7 +15,7 @@ use trust::log::{Entry, Log, ResultRow, append};
 /// The files of a results folder.
 type Files = BTreeMap<String, Vec<u8>>;
 
-/// The expected judgement on an altered folder if its row contains the digest of the altered files.
+/// The expected judgement on an altered folder whose row contains the digest of the altered files.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Expect {
     /// The row is rejected, for a reason with one of these words.
@@ -24,7 +24,7 @@ enum Expect {
     Same,
 }
 
-/// The log of a publisher, with the row of one results folder.
+/// A publisher's log, with the row of one results folder.
 struct Rows {
     home: tempfile::TempDir,
     secret: SecretKey,
@@ -75,7 +75,7 @@ impl Rows {
         }
     }
 
-    /// Writes a log whose row belongs to the altered files, like a publisher who cheats and does not use
+    /// Writes a log whose row belongs to the altered files, as a cheating publisher could without using
     /// `arcade trust log append`.
     fn forge(&self, results: Digest) {
         let folder = self.place("forged");
@@ -91,8 +91,8 @@ impl Rows {
     }
 }
 
-/// Returns the random choices for one alteration. Each sweep has different choices, because its seed is in the
-/// environment variable.
+/// Returns the random choices for one alteration. Each sweep makes different choices, because its seed comes
+/// from an environment variable.
 fn chance(purpose: &str, number: u64) -> Sampler {
     let sweep = std::env::var_os("ARCADE_SWEEP").and_then(|text| text.into_string().ok());
     Seed::from_text(&format!("{purpose} {}", sweep.unwrap_or_default())).child("alteration", number).sampler()
@@ -106,7 +106,7 @@ fn one_of<'a, T>(all: &'a [T], chance: &mut Sampler) -> &'a T {
     &all[chance.below(all.len())]
 }
 
-/// Returns the lines of an episode's log, each of which is an event.
+/// Returns the lines of an episode's log. Each line is an event.
 fn events(files: &Files, name: &str) -> Vec<Value> {
     text(&files[name]).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
@@ -116,13 +116,13 @@ fn store(files: &mut Files, name: &str, events: &[Value]) {
     files.insert(name.to_owned(), lines.into_bytes());
 }
 
-/// Returns the indices of the steps among events.
+/// Returns the indices of the steps among the events.
 fn steps(events: &[Value]) -> Vec<usize> {
     (0..events.len()).filter(|&at| events[at]["event"] == "step").collect()
 }
 
-/// Returns `true` if, according to the engine alone, a different action at a step leads to the same state. The log then
-/// belongs to an episode that could have been played, with the same results.
+/// Returns `true` if a different action at a step leads to the same state according to the engine. The log
+/// then belongs to an episode that could have been played, with the same results.
 fn leads_to_the_same(files: &Files, events: &[Value], at: usize, action: Action) -> bool {
     let start = &events[0];
     let id = start["game"].as_str().unwrap();
@@ -181,7 +181,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             store(files, &name, &found);
             Expect::Refused(NOT_REPLAYED)
         }
-        // The log has results that the actions do not have.
+        // The log claims results that do not follow from the actions.
         4 => {
             match chance.below(4) {
                 0 => found[at]["hash"] = Value::from(format!("{:032x}", chance.below(1 << 30))),
@@ -280,7 +280,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             files.insert("evaluation.json".to_owned(), settings.to_string().into_bytes());
             Expect::Refused(words)
         }
-        // The text of a game or level is changed, whose digest is in the settings.
+        // The text of a game or level is changed, but the settings contain the digest of the original.
         14 => {
             let games: Vec<String> = files.keys().filter(|name| name.ends_with("txt")).cloned().collect();
             let name = one_of(&games, chance);
@@ -292,7 +292,7 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
             files.insert(name.clone(), altered.into_bytes());
             Expect::Refused(&["restore the results folder", "digest", "level"])
         }
-        // The content is the same, but the bytes differ in spaces, or in times, which no replay can know.
+        // The content is the same, but the bytes differ in spaces, or in times, which no replay can check.
         _ => {
             if chance.below(2) == 0 {
                 let spaced = text(&files[&name]).replacen(",\"", ", \"", 1 + chance.below(99));
@@ -308,8 +308,8 @@ fn alter(files: &mut Files, number: u64, chance: &mut Sampler) -> Expect {
 
 const NOT_REPLAYED_OR_ENDED: &[&str] = &["is recorded as", "the log records", "the episode"];
 
-/// An altered folder differs from the folder in the log, regardless of the alteration. If the row belongs to the
-/// altered folder, the episodes do not have the row's results.
+/// However it is altered, a folder no longer matches the log. If the row belongs to the altered folder, the
+/// episodes contradict the row's results.
 #[test]
 fn altered_logs_are_refused() {
     let rows = Rows::new();
@@ -341,7 +341,7 @@ fn altered_logs_are_refused() {
     assert!(refused > 8 * same, "{refused} refused, {same} of the same meaning");
 }
 
-/// If any byte of any file changes, the folder differs from the folder in the log.
+/// Changing any byte of any file makes the folder differ from the log.
 #[test]
 fn altered_bytes_are_refused() {
     let rows = Rows::new();
@@ -365,7 +365,8 @@ fn altered_bytes_are_refused() {
     }
 }
 
-/// An easier game has the name of a game of the release. The episodes replay, but are not on the games of the release.
+/// An easier game is given the name of one of the release's games. The episodes replay, but not on the
+/// release's games.
 #[test]
 fn results_on_another_game_are_refused() {
     let rows = Rows::new();

@@ -21,7 +21,7 @@ fn answer(folder: &Path, args: &[&str]) -> Value {
     serde_json::from_slice(&run(folder, &[&["--json"], args].concat(), 0).stdout).unwrap()
 }
 
-/// Returns the commands that an output proposes, each as its arguments.
+/// Returns the commands that an output proposes, each as a list of arguments.
 fn proposed(output: &str) -> Vec<Vec<String>> {
     let commands = output.lines().filter_map(|line| line.split_once(" arcade ")).map(|(_, command)| command);
     commands.map(|command| command.split_whitespace().map(str::to_owned).collect()).collect()
@@ -103,10 +103,10 @@ fn new_recipes_are_accepted_as_they_are() {
     let recipe = Recipe::from_toml(&fs::read_to_string(folder.join("2027-01.toml")).unwrap()).unwrap();
     let asked = serde_json::to_value(&recipe).unwrap()["criteria"]["ask"].to_string();
     assert!(asked.contains("skill") && asked.contains("necessity"), "{asked}");
-    // The line that `--commit` prints is put where the comment says that it belongs.
+    // The line that `--commit` prints is inserted where the comment says that it belongs.
     let said = text(&run(folder, &["release", "2027-01.toml", "--commit"], 0).stdout);
     let line = said.lines().map(str::trim).find(|line| line.starts_with("commitment = ")).unwrap();
-    // Committing again does not help, and the message says what does.
+    // Committing again does not help, and the message states what does help.
     let commit = ["release", "2027-01.toml", "--commit"];
     says(folder, &commit, 2, &["was drawn for this recipe: write `commitment = ", "instead of `seed`"]);
     let text_of = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
@@ -164,13 +164,13 @@ fn words_that_are_not_pages_are_looked_for() {
     assert!(text(&moved.stdout).starts_with("# Decisions"), "{moved:?}");
 }
 
-/// Returns the code blocks of a page in this language.
+/// Returns a page's code blocks in the given language.
 fn blocks<'a>(page: &'a str, language: &str) -> Vec<&'a str> {
     let begin = format!("```{language}\n");
     page.split(begin.as_str()).skip(1).filter_map(|rest| rest.split("```").next()).collect()
 }
 
-/// Returns the commands of a page, each as its arguments.
+/// Returns a page's commands, each as a list of arguments.
 fn commands(page: &str) -> Vec<Vec<&str>> {
     let lines = blocks(page, "sh").into_iter().flat_map(str::lines);
     lines.filter_map(|line| Some(line.strip_prefix("arcade ")?.split_whitespace().collect())).collect()
@@ -205,8 +205,8 @@ fn the_first_game_works_as_printed() {
     says(folder, &["validate", "shell-beach"], 1, &["won in its first tick"]);
 }
 
-/// Runs the commands of a page in a folder with the release `tiny`. Commands that mint or wait for a person are left
-/// out.
+/// Runs a page's commands in a folder with the release `tiny`. Skips commands that mint, and commands that
+/// wait for a person.
 fn work_as_printed(page: &str) -> usize {
     let (home, root) = copy_of_tiny();
     let folder = home.path();
@@ -230,7 +230,7 @@ fn the_first_evaluation_works_as_printed() {
     assert!(work_as_printed(include_str!("../../../../docs/start/first-evaluation.md")) >= 3);
 }
 
-/// Returns the recipe of a month that is minted in seconds. `seed` is the line that replaces the seed.
+/// Returns the recipe for a month that is minted in seconds. `seed` is the line that replaces the seed.
 fn small(name: &str, seed: &str) -> String {
     format!(
         "name = '{name}'\ndescription = 'x'\n{seed}\n[generated]\ngames = 1\nlevels = 1\ncandidates = 3.0\n[corpus]\n\
@@ -239,9 +239,9 @@ fn small(name: &str, seed: &str) -> String {
     )
 }
 
-/// Runs every command of the page. The recipes are replaced by small recipes before they are committed to, and the
-/// secrets by secrets that are the same in every run. It depends on the seed whether such a small recipe finds enough
-/// levels.
+/// Runs every command on the page. Before they are committed to, the recipes are replaced by small ones, and
+/// the secrets by secrets that are the same in every run. Such a small recipe finds enough levels only with
+/// some seeds.
 #[test]
 fn the_first_month_works_as_printed() {
     let page = include_str!("../../../../docs/how-to/first-month.md");

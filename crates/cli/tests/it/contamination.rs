@@ -1,4 +1,5 @@
-//! Tests of memory. A player that replays the published wins of coins is detected, and other players are not.
+//! Tests of the memory tests. A player that replays the wins published by coin tosses is detected, and other
+//! players are not.
 
 use crate::arcade::{copy_tree, files, run, text};
 use base::Digest;
@@ -18,7 +19,7 @@ use tempfile::TempDir;
 /// The number of games, each with one level. Twelve coins are enough evidence after correction.
 const GAMES: u32 = 12;
 
-/// Returns a game in which the player fetches the gem and leaves. Each game has a different limit.
+/// Returns a game in which the player fetches the gem and leaves. The limit makes each game different.
 fn source(limit: u32) -> String {
     format!(
         "BasicGame\n    SpriteSet\n        floor > Immovable\n        wall > Immovable\n        gem > Immovable color=YELLOW\n        \
@@ -47,8 +48,9 @@ fn corpus() -> Corpus {
     Corpus { games: (0..GAMES).map(game).collect() }
 }
 
-/// A folder with a sealed release. The parts of the release are in `public` and `held`, the whole release in
-/// `revealed`, and its siblings in `siblings`. The folder also has the results of two players on release and siblings.
+/// A folder with a sealed release. The release's parts are in `public` and `held`, the whole release is in
+/// `revealed`, and its siblings are in `siblings`. The folder also contains two players' results on the
+/// release and the siblings.
 static COINS: LazyLock<TempDir> = LazyLock::new(|| {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
@@ -96,13 +98,13 @@ static COINS: LazyLock<TempDir> = LazyLock::new(|| {
     home
 });
 
-/// Returns a program that replays the published win of a game. It recognises the game by the name and the position of
+/// Returns a program that replays a game's published win. It recognises the game by the name and position of
 /// its exit, and does nothing in other games.
 fn memoriser(games: &[ReleasedGame]) -> String {
     let turn = "\"type\":\"turn\"";
     let mut script = format!("plan=nil; while read -r line; do case $line in *'{turn},\"turn\":0,'*)\n");
     for ReleasedGame { game, levels, .. } in games {
-        // The exit follows the floor, the wall, the gem and a type of the engine's.
+        // The exit follows the floor, the wall, the gem and one of the engine's own types.
         let exit = game.sprite_types().map(|stype| game.name(stype)).nth(4).unwrap();
         let symbol =
             (0..128_u8).find(|&symbol| game.places(symbol).iter().any(|&stype| game.name(stype) == exit));
@@ -196,7 +198,7 @@ fn wrong_inputs_name_the_next_move() {
     refused(&[published, published, "--release", "revealed"], "two folders have the same episodes");
 }
 
-/// The wins that coins published are revealed before the other files, under the same root.
+/// The wins published by coins are revealed before the other files, under the same root.
 #[test]
 fn solutions_are_revealed_before_the_rest() {
     let (home, made) = (tempfile::tempdir().unwrap(), COINS.path());
@@ -241,7 +243,7 @@ fn coins_are_minted_again_bit_for_bit() {
     assert_eq!(minted.compared.differences, Vec::<String>::new());
 }
 
-/// A change to the files of a release.
+/// A change to a release's files.
 type Forgery<'a> = &'a dyn Fn(&mut BTreeMap<String, Vec<u8>>);
 
 #[test]

@@ -1,4 +1,4 @@
-//! Tests of snapshots as datasets, with exports of `tiny`.
+//! Tests of exporting snapshots as datasets, using the recipe `tiny`.
 
 use crate::arcade::{TINY, files, run, text};
 use serde_json::Value;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// Returns the files of an export.
+/// Exports `tiny`, and returns the files.
 fn export(out: &str, flags: &[&str]) -> BTreeMap<String, Vec<u8>> {
     let folder = TINY.path();
     run(folder, &[&["export", "tiny", "--out", out], flags].concat(), 0);
@@ -49,7 +49,7 @@ fn rows_match_the_release() {
     assert!(card.contains(rows[0]["release_root"].as_str().unwrap()), "{card}");
 }
 
-/// The page documents all columns, in their order, with their types.
+/// The page documents all columns in order, with their types.
 #[test]
 fn the_page_describes_every_column() {
     let page = include_str!("../../../../docs/reference/columns.md");
@@ -79,7 +79,8 @@ fn solutions_are_exported_on_request_only() {
         assert_eq!(actions.len() as u64, row["witness_ticks"].as_u64().unwrap());
         assert!(row["solution_seed"].is_string());
     }
-    // A plain export contains nothing of any witness file: neither seeds nor hashes, nor actions under any name.
+    // A plain export contains nothing from the witness files: no seeds, no hashes, and no actions under any
+    // name.
     for (out, format) in [
         ("plain", "jsonl"),
         #[cfg(feature = "parquet")]

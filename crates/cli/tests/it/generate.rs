@@ -1,12 +1,12 @@
-//! Tests of `arcade generate levels`: the same bytes on any number of threads, levels that meet the request, and
-//! clear errors.
+//! Tests of `arcade generate levels`: identical bytes on any number of threads, levels that meet the request,
+//! and clear errors.
 
 use crate::arcade::{files, run, sweeping, text};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// Generates levels of a corpus game, or of a game in the folder. Returns the answer as JSON.
+/// Generates levels for a corpus game, or for a game in the folder. Returns the answer as JSON.
 #[track_caller]
 fn generate(folder: &Path, game: &str, out: &str, more: &[&str], status: i32) -> Value {
     let args = ["--json", "generate", "levels", "--game", game, "--out", out];
@@ -70,7 +70,7 @@ fn levels_keep_the_requested_counts() {
     assert!(home.path().join("report/report.html").exists() && home.path().join("report/sheet.png").exists());
 }
 
-/// The user requests more sprites than fit. Every draw fails, and the answer states this.
+/// The user requests more sprites than fit. Every attempt fails, and the answer states this.
 #[test]
 fn impossible_requests_end_without_a_level() {
     let home = tempfile::tempdir().unwrap();
@@ -81,7 +81,7 @@ fn impossible_requests_end_without_a_level() {
         "--game",
         "hailglass",
         "--method",
-        // A search takes ten times as long before it stops.
+        // A search takes ten times as long to give up.
         if sweeping() { "search" } else { "constructive" },
         "--count",
         "1",
@@ -105,7 +105,7 @@ fn impossible_requests_end_without_a_level() {
     assert!(asked["reason"].as_str().unwrap().contains("100 of orchid"), "{asked}");
 }
 
-/// Expects exit status 2, a message with these words, and no folder.
+/// Expects exit status 2, a message that contains the given words, and no folder.
 #[track_caller]
 fn refused(game: &str, more: &[&str], words: &[&str]) {
     let home = tempfile::tempdir().unwrap();

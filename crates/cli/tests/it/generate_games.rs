@@ -1,5 +1,5 @@
-//! Tests of `arcade generate games`: the same bytes on any number of threads, games that validate and play, and clear
-//! errors.
+//! Tests of `arcade generate games`: identical bytes on any number of threads, games that validate and play,
+//! and clear errors.
 
 use crate::arcade::{arcade, files, run, sweeping, terminate, text};
 use serde_json::Value;
@@ -38,7 +38,7 @@ fn are_whole(home: &Path, made: &str, told: &Value, count: usize) {
     }
 }
 
-/// This test runs only in `cargo xtask sweep`. A test below continues with a different number of threads, and the crate
+/// Runs only in `cargo xtask sweep`. A test below resumes on a different number of threads, and the crate
 /// `forge` tests the searches for inventions.
 #[test]
 fn games_are_the_same_on_any_number_of_threads() {
@@ -54,7 +54,7 @@ fn games_are_the_same_on_any_number_of_threads() {
     assert!(made == files(&home.path().join("three")), "games depend on the number of threads");
 }
 
-/// Three threads make the games without a break, and one thread makes them with an interruption.
+/// Three threads make the games without interruption, and one thread makes them with an interruption.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_goes_on_with_the_same_bytes() {

@@ -1,5 +1,5 @@
-//! Tests of the names under which games and levels are found: folders, the layout of the public games, single
-//! levels, and other dialects.
+//! Tests of how games and levels are found by name: folders, the layout of the public games, single levels,
+//! and other dialects.
 
 use crate::arcade::{run, text};
 use serde_json::Value;

@@ -1,5 +1,5 @@
-//! Tests of the public log of a sealed month, which is committed to, waits for its beacon, and is minted, revealed and
-//! played.
+//! Tests of a sealed month's public log. The month is committed to, waits for its beacon, and is minted,
+//! revealed and played.
 
 use crate::arcade::{TINY, commit, copy_tree, files, run, text};
 use serde_json::{Map, Value, json};
@@ -19,7 +19,7 @@ const RECIPE: &str = "name = '2027-01'\ndescription = 'x'\ncommitment = 'COMMITM
     levels = 1\ncandidates = 2.0\n[criteria]\ndecision = 200\nbudget = 240000\ndepths = [10, 25]\n\
     random_plays = 20\n[beacon]\nsource = 'drand quicknet'\nround = 1000\n";
 
-/// Two rounds of drand quicknet in the form in which it serves them.
+/// Two rounds of drand quicknet, in the form in which drand serves them.
 const ROUND_123: [&str; 2] = [
     "fb8f7bc29bf24db51871ec8c79f3a1e4bd0557bc0dfcee9ed1d924e69d1c60dc",
     "b75c69d0b72a5d906e854e808ba7e2accb1542ac355ae486d591aa9d43765482e26cd02df835d3546d23c4b13e0dfc92",
@@ -85,7 +85,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     };
     drand(folder, "other.json", 123, ROUND_123);
     minted("other.json", "specifies round 1000 of drand quicknet");
-    // A value that the publisher prefers has no signature of the network.
+    // A value that the publisher prefers lacks the network's signature.
     beacon(folder, "chosen.json", "drand quicknet", 1000, &"ab".repeat(32));
     minted("chosen.json", "has no `signature` of round 1000 of drand quicknet");
     drand(folder, "chosen.json", 1000, ROUND_123);
@@ -153,7 +153,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     says(folder, &[&growth[..], &["seen"]].concat(), 0, "has grown from 1 to 4 entries");
     says(folder, &[&growth[..], &["seen-2"]].concat(), 1, "NOT proved to have only grown");
 
-    // A witness signs only extensions of what it signed before.
+    // A witness signs only extensions of the checkpoint that it signed before.
     run(folder, &["trust", "keygen", "w", "--no-password"], 0);
     let witness = [
         "trust",
@@ -210,8 +210,8 @@ fn a_sealed_month_waits_for_its_beacon() {
     says(folder, &copy, 1, "the log was truncated");
 }
 
-/// A commitment cannot be withdrawn. A commitment that would make the root of its release impossible is therefore
-/// rejected.
+/// A commitment cannot be withdrawn. Therefore, a commitment after which its release's root could not be
+/// appended is rejected.
 #[test]
 fn a_commitment_that_leads_nowhere_is_refused() {
     let home = tempfile::tempdir().unwrap();
@@ -246,8 +246,8 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     let first = ["--commitment", "2027-02.toml", "--parent", "tiny", "--origin", "example.org/arcade"];
     append(&first, 2, "which is not in the log, so its own root could not be appended later");
     append(&["--release", "tiny", "--unsigned", "--origin", "example.org/arcade"], 0, "after no release");
-    // In the first case, the parent was forgotten. In the second, it was left out on purpose, but not in the
-    // commitment. In the third, the recipe differs.
+    // In the first case, the parent was forgotten. In the second, it was omitted on purpose, but the
+    // commitment contains it. In the third, the recipe differs.
     append(
         &["--commitment", "2027-02.toml"],
         2,
@@ -266,7 +266,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     says(folder, &arguments, 0, "commitment   2027-02, after `tiny`");
 }
 
-/// If a log states a set of keys that is later made again, the log can state no further set.
+/// If a log states a key set that is later created anew, the log can state no further key set.
 #[test]
 fn a_set_of_keys_that_nobody_follows_is_not_entered() {
     let home = tempfile::tempdir().unwrap();
@@ -288,7 +288,7 @@ fn a_set_of_keys_that_nobody_follows_is_not_entered() {
     append("trust/keys-2.json", 0, "keys         2");
 }
 
-/// Returns a scale of one release, without examinees.
+/// Returns a scale with one release and without examinees.
 fn scale_of(root: &Value) -> String {
     let none = json!({ "value": 0.0, "error": 1.0 });
     let names = ["game", "level", "family", "planner", "game_slope", "level_slope"];
@@ -306,7 +306,7 @@ fn scale_of(root: &Value) -> String {
     scale.to_string()
 }
 
-/// For files of a different kind, and for missing files, each message states the file and the next step.
+/// For missing files and files of the wrong kind, each message states the file and the next step.
 #[test]
 fn wrong_files_are_named() {
     let home = tempfile::tempdir().unwrap();
@@ -458,7 +458,8 @@ fn rows_are_replayed() {
         fs::remove_file(folder.join("results/games/again")).unwrap();
     }
 
-    // The log of an episode has an altered result. Its folder no longer matches the row, and it does not replay.
+    // An episode's log has an altered result. The results folder no longer matches the row, and the episode
+    // does not replay.
     let episodes = folder.join("results/episodes");
     let episode = fs::read_dir(&episodes).unwrap().map(|entry| entry.unwrap().path()).min().unwrap();
     let honest = fs::read_to_string(&episode).unwrap();
@@ -475,7 +476,7 @@ fn rows_are_replayed() {
     assert!(!said.contains("are already in the log"), "{said}");
 }
 
-/// The Python program shares no code with this program. If it cannot run, a note states this.
+/// The Python program shares no code with `arcade`. If it cannot run, a note states this.
 #[test]
 #[allow(clippy::print_stdout, reason = "a skipped test says so")]
 fn an_independent_program_agrees() {
@@ -507,7 +508,7 @@ fn an_independent_program_agrees() {
     };
     let (status, said) = check();
     let held = said.starts_with("3 entries, 1 releases, 1 sets of keys, 1 beacons");
-    // Without py_ecc, it states that the signature of the round was not checked.
+    // Without py_ecc, the program states that the round's signature was not checked.
     assert!(status == Some(0) && held && said.ends_with(": sound\n"), "{said}");
     let level =
         files(&folder.join("releases/tiny")).into_keys().find(|name| name.ends_with("lvl0.txt")).unwrap();

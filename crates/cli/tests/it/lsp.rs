@@ -1,5 +1,5 @@
-//! Tests of the language server as an editor runs it. A client that counts in UTF-16 conducts whole sessions with the
-//! binary.
+//! Tests of the language server as an editor runs it. A client that counts in UTF-16 runs whole sessions with
+//! the binary.
 
 use crate::arcade::{arcade, run, text};
 use base::{Sampler, Seed};
@@ -17,7 +17,7 @@ struct Client {
     input: ChildStdin,
     output: BufReader<ChildStdout>,
     requests: i64,
-    /// The notifications that have not been requested yet.
+    /// The notifications that the test has not looked at yet.
     told: Vec<Value>,
 }
 
@@ -31,7 +31,7 @@ impl Client {
         Client { process, input, output, requests: 0, told: Vec::new() }
     }
 
-    /// Starts a session that offers `encodings` for counting positions.
+    /// Starts a session in which the client offers `encodings` for counting positions.
     fn begin(folder: &Path, encodings: &[&str]) -> Client {
         let mut client = Client::start(folder);
         let capabilities = json!({
@@ -73,7 +73,7 @@ impl Client {
         serde_json::from_slice(&body).unwrap()
     }
 
-    /// Returns the response to a request, which is a result or an error.
+    /// Returns the response to a request: a result or an error.
     fn answer(&mut self, method: &str, params: &Value) -> Value {
         self.requests += 1;
         let id = self.requests;
@@ -101,7 +101,7 @@ impl Client {
         (error["code"].as_i64().unwrap(), error["message"].as_str().unwrap().to_owned())
     }
 
-    /// Returns the diagnostics of a version of a document.
+    /// Returns the diagnostics for a version of a document.
     fn diagnostics(&mut self, uri: &str, version: i64) -> Vec<Value> {
         loop {
             let own = |message: &Value| {
@@ -141,7 +141,7 @@ fn position(text: &str, at: usize) -> Value {
     json!({ "line": line, "character": text[start..at].encode_utf16().count() })
 }
 
-/// Returns the byte of a position that is counted in UTF-16 code units.
+/// Returns the byte offset of a position counted in UTF-16 code units.
 fn byte(text: &str, position: &Value) -> usize {
     let line = position["line"].as_u64().unwrap() as usize;
     let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
@@ -156,7 +156,8 @@ fn byte(text: &str, position: &Value) -> usize {
     text.len()
 }
 
-/// Returns the text after edits of the protocol. An editor makes these edits from the last to the first.
+/// Returns the text after edits in the protocol's format. Like an editor, applies the edits from last to
+/// first.
 fn edited(text: &str, edits: &Value) -> String {
     let mut places: Vec<(usize, usize, &str)> = edits
         .as_array()
@@ -310,8 +311,8 @@ fn positions_are_counted_as_agreed() {
     }
 }
 
-/// Applies 200 random changes by ranges. The server's statements about the document must equal its statements about a
-/// new document with the client's text.
+/// Applies 200 random range changes. Afterwards, the server's answers about the document must equal its
+/// answers about a new document with the client's text.
 #[test]
 fn changes_by_ranges_equal_whole_texts() {
     let home = tempfile::tempdir().unwrap();
@@ -426,8 +427,8 @@ fn a_client_that_leaves_without_a_word_is_status_1() {
     let Client { mut process, input, .. } = Client::begin(home.path(), &[]);
     drop(input);
     assert_eq!(process.wait().unwrap().code(), Some(1));
-    // This client no longer reads. A process that another test is about to start has the closed end for a moment, so
-    // the first answer may still find a reader.
+    // This client no longer reads. A process that another test is starting may briefly hold the closed end,
+    // so the first answer may still find a reader.
     let Client { mut process, mut input, output, .. } = Client::begin(home.path(), &[]);
     drop(output);
     while process.try_wait().unwrap().is_none() {

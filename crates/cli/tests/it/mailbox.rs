@@ -16,7 +16,7 @@ fn evaluate(home: &Path, more: &[&str]) -> Child {
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// Waits until this number of prompts wait in the mailbox.
+/// Waits until the mailbox contains the given number of open prompts.
 fn wait(home: &Path, prompts: usize) -> Value {
     loop {
         let listed = arcade(home).args(["--json", "mailbox", "box"]).output().unwrap();
@@ -46,7 +46,7 @@ fn logs(home: &Path) -> Vec<Vec<Event>> {
     EPISODES.iter().map(log).collect()
 }
 
-/// Two episodes are played side by side, interrupted and resumed. Their logs equal those without an
+/// Two episodes are played side by side, interrupted and resumed. Their logs equal the logs without an
 /// interruption.
 #[test]
 fn episodes_are_answered_interrupted_and_resumed() {

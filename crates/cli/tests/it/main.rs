@@ -1,4 +1,4 @@
-//! Tests of the `arcade` binary as its users run it.
+//! Tests of the `arcade` binary, run the way users run it.
 
 mod altered_rows;
 mod arcade;

@@ -1,4 +1,4 @@
-//! Tests of marks, which are the results of players that never change, kept in a release.
+//! Tests of marks: the results of fixed players, stored in a release.
 
 use crate::arcade::{commit, files, run, sweeping, text};
 use std::fs;
@@ -6,7 +6,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
-/// A recipe of three jobs, each of which takes seconds. With this seed, the marks win some of the episodes.
+/// A recipe with three jobs that take seconds each. With this seed, the marks' players win some of the
+/// episodes.
 const RECIPE: &str = "name = 'marked'\ndescription = 'x'\nseed = 'lamps'\n[corpus]\ngames = 2\nlevels = 1\n\
     candidates = 1.5\n[criteria]\ndecision = 100\nbudget = 80000\ndepths = [10, 25]\nrandom_plays = 10\n";
 /// The marks that the recipe requests.
@@ -46,7 +47,7 @@ fn marks_are_minted_again_bit_for_bit() {
     assert_eq!(files(&whole), files(&folder.join("merged")));
 }
 
-/// This test runs only in `cargo xtask sweep`. The games are made before the marks play.
+/// Runs only in `cargo xtask sweep`. The games are made before the marks are played.
 #[test]
 fn games_are_the_same_without_marks() {
     if !sweeping() {
@@ -64,7 +65,7 @@ fn games_are_the_same_without_marks() {
     assert!(!home.path().join("plain/MARKS.json").exists());
 }
 
-/// Anyone can play the episodes of the marks again, with a subcommand that knows nothing of marks.
+/// Anyone can replay the marks' episodes with a subcommand that knows nothing of marks.
 #[test]
 fn marks_are_the_episodes_of_an_evaluation() {
     let (home, whole) = (tempfile::tempdir().unwrap(), MARKED.path().join("marked"));
@@ -87,7 +88,7 @@ fn marks_are_the_episodes_of_an_evaluation() {
         }
     }
     assert!(won > 0, "{marks:#}");
-    // If these numbers differ without a new GENERATION, marks change although they must not.
+    // If these numbers change without a new GENERATION, marks have changed although they must not.
     let digest = base::Digest::of(marks["games"].to_string().as_bytes());
     assert_eq!(digest.short(), "8b626bb9", "{}", marks["games"]);
 

@@ -1,10 +1,10 @@
-//! Tests of minting a release again.
+//! Tests of regenerating a release.
 
 use crate::arcade::{TINY, arcade, copy_of_tiny, copy_tree, files, run, terminate, text};
 use std::fs;
 use std::process::Stdio;
 
-/// The answer for a release of a different generation states the version that mints it, and the commands to
+/// For a release of a different generation, the answer states the version that mints it, and the commands to
 /// install that version.
 #[test]
 fn an_old_release_names_the_version_that_regenerates_it() {
@@ -30,7 +30,8 @@ fn a_changed_seed_is_damage() {
     assert!(!folder.path().join("again").exists() && !folder.path().join("again.partial").exists());
 }
 
-/// Root may read any file, so there is nothing to test as root.
+/// Unreadable files are reported before the work starts. Root may read any file, so there is nothing to test
+/// as root.
 #[allow(clippy::print_stdout, reason = "a skipped test says so")]
 #[cfg(unix)]
 #[test]
@@ -76,7 +77,7 @@ fn a_manifest_alone_is_regenerated() {
     assert!(said.contains("CARD.json: missing") && said.contains("NOT identical"), "{said}");
 }
 
-/// A finished folder is not minted again, but is still compared.
+/// A finished folder is not minted again, but it is still compared.
 #[test]
 fn a_finished_regeneration_is_complete() {
     let (home, root) = copy_of_tiny();
@@ -98,7 +99,7 @@ fn a_finished_regeneration_is_complete() {
     run(folder, &resumed, 2);
 }
 
-/// Without --out, an interruption loses the work. Long runs state this at the start and at the end.
+/// Without `--out`, an interruption loses the work. Long runs state this at their start and at their end.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_regeneration_ends_with_its_status() {

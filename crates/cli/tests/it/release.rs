@@ -1,4 +1,4 @@
-//! Tests of minting and verifying, with the guarantees of a release.
+//! Tests of minting and verifying releases, and of the guarantees that a release gives.
 
 use crate::arcade::{
     SLICES_RECIPE, TINY, arcade, copy_of_slices, copy_of_tiny, copy_tree, files, run, sweeping, text,
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-/// Returns a folder with a name that is not Unicode, on systems that allow such a name.
+/// Returns a non-Unicode folder name, on systems that allow such names.
 fn unusual() -> PathBuf {
     #[cfg(target_os = "linux")]
     {
@@ -47,7 +47,8 @@ fn a_release_verifies_and_regenerates() {
     assert_eq!(files(&folder.join("tiny")), files(&folder.join(out)));
 }
 
-/// If the digest changes although `seeds/tiny.toml` does not, GENERATION (or SEMANTICS) must be raised.
+/// If the digest changes although `seeds/tiny.toml` has not changed, GENERATION (or SEMANTICS) must be
+/// raised.
 #[test]
 fn the_root_of_tiny_is_the_one_in_the_repository() {
     let output = run(TINY.path(), &["--json", "verify", "tiny"], 0);
@@ -70,7 +71,8 @@ fn the_version_names_generation_and_semantics() {
     assert!(manifest.contains(&expect), "{manifest}");
 }
 
-/// The first command of the README runs in an empty folder. It is estimated here, and minted in a sweep.
+/// The README's first command runs in an empty folder. Here, its cost is only estimated. In a sweep, the
+/// release is minted.
 #[test]
 fn the_starter_is_minted_and_verifies() {
     let folder = tempfile::tempdir().unwrap();
@@ -83,7 +85,7 @@ fn the_starter_is_minted_and_verifies() {
     }
 }
 
-/// The same seed gives the same candidates, and the parent already has the best of them.
+/// The same seed gives the same candidates, and the parent already contains the best of them.
 #[test]
 fn content_of_earlier_releases_is_not_minted_again() {
     let (home, _) = copy_of_slices();
@@ -121,7 +123,7 @@ fn any_flipped_byte_is_named() {
     run(folder.path(), &["verify", "tiny"], 0);
 }
 
-/// The arguments that compare `tiny` with `again`, which is already minted.
+/// The arguments for comparing `tiny` with `again`, which is already minted.
 const REGENERATED: [&str; 5] = ["regenerate", "tiny", "--out", "again", "--resume"];
 
 #[test]
@@ -153,7 +155,7 @@ fn a_file_removed_added_or_linked_is_named() {
     assert!(text(&output.stdout).contains("games/stowaway.txt"), "{}", text(&output.stdout));
 }
 
-/// Papers of a release may be changed and added, but nothing else may.
+/// A release's papers may be changed or added to. No other file may change.
 #[test]
 fn papers_accompany_a_release() {
     let (folder, root) = copy_of_tiny();
@@ -178,7 +180,7 @@ fn papers_accompany_a_release() {
     assert!(said.contains("\nidentical: "), "{said}");
     let chained = run(folder.path(), &["verify", "tiny", "--chain", "."], 0);
     assert!(text(&chained.stdout).contains("is the first release"), "{}", text(&chained.stdout));
-    // The archive of a release does not depend on its papers.
+    // A release's archive does not depend on its papers.
     assert_eq!(digest("after.tar.zst"), before);
 
     fs::write(root.join("games/.DS_Store"), "x").unwrap();
@@ -207,7 +209,7 @@ fn occupied_outputs_are_refused_before_minting() {
     assert!(said.contains("would mint 2 new games") && said.contains("which exists"), "{said}");
 }
 
-/// A repeated job of a job array has nothing to do, and succeeds.
+/// A repeated job in a job array has nothing to do, and succeeds.
 #[test]
 fn a_finished_mint_is_complete() {
     let (folder, _) = copy_of_tiny();
@@ -222,7 +224,7 @@ fn a_finished_mint_is_complete() {
     run(folder.path(), &resumed, 2);
 }
 
-/// Any file written into a release breaks its verification, except papers.
+/// Any file written into a release breaks its verification, unless the file is among the papers.
 #[test]
 fn nothing_is_written_into_a_release() {
     let (folder, root) = copy_of_tiny();
@@ -251,7 +253,7 @@ fn nothing_is_written_into_a_release() {
     assert!(said.contains("contain no solutions"), "{said}");
 }
 
-/// No version minted this release, so no version can be installed to mint it again.
+/// No version has minted this release, so no version can be installed to mint it again.
 #[test]
 fn a_changed_version_is_damage() {
     let (folder, root) = copy_of_tiny();
@@ -307,7 +309,7 @@ fn files_in_the_way_are_reported() {
     assert!(long.contains("is not the secret of a sealed release"), "{long}");
 }
 
-/// A mint that is killed at any moment leaves nothing that verifies.
+/// A mint killed at any moment leaves nothing that verifies.
 #[cfg(unix)]
 #[test]
 fn a_killed_mint_leaves_nothing_that_verifies() {
@@ -330,7 +332,7 @@ fn a_killed_mint_leaves_nothing_that_verifies() {
     }
 }
 
-/// A folder that is complete but was never published is not a release.
+/// A complete but unpublished folder is not a release.
 #[test]
 fn an_unpublished_tree_does_not_verify() {
     let (folder, root) = copy_of_tiny();
@@ -375,7 +377,7 @@ fn bad_recipes_are_named() {
     assert!(!folder.path().join("releases").exists());
 }
 
-/// Returns a release that is stored in the repository.
+/// Returns a release stored in the repository.
 fn kept(name: &str) -> String {
     format!("{}/../../tests/suite/snapshots/{name}", env!("CARGO_MANIFEST_DIR"))
 }
@@ -440,7 +442,7 @@ fn non_snapshots_are_named() {
     fs::create_dir_all(folder.join("empty")).unwrap();
     fs::create_dir_all(folder.join("sealed/public")).unwrap();
     fs::write(folder.join("sealed/public/MANIFEST.json"), "{}").unwrap();
-    // The folder of both parts stands for the published part, whose manifest is damaged here.
+    // The folder with both parts stands for the published part, whose manifest is damaged here.
     let said = text(&run(folder, &["verify", "sealed"], 1).stdout);
     assert!(said.contains("sealed/public: does NOT verify"), "{said}");
     let takes = "a snapshot is a folder with MANIFEST.json, or its .tar.zst";
@@ -463,7 +465,7 @@ fn non_snapshots_are_named() {
     assert!(said.contains("is a manifest: pass the folder that contains it"), "{said}");
 }
 
-/// The replay of witnesses is bounded, and the user can change the bound.
+/// The number of replayed steps is bounded, and the user can change the bound.
 #[test]
 fn replays_take_no_more_than_is_allowed() {
     let said = text(&run(TINY.path(), &["verify", "tiny", "--max-work", "100"], 1).stdout);
@@ -480,7 +482,7 @@ fn replays_take_no_more_than_is_allowed() {
     run(TINY.path(), &["verify", "tiny", "--max-work", "100000000"], 0);
 }
 
-/// A name that is not Unicode is valid.
+/// A non-Unicode name is valid.
 #[cfg(target_os = "linux")]
 #[test]
 fn exports_to_any_name() {

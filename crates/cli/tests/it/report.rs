@@ -1,5 +1,5 @@
-//! Tests of `arcade report`: self-contained files, the same bytes for the same results, statements about models and
-//! failures, and clear errors.
+//! Tests of `arcade report`: self-contained files, identical bytes for identical results, statements about
+//! models and failures, and clear errors.
 
 use crate::arcade::{files, run, text};
 use engine::Action;
@@ -25,9 +25,9 @@ fn game(id: &str) -> Subject {
     Subject::read(id, GAME, &levels, facts).unwrap()
 }
 
-/// A model that goes right and says so. Every fourth answer is unreadable.
+/// A model that goes right and says so. Every fourth of its answers is unreadable.
 struct Talker {
-    /// The decision before which the model halts; `None` for no halt.
+    /// The decision before which the model halts, or `None` if it never halts.
     halt: Option<u64>,
 }
 
@@ -81,7 +81,7 @@ impl Progress for Silent {
     fn episode(&self, _: &Task<'_>, _: &PlayResult) {}
 }
 
-/// Records results of [`Talker`] on a game, two runs of each level.
+/// Records the results of [`Talker`] on a game, with two runs of each level.
 fn talk(folder: &Path, id: &str, mode: &str, halt: Option<u64>) {
     let subjects = vec![game(id)];
     let entrant = Entrant {
@@ -113,7 +113,7 @@ fn talk(folder: &Path, id: &str, mode: &str, halt: Option<u64>) {
     evaluation.run(contestant, &Silent).unwrap();
 }
 
-/// Records results of a built-in player on the same game.
+/// Records a built-in player's results on the same game.
 fn play(home: &Path, player: &str, out: &str) {
     let folder = home.join("lanterns");
     fs::create_dir_all(&folder).unwrap();
@@ -209,7 +209,7 @@ fn invalid_results_are_refused_with_advice() {
     let other = GAME.replace("scoreChange=1", "scoreChange=2");
     fs::write(at("lanterns/game.vgdl"), &other).unwrap();
     run(home.path(), &["evaluate", "lanterns", "--player", "nil", "--max-steps", "3", "--out", "other"], 0);
-    // One log is invalid, and the episode of the other does not replay.
+    // One log is invalid, and the episode in the other log does not replay.
     for (name, from, to) in
         [("damaged", "\"event\"", "\"evnt\""), ("elsewhere", "\"score\":1.0", "\"score\":7.0")]
     {
@@ -243,7 +243,7 @@ fn invalid_results_are_refused_with_advice() {
     assert_eq!(fs::read(at("taken/mine.txt")).unwrap(), b"mine");
 }
 
-/// Records results of random play, with one file changed.
+/// Records results of random play, and then changes one file.
 fn tampered(home: &Path, name: &str, file: &str, change: impl FnOnce(Vec<u8>) -> Vec<u8>) {
     play(home, "random", name);
     let path = home.join(name).join(file);
@@ -251,14 +251,14 @@ fn tampered(home: &Path, name: &str, file: &str, change: impl FnOnce(Vec<u8>) ->
     fs::write(&path, change(content)).unwrap();
 }
 
-/// Returns the summary of the report on these results.
+/// Returns the report's summary of these results.
 fn summary(home: &Path, results: &str) -> Value {
     let _ = fs::remove_dir_all(home.join("report"));
     serde_json::from_slice(&run(home, &["--json", "report", results, "--out", "report"], 0).stdout).unwrap()
 }
 
-/// A results folder can claim anything. Excessive values are rejected before memory is allocated, and invalid text is
-/// malformed.
+/// A results folder can claim anything. Excessive values are rejected before memory is allocated, and invalid
+/// text is reported as malformed.
 #[test]
 fn results_folders_are_read_within_bounds() {
     let home = tempfile::tempdir().unwrap();
@@ -309,7 +309,7 @@ fn results_folders_are_read_within_bounds() {
     }
 }
 
-/// An episode whose log is a dangling link was started, and the target of the link is missing.
+/// An episode whose log is a dangling link counts as started, with its link target missing.
 #[cfg(unix)]
 #[test]
 fn dangling_links_are_told() {
@@ -322,7 +322,7 @@ fn dangling_links_are_told() {
     assert!(message.contains("lanterns-lvl0-run0.jsonl: a broken link"), "{message}");
 }
 
-/// Statements of a log that follow from its steps, or from the settings, are checked.
+/// Statements in a log that follow from its steps, or from the settings, are checked.
 #[test]
 fn logs_are_compared_with_their_replay() {
     let home = tempfile::tempdir().unwrap();
@@ -414,7 +414,7 @@ fn unfinished_episodes_are_reported() {
     assert!(page.contains("Left out of every number: 1 interrupted and not finished"), "{page}");
 }
 
-/// Names are plain text in every file of a report, and the page runs only its own script.
+/// Names are treated as plain text in every file of a report, and the page runs only its own script.
 #[test]
 fn names_are_quoted_words() {
     let home = tempfile::tempdir().unwrap();
@@ -461,7 +461,7 @@ fn names_are_quoted_words() {
         nonce.len() == 64 && page.contains("default-src 'none'; img-src data:; style-src 'unsafe-inline'; ")
     );
     assert!(policy.starts_with("; base-uri 'none'; form-action 'none'\">"));
-    // The page's scripts are the data of the boards and the reader.
+    // The page's only scripts are the boards' data and the reader.
     let scripts: Vec<&str> =
         page.match_indices("<script").map(|(at, _)| page[at..].split_once('>').unwrap().0).collect();
     let own = format!("<script nonce=\"{nonce}\"");

@@ -13,7 +13,7 @@ fn calibrate(folder: &Path, more: &[&str], status: i32) -> std::process::Output 
     run(folder, &[&["study", "calibrate"], more, &SMALL].concat(), status)
 }
 
-/// A folder with two scales. The scale in `first` has three games, and the scale in `second` has two games more.
+/// A folder with two scales. The scale in `first` has three games, and the scale in `second` has two more.
 static SCALES: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let games = ["hailglass", "great-yawn", "bog-lantern", "--out", "first", "--name", "november"];
@@ -36,13 +36,14 @@ fn releases_are_added_to_a_scale() {
     assert_eq!(first["examinees"], second["examinees"]);
     let level = &second["months"][1]["games"][0]["levels"][0]["difficulty"][0];
     assert!(level["error"].as_f64().unwrap() > 0.0, "{level}");
-    // The second month has a linking error, and the first release has none.
+    // The second month has a linking error. The first release has no linking error.
     assert_eq!(second["months"][0]["link"][0], 0.0);
     assert!(second["months"][1]["link"][0].as_f64().unwrap() > 0.0);
 }
 
-/// The actions of each examinee on a level. Examinees are frozen, so a difference is a fault, or requires a new
-/// examinee with a higher number (`docs/reference/examinees.md`). A change to the game itself also changes the actions.
+/// Checks the actions of each examinee on a level. Examinees are frozen, so a difference is either a bug or
+/// requires a new examinee with a higher number (`docs/reference/examinees.md`). Changes to the game itself
+/// also change the actions.
 #[test]
 fn examinees_play_as_ever() {
     let plays = SCALES.path().join("first/plays");
@@ -81,7 +82,7 @@ fn interrupted_calibrations_resume() {
     assert_eq!(whole, fs::read(folder.path().join("first/scale.json")).unwrap());
 }
 
-/// On a full disk, a calibration ends with the next step to take.
+/// On a full disk, a calibration ends by stating the next step.
 #[cfg(unix)]
 #[test]
 fn full_disks_report_how_to_continue() {
@@ -118,7 +119,7 @@ fn players_are_placed_or_refused() {
     play("reflex", "first-ice", "reader");
     let refused = run(folder, &["study", "scale", "reader", "--scale", "second/scale.json"], 1);
     assert!(text(&refused.stdout).contains("two anchors"), "{}", text(&refused.stdout));
-    // The scale has a different commitment, track and limit of steps.
+    // The scale has a different commitment, track and step limit.
     let settings = [
         &["--commit", "3", "--max-steps", "40"],
         &["--track", "masked", "--max-steps", "40"],
@@ -149,8 +150,8 @@ while read -r line; do
 done
 ";
 
-/// Two readers that play both months link the months for readers. A reader that cannot play is rejected before anything
-/// is played.
+/// Two readers that play both months link the months for readers. A reader that cannot play is rejected
+/// before any episode is played.
 #[cfg(unix)]
 #[test]
 fn readers_take_part_as_anchors() {
@@ -192,7 +193,7 @@ fn readers_take_part_as_anchors() {
     assert!(player["is_reader"] == true && player["months"][0]["ability"]["value"].is_f64(), "{player}");
 }
 
-/// The page shows two months, with the episodes that calibrated them.
+/// The page shows two months, and the episodes with which they were calibrated.
 #[test]
 fn timelines_are_a_page_and_its_numbers() {
     let folder = SCALES.path();
@@ -344,8 +345,8 @@ fn malformed_scales_are_refused() {
     run(folder.path(), &own, 2);
 }
 
-/// Numbers that no calibration gives are rejected when they are read, because plots and integrals would take memory in
-/// proportion to them.
+/// Values that no calibration produces are rejected when they are read, because plots and integrals would
+/// need memory in proportion to them.
 #[test]
 fn damaged_scales_are_refused() {
     let home = tempfile::tempdir().unwrap();

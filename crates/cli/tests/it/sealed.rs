@@ -28,7 +28,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     let secret = minted(folder);
     let again = run(folder, &["release", "sealed.toml", "--commit"], 2);
     assert!(text(&again.stderr).contains("never overwritten"), "{}", text(&again.stderr));
-    // No data that the commitment covers may be changed either.
+    // Data covered by the commitment must not be changed either.
     let committed = fs::read_to_string(folder.join("sealed.toml")).unwrap();
     fs::write(folder.join("changed.toml"), committed.replace("candidates = 2.0", "candidates = 3.0"))
         .unwrap();
@@ -60,7 +60,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     assert!(text(&output.stdout).contains("withheld"), "{}", text(&output.stdout));
     let output = run(folder, &["regenerate", "out/public"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
-    // The folder that holds both parts stands for the published part.
+    // The folder with both parts stands for the published part.
     let output = run(folder, &["regenerate", "out"], 2);
     assert!(text(&output.stderr).contains("sealed"), "{}", text(&output.stderr));
     run(folder, &["trust", "keygen", "lab", "--no-password"], 0);
@@ -74,7 +74,7 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
         &["export", "out", "--format", "jsonl", "--out", "withheld"],
         &["evaluate", "out", "--player", "nil", "--max-steps", "2", "--out", "results", "--key", "lab.pub"],
     ] {
-        // A sealed release is entered into a log only after its commitment.
+        // A sealed release can be appended to a log only after its commitment.
         let status = if arguments[0] == "trust" { 2 } else { 0 };
         let output = run(folder, arguments, status);
         let said = text(&output.stdout) + &text(&output.stderr);
@@ -166,8 +166,8 @@ fn sealed_releases_are_verified_revealed_and_reminted() {
     assert!(text(&output.stdout).contains("missing"), "{}", text(&output.stdout));
 }
 
-/// A commitment covers the whole recipe. Requests that cannot be filled, and guarantees that are missing, are therefore
-/// reported before the commitment is public.
+/// A commitment covers the whole recipe. Therefore, impossible requests and missing guarantees are reported
+/// before the commitment is public.
 #[test]
 fn commitments_are_made_to_recipes_that_can_be_minted() {
     let home = tempfile::tempdir().unwrap();
@@ -204,7 +204,7 @@ fn commitments_are_made_to_recipes_that_can_be_minted() {
     assert!(said.contains("move the line above the first [table]"), "{said}");
 }
 
-/// A seed invented by a person can be guessed.
+/// An invented seed can be guessed, so it is rejected.
 #[test]
 fn invented_secrets_are_refused() {
     let home = tempfile::tempdir().unwrap();
@@ -241,8 +241,8 @@ fn invented_secrets_are_refused() {
     }
 }
 
-/// The command that `--commit` proposes works, even if names contain spaces. Cases in which it cannot work are rejected
-/// at once.
+/// The command that `--commit` proposes works, even if names contain spaces. Cases in which it cannot work
+/// are rejected immediately.
 #[test]
 fn proposed_commands_work() {
     let home = tempfile::tempdir().unwrap();
@@ -275,7 +275,7 @@ fn proposed_commands_work() {
     assert!(said.contains("arcade release tiny.toml --secret tiny.secret.json"), "{said}");
 }
 
-/// A shard contains winning episodes, like the withheld part.
+/// A shard contains winning episodes, like a release's withheld part.
 #[cfg(unix)]
 #[test]
 fn shards_of_a_sealed_release_are_private() {
@@ -304,7 +304,7 @@ fn shards_of_a_sealed_release_are_private() {
     let resumed = ["release", "sealed.toml", "--out", "out", "--resume"];
     let said = text(&run(folder, &[&resumed[..], &secret].concat(), 0).stdout);
     assert!(said.contains("already complete"), "{said}");
-    // If a folder may not be entered, or is a loop, its content is unknown.
+    // If a folder is inaccessible or a loop, its content is unknown.
     std::os::unix::fs::symlink("loop", folder.join("loop")).unwrap();
     run(folder, &["release", "out/public", "--reveal", "loop", "--out", "x"], 3);
     run(folder, &["release", "out/public", "--reveal", "out/held", "--out", "whole"], 0);
@@ -318,7 +318,8 @@ fn shards_of_a_sealed_release_are_private() {
     assert!(lost.contains(&commitment), "{lost}");
 }
 
-/// Otherwise the seed and the witnesses would be published in the belief that they are withheld.
+/// A secret is rejected for an open release. Otherwise, the seed and the witnesses would be published in the
+/// belief that they are withheld.
 #[test]
 fn a_secret_for_an_open_release_is_refused() {
     let home = tempfile::tempdir().unwrap();
@@ -360,8 +361,8 @@ fn another_secret_is_refused() {
     );
 }
 
-/// A recipe uses memory tests and a beacon together. The coins, the siblings and the second wins follow from the seed
-/// with the beacon's value mixed in.
+/// A recipe uses memory tests and a beacon together. The coins, the siblings and the second wins follow from
+/// the seed combined with the beacon's value.
 #[test]
 fn coins_follow_from_the_beacon_too() {
     let home = tempfile::tempdir().unwrap();

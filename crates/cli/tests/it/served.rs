@@ -63,7 +63,7 @@ fn evaluate<'a>(player: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 #[test]
 fn external_agents_play_and_resume() {
     let folder = tempfile::tempdir().unwrap();
-    // The agent leaves after three answers, but not the second time, because past turns count.
+    // The agent exits after three answers. After the resume it does not, because past turns count.
     fs::write(
         folder.path().join("agent.sh"),
         "n=0; while read line; do case $line in *'\"past\":true'*) n=9;; *'\"type\":\"turn\"'*) n=$((n+1)); \
@@ -98,7 +98,7 @@ fn unusable_answers_are_counted_and_reported() {
     assert_eq!((&tally["steps"], &tally["unusable"]), (&6.into(), &6.into()));
     let told = text(&played.stderr);
     assert!(told.contains("6 of 6 decisions have no usable answer"), "{told}");
-    // An evaluation that had ended before also ends with a message.
+    // Resuming an evaluation that has already ended also ends with a message.
     let again = run(folder.path(), &evaluate("cmd:sh agent.sh", &["--resume"]), 0);
     assert!(
         text(&again.stderr).contains("6 of 6 decisions have no usable answer"),
@@ -111,8 +111,8 @@ fn unusable_answers_are_counted_and_reported() {
     assert!(!text(&usable.stderr).contains("usable"), "{}", text(&usable.stderr));
 }
 
-/// An agent that answers three times, then waits for a file `go`. It has child processes. One of them leaves the
-/// group and the session, and ignores signals that ask it to end.
+/// An agent that answers three times, and then waits for a file `go`. It has child processes, one of which
+/// leaves the group and the session, and ignores termination signals.
 #[cfg(target_os = "linux")]
 const STUBBORN: &str = "trap '' TERM HUP INT QUIT\nsetsid sleep 600 & echo $! > $1/setsid\nsleep 600 & echo $! > $1/child\n\
      pwd > $1/folder\nn=0\nwhile read line; do case $line in *'\"past\":true'*) n=$((n+1));; *'\"type\":\"turn\"'*) n=$((n+1))\n\
@@ -139,13 +139,14 @@ fn wait_until(what: &str, is_so: impl Fn() -> bool) {
     panic!("{what}: never");
 }
 
-/// Returns `true` if a process has ended, even if it is still in the process table.
+/// Returns `true` if a process has exited, even if it is still in the process table.
 #[cfg(target_os = "linux")]
 fn is_gone(pid: &str) -> bool {
     fs::read_to_string(format!("/proc/{pid}/stat")).map_or(true, |stat| stat.contains(") Z "))
 }
 
-/// However `arcade` ends, the player, its processes and its folder are removed, and `--resume` continues.
+/// However `arcade` ends, the player, its processes and its folder are removed, and `--resume` continues the
+/// evaluation.
 #[cfg(target_os = "linux")]
 #[test]
 fn players_end_with_arcade() {
@@ -194,7 +195,7 @@ fn players_end_with_arcade() {
     });
 }
 
-/// At the end of an episode, all processes of its player are gone, regardless of their group.
+/// At the end of an episode, all of its player's processes are gone, regardless of their group.
 #[cfg(target_os = "linux")]
 #[test]
 fn detached_processes_end_with_the_episode() {
@@ -227,7 +228,7 @@ fn misspelt_programs_are_reported_before_writing() {
         }
         assert!(!home.path().join("results").exists());
     }
-    // A failure that only the system can detect is reported as before.
+    // A failure that only the operating system can detect is still reported.
     fs::write(home.path().join("broken"), "\u{1}").unwrap();
     fs::set_permissions(home.path().join("broken"), fs::Permissions::from_mode(0o755)).unwrap();
     let told = text(&run(home.path(), &evaluate("cmd:./broken", &[]), 3).stderr);

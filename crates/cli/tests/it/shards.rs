@@ -1,4 +1,5 @@
-//! Tests of a release made in slices, interrupted and resumed, which has the same bytes.
+//! Tests of releases made in slices, interrupted and resumed. The bytes are the same as for an undisturbed
+//! mint.
 
 use crate::arcade::{SLICES, SLICES_RECIPE, arcade, copy_of_slices, files, run, sweeping, terminate, text};
 use std::fs;
@@ -67,8 +68,8 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(said.contains(&job) && said.contains("changed after it was made"), "{said}");
     assert!(!folder.join("x").exists() && !folder.join("x.partial").exists());
 
-    // `arcade clean` lists shards and removes them on request, but does not remove a shard with a foreign file in
-    // it.
+    // `arcade clean` lists shards and removes them on request, but keeps a shard that contains a foreign
+    // file.
     fs::write(folder.join("shard2/notes.txt"), "mine").unwrap();
     let clean = |flags: &[&str]| {
         let output = arcade(folder).env("TMPDIR", folder).arg("clean").args(flags).output().unwrap();
@@ -82,8 +83,8 @@ fn shards_in_any_order_give_the_bytes_of_one_process() {
     assert!(is_there("shard2/SHARD.json") && is_there("slices") && is_there("merged"));
 }
 
-/// Interrupts a mint into the folder `out`, kills it repeatedly, and resumes it. Finished work is kept unless its
-/// removal is requested.
+/// Interrupts a mint into the folder `out`, kills it repeatedly, and resumes it. Finished work is kept unless
+/// its removal is requested.
 #[cfg(unix)]
 fn kill_and_resume(folder: &Path, mint: &[&str]) {
     let start = |resume: &[&str]| {
@@ -160,7 +161,7 @@ fn killed_mints_resume() {
     }
 }
 
-/// On a full disk, a mint ends with the command that resumes it.
+/// On a full disk, a mint ends by printing the command that resumes it.
 #[cfg(unix)]
 #[test]
 fn full_disks_report_how_to_continue() {
@@ -191,7 +192,7 @@ fn full_disks_report_how_to_continue() {
     assert!(said.contains("finished jobs are kept; once this is fixed"), "{said}");
 }
 
-/// Writes a recipe that requests more games of a kind than its candidates have.
+/// Writes a recipe that requests more games of a kind than there are candidates.
 fn greedy(folder: &Path) {
     let greedy = format!("{SLICES_RECIPE}[taxonomy]\navatars = {{ watches = [1.0, 1.0] }}\n");
     fs::write(folder.join("slices.toml"), greedy).unwrap();

@@ -8,7 +8,7 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Stdio};
 
-/// A running studio, which is killed when the value is dropped.
+/// A running studio, which is killed on drop.
 struct Running {
     child: Child,
     port: u16,
@@ -68,7 +68,7 @@ fn the_studio_opens_what_it_is_given() {
     let corpus = Running::start(home.path(), &[]);
     let games = corpus.get("/api/workspace");
     assert_eq!((games["kind"].as_str(), games["games"].as_array().map(Vec::len)), (Some("corpus"), Some(27)));
-    // A copy goes into the folder that is opened next, where the copy can be changed.
+    // The copy is written to the folder opened next, where it can be edited.
     let into = Running::start(home.path(), &["corpus", "--out", "mine"]);
     let (status, copied) = into.ask("POST", "/api/copy", &json!({ "id": "hailglass", "title": "My Hail" }));
     assert_eq!((status, &copied["id"]), (200, &json!("my-hail")), "{copied}");
@@ -117,7 +117,7 @@ fn games_are_begun_where_there_are_none() {
         assert_eq!(again["id"], "river-post-2");
         assert_eq!(running.ask("POST", "/api/new", &json!({ "genre": "x", "title": "y" })).0, 400);
     }
-    // A folder of other things is not a place for games.
+    // A folder with other content is not a place for games.
     fs::create_dir_all(at("releases/2027-01")).unwrap();
     run(home.path(), &["studio", "releases", "--no-open"], 2);
 }
@@ -141,7 +141,7 @@ fn releases_are_shown_and_never_changed() {
     let (status, _) =
         running.ask("PUT", &format!("/api/games/{id}/files/lvl0.txt"), &json!({ "text": "", "base": null }));
     assert_eq!(status, 403);
-    // Games opened inside a release cannot be changed either.
+    // Games opened inside a release cannot be edited either.
     let inside = Running::start(home.path(), &["tiny/games"]);
     let games = inside.get("/api/workspace");
     assert!(games["games"].as_array().unwrap().iter().all(|game| game["writable"] == false));
@@ -154,7 +154,7 @@ fn releases_are_shown_and_never_changed() {
     assert!(text(&refused.stderr).contains("does not verify"), "{}", text(&refused.stderr));
 }
 
-/// Requests the verification of the opened release. Returns the lines about earlier releases, and the
+/// Requests the verification of the opened release. Returns the lines about earlier releases, followed by the
 /// verdict.
 fn verified(running: &Running) -> (Vec<Value>, Value) {
     let (status, said) = running.exchange("POST", "/api/release/verify", &json!({}));
@@ -186,7 +186,7 @@ fn verification_follows_the_parents() {
     let told = |ancestors: &[Value]| -> Vec<(Value, Value)> {
         ancestors.iter().map(|ancestor| (ancestor["name"].clone(), ancestor["ok"].clone())).collect()
     };
-    // No earlier release is found beside it, which is not a failure.
+    // No earlier release is found beside this one, which is not a failure.
     let alone = Running::start(home.path(), &["new/three"]);
     let parent = alone.get("/api/release")["parent"].clone();
     let (ancestors, verdict) = verified(&alone);
@@ -222,7 +222,7 @@ fn verification_follows_the_parents() {
     assert!(!verdict.to_string().contains(&*home.path().to_string_lossy()), "{verdict}");
 }
 
-/// Logs can claim anything, and their claims are shown as data.
+/// Logs can claim anything. Their claims are displayed as data, never executed as markup.
 #[test]
 fn results_are_replayed_with_their_words() {
     let home = tempfile::tempdir().unwrap();
@@ -341,7 +341,7 @@ fn galleries_are_whole_and_their_data_are_data() {
         }
     }
     assert_eq!(games, 3);
-    // The same release gives the same page, on any number of threads.
+    // The same release gives an identical page on any number of threads.
     run(home.path(), &["gallery", tiny, "--out", "again", "--jobs", "1"], 0);
     for entry in fs::read_dir(home.path().join("page/data")).unwrap() {
         let path = entry.unwrap().path();

@@ -11,7 +11,7 @@ fn json(output: &std::process::Output) -> Value {
     serde_json::from_slice(&output.stdout).expect("one JSON document")
 }
 
-/// A model that walks without knowing the rules.
+/// A model that walks around without knowing the rules.
 fn answer(_: usize, asked: &ReceivedRequest) -> Response {
     let last = asked.json()["messages"].as_array().unwrap().last().unwrap()["content"].to_string();
     Response::completion(match last.contains("## Question") {
@@ -90,7 +90,7 @@ fn refusals_name_a_way_on() {
         assert!(text(&refused.stderr).contains(words), "{more:?}: {}", text(&refused.stderr));
         assert!(!home.path().join("results").exists(), "{more:?}");
     }
-    // A flag with the value that the track sets is not a contradiction.
+    // A flag that repeats the track's value is not a contradiction.
     let args = [
         "evaluate",
         "hailglass",

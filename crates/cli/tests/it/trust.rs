@@ -1,4 +1,4 @@
-//! Tests of signed releases: keys, sets of keys, and how `verify` and other subcommands use them.
+//! Tests of signed releases: keys, key sets, and the way `verify` and other subcommands use them.
 
 use crate::arcade::{copy_of_tiny, copy_tree, run, text};
 use serde_json::Value;
@@ -85,8 +85,8 @@ fn releases_are_signed_by_enough_keys() {
     );
     says(folder, &["verify", "tiny", "--key", "trust/keys-1.json"], 0, "signed by ada, bo (2 needed");
 
-    // `bo` lost the key, and `cy` takes over. Both keys of the old set would have to sign, so a threshold of all keys
-    // cannot lose one.
+    // `bo` has lost the key, and `cy` takes over. Both keys of the old set would have to sign, so a set whose
+    // threshold is all keys cannot afford to lose one.
     let next = [
         "trust",
         "keys",
@@ -131,7 +131,7 @@ fn releases_are_signed_by_enough_keys() {
     let found = json(folder, &["verify", "tiny.tar.zst", "--key", "ada.pub"], 0);
     assert_eq!(found["signed"]["threshold"], 1);
 
-    // Subcommands that use a release accept its root or its key, and record the checks.
+    // Subcommands that use a release accept its root or its key, and record the checks made.
     let (ada, bo) = (["--key", "ada.pub"], ["--key", "bo.pub"]);
     says(
         folder,

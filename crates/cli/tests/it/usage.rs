@@ -1,4 +1,4 @@
-//! Tests of the common behaviour of all subcommands (exit statuses, messages about files, JSON of failures), and
+//! Tests of behaviour common to all subcommands (exit statuses, messages about files, failures as JSON), and
 //! of the subcommands about arcade itself.
 
 use crate::arcade::{arcade, files, run, text};
@@ -8,8 +8,8 @@ use std::io::Write;
 use std::path::Path;
 use std::process::Stdio;
 
-/// Returns the failure on standard output of a run with `--json`. It is one document, while standard error has
-/// text.
+/// Returns the failure that a run with `--json` prints to standard output. It is a single document, while
+/// standard error contains text.
 #[track_caller]
 fn failure(folder: &Path, args: &[&str], status: i32) -> Value {
     let output = run(folder, args, status);
@@ -20,7 +20,7 @@ fn failure(folder: &Path, args: &[&str], status: i32) -> Value {
     document["error"].clone()
 }
 
-/// Runs the binary, and expects this status and a message with these words.
+/// Runs the binary, and expects the given status and a message that contains the given words.
 #[track_caller]
 fn says(folder: &Path, args: &[&str], status: i32, words: &[&str]) {
     let message = text(&run(folder, args, status).stderr);
@@ -88,7 +88,7 @@ fn unreadable_folders_are_not_reported_absent() {
     says(folder, &["render", "hailglass", "-o", "board.png"], 2, &["it is a folder"]);
 }
 
-/// A line break in a file name would forge a line of the message.
+/// A line break in a file name could forge a line of the message, so it is escaped.
 #[test]
 fn paths_are_spelt_out() {
     let home = tempfile::tempdir().unwrap();
@@ -263,7 +263,7 @@ fn the_manual_is_in_the_binary() {
     says(home.path(), &["docs", "promts"], 2, &["did you mean `prompts`?"]);
 }
 
-/// Writes a file, and creates all folders above it.
+/// Writes a file, and creates its missing parent folders.
 fn put(path: &Path, content: &str) {
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(path, content).unwrap();
@@ -367,8 +367,8 @@ fn completions_and_manual_pages() {
     assert_eq!(text(&run(home.path(), &["man"], 0).stdout), text(&pages["arcade.1"]));
 }
 
-/// No subcommand writes through a link, waits for a pipe, or overwrites a file that it reads. The rejection
-/// comes before the work.
+/// No subcommand writes through a link, waits for a pipe, or overwrites a file that it reads. Such paths are
+/// rejected before the work starts.
 #[cfg(unix)]
 #[test]
 fn files_are_written_where_they_were_named() {
@@ -407,7 +407,7 @@ fn files_are_written_where_they_were_named() {
     says(folder, &many, 2, &["2000000 episodes in total, exceed the limit of 1000000; lower --runs"]);
 }
 
-/// A pipe among the files of a game is reported, and nobody waits for its other end.
+/// A pipe among a game's files is reported, and never opened for reading.
 #[cfg(unix)]
 #[test]
 fn pipes_are_no_files_of_games() {

@@ -5,7 +5,7 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 
 /// The maximum number of characters to show from a line.
 const MAX_WIDTH: usize = 160;
-/// The number of characters to show before the position of the problem if the line is cropped on the left.
+/// The number of characters to keep before the problem's position if the line is cropped on the left.
 const BEFORE: usize = 40;
 /// The replacement for omitted characters.
 const CUT: char = '…';
@@ -25,13 +25,13 @@ pub(super) struct Excerpt {
     line: usize,
     /// The problem's column in the file, counted from 0.
     column: usize,
-    /// The start of the problem's position in `text`, and the length.
+    /// The start of the problem in `text`, and its length.
     span: (usize, usize),
 }
 
 impl Excerpt {
-    /// Creates the excerpt around the bytes `start..end` of a text. If a problem spans several lines, only its part on
-    /// the first line is marked.
+    /// Creates the excerpt around the bytes `start..end` of a text. If a problem spans several lines, only
+    /// the part on the first line is marked.
     pub(super) fn of(name: &str, source: &str, start: usize, end: usize) -> Excerpt {
         let boundary = |mut at: usize| {
             at = at.min(source.len());
@@ -102,7 +102,7 @@ impl Excerpt {
         place
     }
 
-    /// Returns the problem's position in the shown text.
+    /// Returns the problem's position within the displayed text.
     pub(super) fn span(&self) -> SourceSpan {
         self.span.into()
     }

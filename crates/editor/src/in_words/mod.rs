@@ -1,4 +1,4 @@
-//! Diagnostics as text: the messages of `arcade` and of Python exceptions.
+//! Diagnostics as text, for the messages of `arcade` and of Python exceptions.
 
 mod excerpt;
 
@@ -6,7 +6,7 @@ use engine::{Diagnostic, Severity};
 use excerpt::Excerpt;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, Report};
 
-/// A text with problems, and how to show the text.
+/// A text with problems, and the way to display it.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
     /// The text's name in messages, such as a file path.
@@ -29,7 +29,8 @@ pub fn in_words(source: Source<'_>, problems: &[Diagnostic]) -> String {
     text.trim_end().to_owned()
 }
 
-/// Returns one problem: its code and message, the file with line and column, the line with a caret, and the help.
+/// Formats one problem: its code and message, the file with line and column, the line with a caret, and the
+/// help.
 #[must_use]
 pub fn one_in_words(source: Source<'_>, problem: &Diagnostic) -> String {
     let label = if problem.label.is_empty() { "here" } else { &problem.label };
@@ -57,7 +58,7 @@ pub fn one_in_words(source: Source<'_>, problem: &Diagnostic) -> String {
     }
 }
 
-/// Returns the help for a problem in the text with this name. The name replaces the placeholder in the
+/// Returns the help for a problem in the text with the given name. The name replaces the placeholder in the
 /// engine's help, so that commands work as printed.
 #[must_use]
 pub fn help(name: &str, problem: &Diagnostic) -> Option<String> {
@@ -73,7 +74,7 @@ pub fn help(name: &str, problem: &Diagnostic) -> Option<String> {
     Some(help.replacen(" GAME`", &format!(" {name}`"), 1))
 }
 
-/// Returns the terminal escape sequences that switch the colours of diagnostics on and off.
+/// Returns the terminal escape sequences that turn the colours of diagnostics on and off.
 #[must_use]
 pub fn colours() -> Vec<String> {
     let styles = GraphicalTheme::unicode().styles;

@@ -81,7 +81,7 @@ pub(super) fn answer(
     }
 }
 
-/// Returns a notification about a document's problems.
+/// Returns a notification that publishes a document's problems.
 pub(super) fn published(uri: &str, version: &Value, problems: &Value) -> Value {
     let mut params = json!({ "uri": uri, "diagnostics": problems });
     if version.is_i64() {
@@ -90,7 +90,7 @@ pub(super) fn published(uri: &str, version: &Value, problems: &Value) -> Value {
     json!({ "jsonrpc": "2.0", "method": "textDocument/publishDiagnostics", "params": params })
 }
 
-/// Returns an open document's problems, as diagnostics in the protocol's format.
+/// Returns an open document's problems as diagnostics in the protocol's format.
 pub(super) fn diagnostics(documents: &Documents, unit: Unit, uri: &str) -> Value {
     let Some(query) = Query::at_uri(documents, unit, uri) else { return json!([]) };
     query.problems().iter().map(|problem| diagnostic(problem, &query.document.text, unit)).collect()
@@ -319,7 +319,7 @@ fn text_edits(edits: &[Edit], text: &Text, unit: Unit) -> Value {
     edits.iter().map(edit).collect()
 }
 
-/// Returns a completion item. `place` determines its position among the completion items.
+/// Returns a completion item. `place` determines its rank among the completion items.
 fn completion_item(item: &Item, place: usize, range: &Value) -> Value {
     let kind = match item.kind {
         ItemKind::Class => 7,

@@ -19,8 +19,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Returns a document's kind, based on its name and, if the client specifies a language, on that
-    /// language.
+    /// Returns a document's kind, based on its name and on the language, if the client specifies one.
     fn of(uri: &str, language: &str) -> Kind {
         let name = uri::path(uri).unwrap_or_else(|| PathBuf::from(uri));
         let name = name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -99,7 +98,7 @@ pub(super) struct Document {
     pub(super) kind: Kind,
     pub(super) text: Text,
     pub(super) version: Value,
-    /// `true` if the document's problems must be published.
+    /// `true` if the document's problems need to be published again.
     pub(super) is_changed: bool,
 }
 
@@ -141,8 +140,7 @@ impl Documents {
         }
     }
 
-    /// Returns a level's game with its URI. Uses the open document if there is one, and otherwise the
-    /// file on disk.
+    /// Returns a level's game with its URI, from the open document if there is one, or else from disk.
     pub(super) fn game_of(&self, level: &str) -> Option<(String, Text)> {
         let path = uri::path(level)?;
         let (folder, name) = (path.parent()?, path.file_name()?.to_str()?);
@@ -172,7 +170,7 @@ impl Documents {
         open.chain(files.filter_map(|entry| entry.file_name().into_string().ok())).collect()
     }
 
-    /// Returns a file's text, from the open document if there is one, and otherwise from disk.
+    /// Returns a file's text, from the open document if there is one, or else from disk.
     fn text_at(&self, path: &Path, most: usize) -> Option<(String, Text)> {
         let open = self.0.iter().find(|(uri, _)| uri::path(uri).as_deref() == Some(path));
         if let Some((uri, document)) = open {

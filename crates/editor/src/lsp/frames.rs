@@ -1,8 +1,9 @@
-//! The protocol's frames. A frame is a header with a length, followed by that number of bytes.
+//! The protocol's frames. A frame consists of a header that states a length, followed by that number of
+//! bytes.
 
 use std::io::{self, BufRead, Read, Write};
 
-/// The maximum size of a message in bytes. Larger messages are discarded completely.
+/// The maximum size of a message in bytes. Larger messages are skipped entirely.
 const MAX_MESSAGE: u64 = 1 << 25;
 /// The maximum length of a header line.
 const MAX_LINE: u64 = 1 << 12;
@@ -12,13 +13,13 @@ const MAX_LINE: u64 = 1 << 12;
 pub(super) enum Frame {
     /// The bytes of a message.
     Message(Vec<u8>),
-    /// A message or a header that was rejected, with the reason. The input continues after the rejected part.
+    /// A message or header that was rejected, with the reason. Reading continues after the rejected part.
     Unread(String),
     /// The end of the input.
     End,
 }
 
-/// Reads the next frame. Memory is allocated only as the bytes arrive, not according to the length in the
+/// Reads the next frame. Memory is allocated as the bytes arrive, not based on the length stated in the
 /// header.
 pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
     let mut length = None;

@@ -1,6 +1,6 @@
 //! A language server for games (`*.vgdl`, `game.txt`) and levels (`lvlN.txt` beside a game), over any pair of streams.
 //!
-//! The server responds to every malformed message with an error, and continues to run.
+//! The server responds to every malformed message with an error and keeps running.
 
 mod answers;
 mod documents;
@@ -14,7 +14,7 @@ use std::io::{self, BufRead, Write};
 use std::sync::mpsc::{TryRecvError, sync_channel};
 use std::thread;
 
-/// The number of messages to read ahead, so that only the last of several changes is checked.
+/// The number of messages to read ahead, so that of several successive changes, only the last is checked.
 const AHEAD: usize = 8;
 
 /// Serves one client until the client leaves. Returns `true` if the client requested a shutdown first.

@@ -1,4 +1,4 @@
-//! Properties of every corpus game, and of texts with random damage.
+//! Properties of the editor functions on every corpus game, and on texts with random damage.
 
 use base::{Sampler, Seed};
 use engine::Game;
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// Returns the corpus games: name, text and first level.
+/// Returns the corpus games, each with its name, text and first level.
 fn corpus() -> Vec<(String, String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpora");
     let mut folders: Vec<_> = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -26,7 +26,7 @@ fn corpus() -> Vec<(String, String, String)> {
     games
 }
 
-/// Returns the words in the code of a text, with the offsets of their first bytes.
+/// Returns the words in a text's code, with the offsets of their first bytes.
 fn words(source: &str) -> Vec<(usize, &str)> {
     let code = source
         .split_inclusive('\n')
@@ -66,8 +66,8 @@ fn renaming_agrees_with_the_engine() {
     }
 }
 
-/// The words of a valid game are among the completions at their positions, and every word except an arrow has an explanation.
-/// Tests a third of the games, or all of them in a sweep (`cargo xtask sweep`).
+/// The words of a valid game are among the completions at their positions, and every word except an arrow has
+/// an explanation. Tests a third of the games, or all games in a sweep (`cargo xtask sweep`).
 #[test]
 fn every_word_of_the_corpus_is_offered_and_explained() {
     let step = if std::env::var_os("ARCADE_SWEEP").is_some() { 1 } else { 3 };
@@ -103,7 +103,7 @@ fn every_word_of_the_corpus_is_offered_and_explained() {
     }
 }
 
-/// Damaged texts also get answers, and every span in them is a valid slice of the text.
+/// Damaged texts get answers too, and every span in an answer is a valid slice of the text.
 #[test]
 fn damaged_texts_have_answers() {
     let games = corpus();
@@ -164,7 +164,8 @@ fn damaged_texts_have_answers() {
     }
 }
 
-/// The texts have as much inheritance, as many placements and as many names as their length allows.
+/// Texts with as much inheritance, as many placements and as many names as their length allows still get
+/// answers.
 #[test]
 fn texts_at_the_limit_have_answers() {
     let params: String = (0..250).map(|number| format!(" k{number}=1")).collect();

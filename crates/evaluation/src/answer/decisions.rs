@@ -31,7 +31,7 @@ static VALUE: LazyLock<Regex> = LazyLock::new(|| {
     )
 });
 
-/// The word "action" directly followed by an action or a number.
+/// The word "action" immediately followed by an action or a number.
 static MARKED_BY_WORD: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?-u:\b)action[*`]{0,3}[ \t]{1,4}[*`"'<(\[{]{0,4}(?P<word>action_[a-z]+|up|left|down|right|use|nil|[0-9]+)(?-u:\b)"#,
@@ -48,7 +48,7 @@ static ALONE: LazyLock<Regex> = LazyLock::new(|| {
     )
 });
 
-/// A direction in a player's statement of its next move.
+/// A direction in a player's statement about its next move.
 static STATED: LazyLock<Regex> = LazyLock::new(|| {
     let verbs = "go|going|move|moving|step|walk|turn|head|press|choose|select|play|try|shoot|face|push";
     let between = "to|the|towards|toward|one|step|cell|action|key|arrow|straight";
@@ -99,7 +99,8 @@ struct Decision<'a> {
 }
 
 /// Reads a normalised answer that does not follow the requested format. Reads the marked decisions first, and
-/// then the text after the last marked decision. If no decision is marked, reads the entire answer.
+/// then the text after the last marked decision. If no decision is marked, reads the entire answer as
+/// unmarked text.
 pub(super) fn read<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)> {
     let places: Vec<usize> = MARK.find_iter(said).map(|found| found.start()).collect();
     let marks = &places[places.len().saturating_sub(DECISIONS)..];
@@ -137,7 +138,7 @@ impl<'a> Decision<'a> {
     }
 }
 
-/// Reads the decision after a mark. Returns `None` if the mark is not followed by a decision.
+/// Reads the decision after a mark. Returns `None` if no decision follows the mark.
 fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Option<Decision<'a>> {
     let whole = mark.get(0)?;
     let name = mark.name("tag").or(mark.name("key")).map_or("", |name| name.as_str()).to_ascii_lowercase();
@@ -184,7 +185,7 @@ fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Optio
     };
     let context = match kind {
         Kind::Json => phrase::context(&name),
-        // The word itself may show that the action is a past action.
+        // The word itself may show that the action lies in the past.
         _ => phrase::context(&said[at - line.len()..at + name.len()]),
     };
     match context {
@@ -243,7 +244,7 @@ fn words<'a>(said: &'a str, from: usize) -> Option<Decision<'a>> {
     let alone = ALONE.captures_iter(tail).filter_map(|found| {
         let (whole, word) = (found.get(0)?, found.name("word")?);
         let action = action_of(word.as_str())?;
-        // `I would never choose` on the line before negates the action.
+        // `I would never choose` on the preceding line negates the action.
         let before = said[..from + whole.start()].trim_end();
         let is_free = phrase::context(line_before(said, before.len())) != Context::Negated;
         let (at, end) = (from + word.start(), from + word.end());
@@ -270,7 +271,8 @@ fn words<'a>(said: &'a str, from: usize) -> Option<Decision<'a>> {
 }
 
 /// Returns the last of several decisions, or [`Found::Several`] if a related decision differs. Decisions are
-/// related if they are on the same line, or are all tags, all boxes or all actions alone on a line.
+/// related if they are on the same line, or are all of the same kind: tags, boxes, or actions alone on a
+/// line.
 fn settle<'a>(said: &str, found: &[Decision<'a>]) -> Option<Decision<'a>> {
     let (last, earlier) = found.split_last()?;
     let Found::Plain(choice, _) = last.found else { return Some(*last) };

@@ -2,9 +2,9 @@
 //!
 //! The requested format is strict. This module defines the format for a single action, and `plan.rs` defines
 //! the format for several actions. The rules in `decisions.rs` read an answer in any other format, and the
-//! log records which rule applied. None of the rules guess. The last decision in an answer counts. A decision
-//! is invalid if it negates its action, judges it or states a second action. A number is an action only
-//! directly after the word "action". The test vectors come from `spec/06` §1.5.
+//! log records which rule applied. No rule guesses. The last decision in an answer counts. It is invalid if
+//! it negates or judges its action, or states a second action. A number is an action only immediately after
+//! the word "action". The test vectors come from `spec/06` §1.5.
 
 mod decisions;
 mod phrase;
@@ -19,7 +19,7 @@ use engine::Action;
 use regex::Regex;
 use std::sync::LazyLock;
 
-/// The maximum number of characters quoted from an unreadable answer.
+/// The maximum number of characters to quote from an unreadable answer.
 const QUOTED: usize = 40;
 
 /// The answer format that a prompt requests.
@@ -39,8 +39,8 @@ base::named_enum! {
         Json = "json",
         /// A tag around an action: `<answer>left</answer>`.
         Tag = "tag",
-        /// A word such as "action" or "final answer", directly followed by an action, such as
-        /// `**Action:** left` or `action 2`.
+        /// A word such as "action" or "final answer", immediately followed by an action, such as `**Action:**
+        /// left` or `action 2`.
         Marker = "marker",
         /// A word such as "action", followed by more words and then an action, such as `Action: I move left`.
         Line = "line",
@@ -79,7 +79,7 @@ impl<T> Reading<T> {
         }
     }
 
-    /// Converts the choice with a function, and preserves how the choice was read.
+    /// Converts the choice with a function, and keeps the information about how it was read.
     pub fn map<U>(self, convert: impl FnOnce(T) -> U) -> Reading<U> {
         match self {
             Reading::Strict(choice) => Reading::Strict(convert(choice)),
@@ -92,7 +92,7 @@ impl<T> Reading<T> {
 /// The choice that an answer appears to state.
 enum Chosen<'a> {
     Action(Action),
-    /// A word or number that does not match any known action.
+    /// A word or number that is not a known action.
     Unknown(&'a str),
     /// More than one action.
     Several,
@@ -109,9 +109,9 @@ impl Chosen<'_> {
     }
 }
 
-/// Reads an answer. `listed` contains the actions in numerical order, starting at 0. `offered` contains the
-/// currently available actions. The last decision counts. If its action is not among `offered`, no earlier
-/// decision replaces it. Cost: O(bytes).
+/// Reads an answer. `listed` contains the actions in the order of their numbers, which start at 0. `offered`
+/// contains the currently available actions. The last decision counts. If its action is not among `offered`,
+/// no earlier decision replaces it. Cost: O(bytes).
 pub fn read(text: &str, format: Format, listed: &[Action], offered: &[Action]) -> Reading {
     let said = without_reasoning(text).trim();
     if said.is_empty() {
@@ -155,15 +155,15 @@ fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen
     };
     let word = found?.get(1)?.as_str();
     match format {
-        // Synonyms of an action and words of other languages are left to the tolerant rules.
+        // Synonyms and words in other languages are left to the tolerant rules.
         Format::Word => listed.iter().find(|action| word.eq_ignore_ascii_case(&action.to_string())).copied(),
         Format::Number => named(word, listed).action(),
     }
     .map(Chosen::Action)
 }
 
-/// Returns the action with the given name. The name may be the reference engine's name, or a synonym for
-/// doing nothing.
+/// Returns the action with the given name, which may be the reference engine's name or a synonym for doing
+/// nothing.
 fn action_of(word: &str) -> Option<Action> {
     let word = word.to_ascii_lowercase();
     let word = word.strip_prefix("action_").unwrap_or(&word);

@@ -1,6 +1,6 @@
 //! Reads the phrase after the word "action", in a tag or in a JSON value. A phrase consists of words that
-//! lead to an action, the action, and an end or an explanation. A phrase with any other word is rejected, so
-//! that the parser never guesses.
+//! lead to an action, the action itself, and an end or an explanation. A phrase with any other word is
+//! rejected, so the parser never guesses.
 
 use super::{action_of, pattern};
 use engine::Action;
@@ -19,12 +19,12 @@ pub(super) enum Phrase<'a> {
     Several,
     /// The phrase states an action, but negates it, judges it, or makes another statement about the action.
     Unclear,
-    /// The phrase begins with this word or number, and does not state an action.
+    /// The phrase begins with the given word or number, and does not state an action.
     Unknown(&'a str),
     Empty,
 }
 
-/// The effect of a phrase's surrounding words on its action.
+/// The effect that the text around a phrase has on the phrase's action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Context {
     Free,
@@ -127,7 +127,7 @@ const AFTER: [&str; 10] =
 /// Words that begin a reason.
 const REASONS: [&str; 7] = ["because", "since", "as", "so", "to", "toward", "towards"];
 
-/// Words that begin a continuation of the sentence.
+/// Words that continue the sentence.
 const PREPOSITIONS: [&str; 20] = [
     "for", "in", "into", "onto", "through", "past", "along", "around", "at", "on", "by", "from", "with",
     "until", "over", "off", "out", "via", "across", "and",
@@ -186,7 +186,7 @@ const NEGATIONS: [&str; 29] = [
     "refuse",
 ];
 
-/// Words that mark an action as past, or as an item of a list.
+/// Words that mark an action as past, or as an item in a list.
 const ASIDES: [&str; 15] = [
     "previous",
     "last",
@@ -227,14 +227,14 @@ pub(super) fn retracts(text: &str) -> bool {
     retracts_plan(text) || SECOND_THOUGHT.is_match(text)
 }
 
-/// Returns `true` if a text retracts the preceding plan. `wait` alone does not retract a plan, because it can
-/// be one of the plan's actions.
+/// Returns `true` if a text retracts the preceding plan. The word `wait` alone does not retract a plan,
+/// because it can be one of the plan's actions.
 pub(super) fn retracts_plan(text: &str) -> bool {
     RETRACTION.is_match(text)
 }
 
-/// Reads a phrase. `listed` maps numbers to actions. `listed` is `None` if a number cannot be a choice in
-/// this phrase.
+/// Reads a phrase. `listed` maps numbers to actions, or is `None` if a number cannot be a choice in this
+/// phrase.
 pub(super) fn read<'a>(text: &'a str, listed: Option<&[Action]>) -> Phrase<'a> {
     let (mut unknown, mut is_led, mut is_minus) = (None, false, false);
     for token in TOKEN.captures_iter(text) {
@@ -294,8 +294,8 @@ fn is_whole(rest: &str) -> bool {
     !(goes_on && signs.as_str().trim_start().starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// Checks the text between an action and the end of the line. Returns `None` if the text does not change the
-/// choice.
+/// Checks the text between an action and the end of the line. Returns `None` if the text leaves the choice
+/// unchanged.
 pub(super) fn tail<'a>(rest: &str, choice: Action) -> Option<Phrase<'a>> {
     let flaw = || if names_other(rest, Some(choice)) { Phrase::Several } else { Phrase::Unclear };
     for token in TOKEN.captures_iter(rest) {
@@ -341,7 +341,8 @@ fn reason<'a>(after: &str, choice: Action) -> Option<Phrase<'a>> {
     }
 }
 
-/// Checks the text after a punctuation mark: a separate sentence, or the rest of the same sentence.
+/// Checks the text after a punctuation mark, which is either a separate sentence or the rest of the same
+/// sentence.
 fn explanation<'a>(text: &str, choice: Action, is_sentence: bool) -> Option<Phrase<'a>> {
     let flaw = || if names_other(text, Some(choice)) { Phrase::Several } else { Phrase::Unclear };
     let first = words(text).next()?;
@@ -362,7 +363,7 @@ fn is_denied(text: &str, choice: Action) -> bool {
         || words(clause).any(|word| is_negation(&word) || JUDGING.contains(&&*word))
 }
 
-/// Returns the context of the text that follows `before`.
+/// Returns the context that the text `before` gives to the text after it.
 pub(super) fn context(before: &str) -> Context {
     let clause = clause(before);
     let mut context = Context::Free;
@@ -377,7 +378,7 @@ pub(super) fn context(before: &str) -> Context {
     context
 }
 
-/// Returns `true` if the last clause of `before` leads to an action of the player. `So I will` does, and `the
+/// Returns `true` if the last clause of `before` leads to an action by the player, as `So I will` does. `the
 /// ghost will` does not.
 pub(super) fn leads(before: &str) -> bool {
     let words: Vec<String> = words(clause(before)).collect();

@@ -14,7 +14,7 @@ const MARKERS: usize = 100;
 /// A plan in the requested format, on its own line.
 static PLAN_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^PLAN:[ \t]*(\S.*)$"));
 
-/// An item in the requested plan format: an action and its repeat count.
+/// An item in the requested plan format: an action with its repeat count.
 static ITEM: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^([a-z]+)(?:[ \t]+x[ \t]?([0-9]{1,9}))?$"));
 
 /// The start of a plan: a tag, a box, or a word such as "plan" or "actions" with a punctuation mark.
@@ -24,7 +24,7 @@ static MARKER: LazyLock<Regex> = LazyLock::new(|| {
     )
 });
 
-/// A part of a list: a count, an item's number, a word, a line break, or any other symbol.
+/// A part of a list: a count, an item number, a word, a line break, or any other symbol.
 static PART: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r"(?i)(?P<count>[ \t]*(?:(?-u:\b)x|[×*])[ \t]?(?P<times>[0-9]{1,9})(?-u:\b))|(?P<number>[0-9]+[.)][ \t])|(?P<word>[a-z0-9_]+)|(?P<line>\n)|(?P<end><[/|])|(?P<sign>[,;<>\[\](){}\\`*\x22' \t\r.\-→⇒+&]|(?P<other>[^\n]))",
@@ -32,8 +32,8 @@ static PART: LazyLock<Regex> = LazyLock::new(|| {
 });
 
 /// Reads a plan, truncated to `due` actions. `listed` contains the game's actions. The last plan in the
-/// answer counts. A plan that contains a non-action word is unusable, and no earlier plan replaces it. Cost:
-/// O(bytes + due).
+/// answer counts. If this plan contains a word that is not an action, it is unusable, and no earlier plan
+/// replaces it. Cost: O(bytes + due).
 pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>> {
     let said = without_reasoning(text).trim();
     if said.is_empty() {
@@ -63,7 +63,8 @@ pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>
             _ => Stage::Marker,
         };
         match list(rest, due, listed) {
-            // The markers belong to objects with one action each, whose other keys may give counts and order.
+            // The markers belong to objects with one action each, whose other keys may state counts and the
+            // order.
             List::Plan(_) if is_json && is_one_of_several(marker, &markers) => return none(),
             List::Plan(_) if !is_json && phrase::retracts_plan(rest) => return none(),
             List::Plan(choice) => return Reading::Tolerant { choice, stage },
@@ -113,15 +114,15 @@ fn strict(said: &str, due: u64, listed: &[Action]) -> Option<Vec<Action>> {
     Some(plan)
 }
 
-/// The beginning of a text, parsed as a list of actions.
+/// The result of parsing the beginning of a text as a list of actions.
 enum List<'a> {
     Plan(Vec<Action>),
-    /// A non-action word, in the first line or after an action on the same line.
+    /// A word that is not an action, in the first line or after an action on the same line.
     Unknown(&'a str),
     None,
 }
 
-/// Reads a list of actions up to the first line outside the list.
+/// Reads a list of actions, up to the first line that does not belong to the list.
 fn list<'a>(text: &'a str, due: u64, listed: &[Action]) -> List<'a> {
     let (mut plan, mut last, mut is_line_begun, mut is_known) = (Vec::new(), None, false, false);
     for part in PART.captures_iter(text) {
@@ -162,7 +163,7 @@ mod tests {
 
     const LISTED: [Action; 6] = [Nil, Up, Left, Down, Right, Use];
 
-    /// Checks the reading of an answer when 6 actions are due. `expect` states the initials of the expected
+    /// Checks how an answer is read when 6 actions are due. `expect` states the initials of the expected
     /// actions, and the rule that must read the answer.
     #[track_caller]
     fn check(text: &str, expect: &str) {

@@ -33,8 +33,8 @@ pub fn without_reasoning(text: &str) -> &str {
     OPENING.find(rest).map_or(rest, |tag| &rest[..tag.start()])
 }
 
-/// Returns the text without zero-width characters, and with spaces, quotation marks and full-width characters
-/// converted to ASCII.
+/// Removes zero-width characters from a text, and converts spaces, quotation marks and full-width characters
+/// to ASCII.
 pub(super) fn folded(text: &str) -> String {
     let fold = |c: char| {
         Some(match c {

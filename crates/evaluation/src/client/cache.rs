@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A folder of cached answers that several programs may use concurrently. The folder must be trusted, because
-/// a forged entry is indistinguishable from a server's answer.
+/// A folder of cached answers that several programs may use concurrently. It must be trusted, because a
+/// forged entry is indistinguishable from a server's answer.
 #[derive(Debug)]
 pub(super) struct Cache {
     folder: PathBuf,
@@ -31,8 +31,8 @@ struct Entry {
 /// Returns a request's cache key.
 ///
 /// The key covers everything that reaches the server: the provider, the URL, and every byte of the body,
-/// including the model, the conversation and the decoding. A client that formats a request differently gets a
-/// different key.
+/// including the model, the conversation and the decoding. If a client formats the same request differently,
+/// the key is different.
 ///
 /// The key also covers the draw ([`ChatRequest::sample`]). At a nonzero temperature, equal requests need
 /// different answers, but a repeated run must receive the same answers as before. At temperature 0, all draws
@@ -54,7 +54,7 @@ pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequ
 }
 
 impl Cache {
-    /// Opens a cache folder, and creates the folder if it does not exist.
+    /// Opens a cache folder, and creates it if it does not exist.
     ///
     /// # Errors
     /// Returns an error if the folder cannot be written.
@@ -84,7 +84,7 @@ impl Cache {
         }
     }
 
-    /// Returns an entry's path. Entries are spread over folders by the first two digits of their keys,
+    /// Returns an entry's path. Entries are distributed over folders by the first two digits of their keys,
     /// because a cache may contain a million entries.
     fn path(&self, key: Digest) -> PathBuf {
         let name = key.to_string();
@@ -170,7 +170,7 @@ mod tests {
         assert_eq!(cache.get(Digest::of(b"other")), None, "an answer to another question");
     }
 
-    /// Anyone who shares the folder can replace an entry with arbitrary content.
+    /// Anyone who shares the folder could replace an entry with arbitrary content.
     #[cfg(unix)]
     #[test]
     fn only_plain_files_of_a_bounded_size_are_read() {

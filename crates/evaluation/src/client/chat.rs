@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A language model that answers chats.
 pub trait Model: Sync + Send {
-    /// Requests one answer. Retries after transient failures, and returns the failure of every try.
+    /// Requests one answer. Retries after transient failures, and returns every try's failure.
     ///
     /// # Errors
     /// Returns an error if no answer could be obtained. [`ChatErrorKind`] lists the causes.
@@ -20,8 +20,8 @@ pub struct ChatRequest {
     pub messages: Vec<ChatMessage>,
     /// The sampling settings for the answer.
     pub decoding: Decoding,
-    /// The seed of this answer's draw, which is not sent to the provider. Requests with equal content that
-    /// need independent answers use different seeds, derived from values such as the episode's seed, run,
+    /// The seed of this answer's draw, which is not sent to the provider. Requests that have equal content
+    /// but need independent answers use distinct seeds, derived from values such as the episode's seed, run,
     /// step and attempt. The seed determines the jitter of waits. Unless the temperature is 0, the seed also
     /// selects the cached answer.
     pub sample: Seed,
@@ -83,15 +83,15 @@ pub struct ChatReply {
     pub served_by: Option<String>,
     /// The failed tries before the successful try.
     pub failures: Vec<Failure>,
-    /// The time from sending the request to receiving the complete answer, in milliseconds, excluding earlier
-    /// tries and waits.
+    /// The time between sending the request and receiving the complete answer, in milliseconds, excluding
+    /// earlier tries and waits.
     pub latency_ms: f64,
     /// `true` if the answer comes from the cache and cost nothing.
     pub cached: bool,
 }
 
 impl ChatReply {
-    /// Creates an answer with only a text and a finish reason.
+    /// Creates an answer from just a text and a finish reason.
     pub fn new(text: String, finish: Finish) -> ChatReply {
         ChatReply { text, finish, ..ChatReply::default() }
     }
@@ -151,7 +151,7 @@ impl Usage {
 pub struct Failure {
     /// The HTTP status of the reply, if any.
     pub status: Option<u16>,
-    /// The error message. The message never contains a key, and is limited to a few hundred characters.
+    /// The error message, which never contains a key and is limited to a few hundred characters.
     pub message: String,
     /// The time waited after the try, in milliseconds.
     pub waited_ms: u64,
@@ -163,7 +163,7 @@ pub struct Failure {
 pub struct ChatError {
     /// The kind of error.
     pub kind: ChatErrorKind,
-    /// The error message, with the server and the recommended next step.
+    /// The error message, which states the server and the recommended next step.
     pub message: String,
     /// The failures of all tries.
     pub failures: Vec<Failure>,
@@ -177,6 +177,6 @@ pub enum ChatErrorKind {
     Infrastructure,
     /// The request would exceed a cap on cost, tokens or requests.
     Budget,
-    /// The server rejected the request (400, 401, 403, 404, 422), so a retry would not help.
+    /// The server rejected the request (400, 401, 403, 404, 422), so retrying would not help.
     Rejected,
 }

@@ -41,19 +41,18 @@ pub struct ModelSettings {
     /// The server's name for the model.
     pub model: String,
     /// The sampling settings for answers, including the provider's required settings. All requests must use
-    /// these settings.
+    /// exactly these settings.
     pub decoding: Decoding,
 }
 
 impl ModelSettings {
-    /// Returns a digest of the settings. Different settings have different digests.
+    /// Returns a digest of the settings. Distinct settings have distinct digests.
     pub fn digest(&self) -> Digest {
         Digest::of(&serde_json::to_vec(self).expect("settings are plain data"))
     }
 }
 
-/// Returns the settings for the given options. Opens no connection and needs no key, so dry runs can call the
-/// function.
+/// Returns the settings for the given options. Opens no connection and needs no key, so dry runs can use it.
 ///
 /// # Errors
 /// Returns an error if the options are malformed, or use a feature that the provider does not support.
@@ -84,7 +83,7 @@ pub fn price(options: &ModelOptions) -> Result<Option<Price>, EvaluationError> {
     Ok(price)
 }
 
-/// Creates the model for the given options. Sends nothing, so only the first request shows whether the server
+/// Creates the model for the given options. Sends nothing: only the first request shows whether the server
 /// responds.
 ///
 /// # Errors
@@ -135,8 +134,8 @@ fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     Err(EvaluationError::Malformed(problem.to_owned()))
 }
 
-/// Returns the key to send. Servers on this machine and unencrypted connections get a key only if the user
-/// specifies the variable.
+/// Returns the key to send. Servers on this machine, and servers reached over unencrypted connections, get a
+/// key only if the user specifies the variable.
 fn key(
     options: &ModelOptions,
     spec: &ModelSpec,

@@ -57,7 +57,7 @@ pub(super) fn classify(provider: Provider, reply: &HttpReply, date: SystemTime) 
     Err(Fault::Final { status, message: words })
 }
 
-/// Returns a description of a body that no model server would send. Returns `None` for all other bodies.
+/// Returns a description of a body that no model server would send, or `None` for any other body.
 fn body_kind(body: &str) -> Option<&'static str> {
     let body = body.trim_start();
     if body.is_empty() {
@@ -66,11 +66,11 @@ fn body_kind(body: &str) -> Option<&'static str> {
     body.starts_with('<').then_some("a page of HTML")
 }
 
-/// The maximum wait accepted from a header or a body (one year).
+/// The maximum wait accepted from a header or a body: one year.
 const MAX_RETRY_AFTER: Duration = Duration::from_secs(365 * 24 * 60 * 60);
 
-/// Parses the wait in a `Retry-After` header. The value is a date or a number of seconds with any number of
-/// digits. The result is at most [`MAX_RETRY_AFTER`].
+/// Parses the wait in a `Retry-After` header, which is either a date or a number of seconds with any number
+/// of digits. The result is at most [`MAX_RETRY_AFTER`].
 fn retry_after(value: &str, date: SystemTime) -> Option<Duration> {
     let value = value.trim();
     if !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit()) {
@@ -122,7 +122,7 @@ fn seconds(text: &str) -> Option<Duration> {
     Duration::try_from_secs_f64(seconds.min(MAX_RETRY_AFTER.as_secs_f64())).ok()
 }
 
-/// Truncates a text to [`MAX_MESSAGE`] characters on a single line, without control characters.
+/// Shortens a text to at most [`MAX_MESSAGE`] characters on a single line, without control characters.
 pub(super) fn shorten(text: &str) -> String {
     let plain = text.replace(char::is_control, " ");
     let line = plain.split_whitespace().join(" ");

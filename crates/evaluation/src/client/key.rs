@@ -11,20 +11,20 @@ pub(super) struct Key {
     secret: String,
 }
 
-/// The minimum length of keys to search for in answers. A shorter key could be an ordinary word in an answer.
+/// The minimum length of a key to search for in answers. A shorter key could be an ordinary word.
 const MIN_SEARCHED: usize = 16;
 
 /// The text that replaces a key in a server's reply.
 const HIDDEN: &str = "[key]";
 
-/// Reads an environment variable. The client reads only variables that contain keys.
+/// Reads an environment variable. The client reads only variables that hold keys.
 #[expect(clippy::disallowed_methods, reason = "keys come from the environment only, and decide no action")]
 pub(super) fn environment(variable: &str) -> Option<String> {
     std::env::var(variable).ok()
 }
 
 impl Key {
-    /// Reads the key from a variable of `environment`. Returns `None` if the variable is unset or empty.
+    /// Reads the key from a variable in `environment`. Returns `None` if the variable is unset or empty.
     pub(super) fn read(
         variable: &str,
         environment: &dyn Fn(&str) -> Option<String>,
@@ -43,7 +43,7 @@ impl Key {
         Ok(Some(Key { variable: variable.to_owned(), secret: secret.to_owned() }))
     }
 
-    /// Returns a header value: `prefix` followed by the key.
+    /// Returns the header value that consists of `prefix` and the key.
     pub(super) fn header(&self, prefix: &str) -> HeaderValue {
         let value = HeaderValue::from_str(&format!("{prefix}{}", self.secret));
         let mut value = value.expect("keys are visible ASCII");
@@ -51,7 +51,7 @@ impl Key {
         value
     }
 
-    /// Removes the key from a server's error message.
+    /// Replaces the key in a server's error message.
     pub(super) fn hide_in_message(&self, words: &str) -> String {
         words.replace(&self.secret, HIDDEN)
     }

@@ -6,8 +6,8 @@ use std::num::NonZeroU64;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::time::Duration;
 
-/// A rate limiter. Spreads each minute's requests and tokens evenly, which also satisfies servers that count
-/// per second.
+/// A rate limiter. It spreads each minute's requests and tokens evenly, which also satisfies servers whose
+/// limits are per second.
 pub(super) struct Pace {
     clock: Arc<dyn Clock>,
     requests_per_minute: Option<NonZeroU64>,
@@ -17,7 +17,7 @@ pub(super) struct Pace {
     schedule: Mutex<Schedule>,
 }
 
-/// The earliest start of the next request, for each limit.
+/// The earliest time at which the next request may start, for each limit.
 #[derive(Default)]
 struct Schedule {
     requests: Duration,
@@ -46,7 +46,7 @@ impl Pace {
         }
     }
 
-    /// Waits until the number of requests in flight is below the limit. A request retains its slot between
+    /// Waits until the number of requests in flight is below the limit. A request keeps its slot between
     /// tries, so that an overloaded server receives fewer requests.
     pub(super) fn enter(&self) -> Slot<'_> {
         let free = self.free.lock().expect(NO_PANIC);
@@ -72,7 +72,8 @@ impl Pace {
         }
     }
 
-    /// Corrects the schedule after a request admitted with `expected` tokens has used `taken` tokens.
+    /// Corrects the schedule after a request admitted with `expected` tokens turns out to have used `taken`
+    /// tokens.
     pub(super) fn correct(&self, expected: u64, taken: u64) {
         if let Some(limit) = self.tokens_per_minute {
             let mut schedule = self.schedule();
@@ -81,7 +82,7 @@ impl Pace {
         }
     }
 
-    /// Delays all requests by the time requested by the server.
+    /// Delays all requests by the wait that the server requested.
     pub(super) fn delay_all(&self, time: Duration) {
         let until = self.clock.elapsed().saturating_add(time);
         let mut schedule = self.schedule();

@@ -50,7 +50,7 @@ impl Model for Remote {
 }
 
 impl Remote {
-    /// Requests an uncached answer.
+    /// Requests an answer that is not in the cache.
     fn request_with_retries(
         &self,
         request: &ChatRequest,
@@ -133,7 +133,7 @@ impl Remote {
         }
     }
 
-    /// Removes the key again after parsing, because JSON can encode the same text in many ways.
+    /// Removes the key once more after parsing, because JSON can encode the same text in many ways.
     fn without_key(&self, answer: ChatReply) -> ChatReply {
         let Some(key) = &self.key else { return answer };
         let hide = |text| key.hide_in_answer(text);
@@ -183,8 +183,8 @@ impl Remote {
 /// Returns the wait after a failed try.
 ///
 /// The wait grows exponentially with every try. It is multiplied by a random factor between one half and one,
-/// so that threads that failed together do not retry together. If the server requests a longer wait, returns
-/// the requested wait plus a small random amount.
+/// so that threads that failed at the same time do not retry at the same time. If the server requests a
+/// longer wait, returns the requested wait plus a small random amount.
 fn wait(number: u32, requested_wait: Option<Duration>, jitter: &mut Sampler) -> Duration {
     let doubled = FIRST_WAIT.saturating_mul(1u32.checked_shl(number - 1).unwrap_or(u32::MAX));
     let own = doubled.min(MAX_WAIT).mul_f64(0.5 + 0.5 * jitter.unit());

@@ -34,7 +34,7 @@ pub struct Server {
 impl ModelSpec {
     /// Parses a model ID as typed by users: `openai:…`, `anthropic:…` or `gemini:…`. With a base URL, any
     /// name is accepted, and the server is assumed to be OpenAI-compatible. With both a prefix and a base
-    /// URL, the prefix determines the API of the server at the URL.
+    /// URL, the prefix determines which API the server at the URL has.
     ///
     /// # Errors
     /// Returns an error if the ID or the URL is malformed. The message shows the expected form.

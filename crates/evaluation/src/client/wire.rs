@@ -1,4 +1,4 @@
-//! A single HTTP exchange, with limits on its time and its reply size.
+//! A single HTTP exchange, with limits on its duration and the size of its reply.
 
 use super::options::ModelOptions;
 use super::spec::Server;
@@ -25,7 +25,7 @@ pub(super) struct HttpReply {
 }
 
 impl Wire {
-    /// Creates a client for `server`. A request is limited to `timeout` in total, and a reply to
+    /// Creates a client for `server`. A request may take `timeout` in total, and a reply may have
     /// `reply_limit` bytes. Proxies from the environment are used, unless the server is this machine.
     pub(super) fn new(server: &Server, options: &ModelOptions) -> Wire {
         let &ModelOptions { timeout, connect_timeout, reply_limit, .. } = options;
@@ -63,7 +63,7 @@ impl Wire {
             |name| response.headers().get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
         let (retry_after, location) = (header(RETRY_AFTER), header(LOCATION));
         let mut bytes = Vec::new();
-        // Reading one byte more than allowed detects a reply that is too large.
+        // Reading one byte beyond the limit detects a reply that is too large.
         let reader = response.body_mut().as_reader().take(self.reply_limit.saturating_add(1));
         let read = { reader }.read_to_end(&mut bytes);
         read.map_err(|error| (Some(status), self.in_words(Error::from(error))))?;

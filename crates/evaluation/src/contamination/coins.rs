@@ -1,10 +1,11 @@
-//! A release's coins, in the form required by the memory tests. A coin is a random decision about which of
+//! A release's coins, in the form that the memory tests require. A coin is a random decision about which of
 //! two equivalent items is published.
 
 use base::Digest;
 use engine::Action;
 
-/// The games and winning episodes of a release, each with a published and a withheld side decided by a coin.
+/// A release's games and winning episodes. For each of them, a coin decided which side is published and which
+/// is withheld.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coins {
     /// The release's games.
@@ -31,7 +32,7 @@ pub struct LevelCoin {
     pub published: Digest,
     /// The level's digest in the withheld sibling, if any.
     pub withheld: Option<Digest>,
-    /// The first actions of the published and the withheld win. The two sequences differ and have the same
+    /// The first actions of the published and the withheld win. The two sequences differ but have the same
     /// length. `None` unless both wins exist.
     pub beginnings: Option<[Vec<Action>; 2]>,
 }
@@ -53,7 +54,8 @@ impl Coins {
         (siblings, levels.filter(|level| level.beginnings.is_some()).count())
     }
 
-    /// Finds the game and the level with the given digests. Returns their indices and the coin's side.
+    /// Finds the game and the level with the given digests. Returns their indices, and the side of the coin
+    /// on which they lie.
     pub(super) fn place(&self, game: Digest, level: Digest) -> Option<(usize, usize, Side)> {
         self.games.iter().enumerate().find_map(|(at, of)| {
             let side = match () {

@@ -1,4 +1,4 @@
-//! The memory tests, and their findings about each player.
+//! The memory tests, and their findings on each player.
 
 use super::coins::{Coins, Side};
 use super::power::{ALPHA, Power};
@@ -7,29 +7,30 @@ use serde::Serialize;
 use statistics::coin_test;
 use std::collections::BTreeMap;
 
-/// The findings about players of a release.
+/// The findings on the players of a release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contamination {
     /// The combined significance level of all tests.
     pub alpha: f64,
-    /// The number of tests. Each test's level is the combined level divided by the number of tests.
+    /// The number of tests. Each test's significance level is the combined level divided by this number.
     pub tests: u64,
-    /// The minimum number of coins for a test to be significant at its level.
+    /// The minimum number of coins with which a test can be significant at its level.
     pub needed: u64,
-    /// The findings about each player.
+    /// The findings on each player.
     pub players: Vec<PlayerMemory>,
 }
 
-/// The findings about one player.
+/// The findings on one player.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlayerMemory {
     /// The player's name.
     pub player: String,
     /// The test power, for several assumed fractions of levels that the player knows.
     pub power: Vec<Power>,
-    /// The test for whether the player's episodes begin like published wins rather than withheld wins.
+    /// The test of whether the player's episodes begin like published wins rather than withheld wins.
     pub solutions: Option<SideTest>,
-    /// The test for whether the player wins published games more often than their withheld siblings.
+    /// The test of the hypothesis that the player's episodes begin like published wins rather than withheld
+    /// wins.
     pub games: Option<SideTest>,
     /// The conclusion from both tests.
     pub evidence: Evidence,
@@ -42,9 +43,10 @@ pub struct PlayerMemory {
 pub struct SideTest {
     /// The number of coins with results.
     pub coins: u64,
-    /// The number of coins whose two sides have different results. Coins with equal results are not evidence.
+    /// The number of coins with different results on their two sides. Coins with equal results are not
+    /// evidence.
     pub informative: u64,
-    /// The number of episodes. In the sibling test, the number of episode pairs.
+    /// The number of episodes, or, in the sibling test, the number of episode pairs.
     pub episodes: u64,
     /// The total on the published side: the number of wins, or the number of episodes that begin like the
     /// published win.
@@ -67,11 +69,12 @@ impl SideTest {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {
-    /// No test was possible: the player has not played both siblings of any game, or a level with two wins.
+    /// No test was possible: there is no game of which the player has played both siblings, and no level with
+    /// two wins that the player has played.
     Untested,
-    /// None of the tests have enough coins to be significant, regardless of what the player knows.
+    /// No test has enough coins to be significant, whatever the player knows.
     CannotTell,
-    /// None of the tests were significant.
+    /// No test was significant.
     ConsistentWithNotHavingSeen,
     /// The player's episodes begin like published wins rather than withheld wins.
     HasSeenTheSolutions,
@@ -235,7 +238,7 @@ mod tests {
         Digest::of(format!("{what} {game} {side}").as_bytes())
     }
 
-    /// Returns the coins for games with one level each. Bit `game` of `fall` decides which side of the game
+    /// Returns the coins for games with one level each. Bit `game` of `fall` decides which side of that game
     /// is published.
     fn coins(fall: usize) -> Coins {
         let game = |game: usize| {
@@ -253,7 +256,7 @@ mod tests {
     }
 
     /// Returns a player with one episode on each side of each game. `of` determines whether the player wins
-    /// the episode, and how the episode begins.
+    /// an episode, and how the episode begins.
     fn player(of: impl Fn(usize, usize) -> (bool, &'static [Action])) -> PlayerEpisodes {
         let sides = (0..GAMES).flat_map(|game| [(game, 0), (game, 1)]);
         let episode = |(game, side)| {
@@ -269,8 +272,8 @@ mod tests {
     }
 
     /// Over all coin outcomes, a player without knowledge of the coins has p ≤ x in at most the fraction x of
-    /// the outcomes. This bound holds for any differences in skill between games, and for any preferred
-    /// beginnings.
+    /// the outcomes. This bound holds however the player's skill differs between games, and whichever
+    /// beginnings it prefers.
     #[test]
     fn the_level_is_exact() {
         let clean = player(|game, side| (side == 0 || game % 3 == 0, BEGINNINGS[usize::from(game < 7)]));

@@ -1,5 +1,5 @@
-//! The power of the memory tests. The power depends only on which levels are played, so it can be computed
-//! before any result is known.
+//! The power of the memory tests. It depends only on which levels are played, so it can be computed before
+//! any result is known.
 
 use super::coins::Coins;
 use serde::Serialize;
@@ -8,14 +8,14 @@ use statistics::{Memoriser, Spread, coin_power};
 
 /// The combined significance level of all memory tests.
 pub const ALPHA: f64 = 0.01;
-/// The assumed fractions of levels that a player knows.
+/// The assumed fractions of levels known to the player.
 pub const SHARES: [f64; 5] = [0.1, 0.2, 0.3, 0.5, 1.0];
 /// The assumed win rate of a player on levels that it knows.
 const KNOWN: f64 = 0.9;
 /// The assumed win rate of a player on levels that it does not know.
 const CLEAN: f64 = 0.27;
-/// The fraction of episodes that begin like a win by chance. The fraction was measured for `reflex`, which
-/// had the highest value of all measured players.
+/// The fraction of episodes that begin like a win by chance. The value was measured for `reflex`, and is the
+/// highest among all measured players.
 const BY_CHANCE: f64 = 0.07;
 /// The standard deviation, in logits, of the difference between the effects of two sets of names on a
 /// player's results.
@@ -25,10 +25,10 @@ const TRIALS: u64 = 1000;
 /// The seed of the power simulation.
 const SEED: u64 = 32;
 
-/// The power of both tests for a player that knows a given fraction of the levels.
+/// The power of both tests against a player that knows a given fraction of the levels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Power {
-    /// The fraction of levels that the player knows.
+    /// The fraction of levels known to the player.
     pub share: f64,
     /// The solution test's power, or `None` if no level with two wins is played.
     pub solutions: Option<f64>,
@@ -37,9 +37,9 @@ pub struct Power {
 }
 
 impl Power {
-    /// Returns a design's power if each test is at level `alpha`. In the design, each of `levels` levels with
-    /// two wins is played once, and `pairs` contains the number of episode pairs for each game with a
-    /// sibling.
+    /// Returns a design's power if each test is at significance level `alpha`. In the design, each of
+    /// `levels` levels with two wins is played once, and `pairs` contains the number of episode pairs for
+    /// each game with a sibling.
     pub fn of(levels: u64, pairs: &[u64], alpha: f64) -> Vec<Power> {
         let of = |share: f64| {
             let player = Memoriser { share, known: KNOWN, clean: CLEAN };

@@ -37,8 +37,8 @@ pub struct PlayedEpisode {
 /// the run.
 type Place = (usize, String, usize, u64);
 
-/// Reads the episodes in results folders. Players are distinguished as in reports, regardless of the games'
-/// names. Every episode is replayed from its log. Aborted and practice episodes do not count.
+/// Reads the episodes in results folders. Players are distinguished as in reports, but regardless of the
+/// games' names. Every episode is replayed from its log. Aborted and practice episodes do not count.
 ///
 /// # Errors
 /// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders

@@ -5,7 +5,7 @@ use crate::legend::Legend;
 use engine::Observation;
 
 /// Lists the positions of each type on the board, with one line per type: `lantern: (3,2) (8,2)`. Walls are
-/// included, and floors are not. The list contains the same information as the grid, except for the stacking
+/// included, but floors are not. The list contains the same information as the grid, except for the stacking
 /// order within a cell. Cost: O(cells × types).
 pub fn coordinates(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);

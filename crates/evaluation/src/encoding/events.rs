@@ -10,9 +10,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The maximum number of cells listed per appearing or disappearing type.
 const MAX_CELLS: usize = 4;
 
-/// Describes the effects of an action, found by comparing two observations. The lines describe what happened
-/// to the avatar, what it met and what it holds. The lines also list the types that occupy more or fewer
-/// cells than before, or have moved. The score is not included. Cost: O(cells log cells).
+/// Describes the effects of an action by comparing the observations before and after it. The lines describe
+/// what happened to the avatar, what it met and what it holds. They also list the types that have moved, or
+/// that occupy more or fewer cells than before. The score is not included. Cost: O(cells log cells).
 pub fn events(before: &Observation, now: &Observation, action: Action, legend: &Legend) -> Vec<String> {
     let (old, new) = (Scene::of(before, legend), Scene::of(now, legend));
     let mut lines =
@@ -155,8 +155,8 @@ fn is_avatar(legend: &Legend, name: &str) -> bool {
     legend.entry(name).is_some_and(|entry| entry.role == crate::legend::EntryRole::Avatar)
 }
 
-/// Adds rulers to a board's edges. The last digit of each column number is above the column, and each row
-/// number precedes its row.
+/// Adds rulers to a board's edges. Above each column is the last digit of its number, and before each row is
+/// its number.
 pub fn ruled(grid: &str) -> String {
     let columns = grid.lines().next().map_or(0, |row| row.chars().count());
     let width = grid.lines().count().saturating_sub(1).to_string().len();

@@ -7,15 +7,15 @@ use itertools::Itertools;
 use render::EMPTY;
 
 /// Draws the board with one line per row. Each cell shows its topmost sprite, ignoring floors and placing the
-/// avatar above all other sprites. A sprite between cells is drawn in all cells that it overlaps, except for
-/// the avatar. Cost: O(cells).
+/// avatar above all other sprites. A sprite between cells is drawn in all cells that it overlaps. The avatar
+/// is drawn in only one cell. Cost: O(cells).
 pub fn grid(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
     let symbol = |row, column| symbol(legend, scene.at(column, row));
     (0..scene.rows).map(|row| (0..scene.columns).map(|column| symbol(row, column)).join("")).join("\n")
 }
 
-/// Draws the board of [`grid`], rotated clockwise by a quarter turn. The first row of the result is the
+/// Draws the board as [`grid`] does, rotated clockwise by a quarter turn. The first row of the result is the
 /// board's first column, read from bottom to top. Cost: O(cells).
 pub fn rotated(observation: &Observation, legend: &Legend) -> String {
     let scene = Scene::of(observation, legend);
@@ -30,10 +30,10 @@ fn symbol(legend: &Legend, names: &[&str]) -> char {
 }
 
 /// Lists the stacks of sprites that the grid cannot show, such as `frost over snow: (3,4) (5,4)`. Each
-/// combination of several sprites has one line, in board order. Cost: O(cells × stacks).
+/// distinct combination of sprites has one line, in board order. Cost: O(cells × stacks).
 pub fn stacks(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
-    // Each pile consists of its names, from the lowest to the uppermost, and its cells.
+    // Each pile consists of its names, from bottom to top, and its cells.
     let mut piles: Vec<(&[&str], Vec<_>)> = Vec::new();
     for (cell, names) in scene.cells.iter().enumerate().filter(|(_, names)| names.len() > 1) {
         let at = (cell % scene.columns, cell / scene.columns);

@@ -15,8 +15,8 @@ const NEAREST: usize = 8;
 /// `lantern: (3,2) (8,2)`.
 ///
 /// Up to `NEAREST` positions are listed per type, nearest first. Scenery at more than `NEAREST` positions is
-/// omitted, because the board shows it. Without an avatar, the output is only a list of sprites, row by row.
-/// Cost: O(cells × types).
+/// omitted, because the board shows it. Without an avatar, only the sprites are listed, row by row. Cost:
+/// O(cells × types).
 pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let mut lines = Vec::new();
@@ -41,7 +41,7 @@ pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
 }
 
 /// Lists the sprites that move straight ahead, by direction, as in `drifter: right (7,1) (2,2), left (10,3)`.
-/// Up to `NEAREST` sprites are listed per type, nearest first. Types that always move in the direction stated
+/// Up to `NEAREST` sprites are listed per type, nearest first. Types that always move in a direction stated
 /// in the rules are omitted. Cost: O(movers × types).
 pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
     let avatar = Scene::of(observation, legend).avatar;

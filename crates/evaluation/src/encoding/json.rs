@@ -15,7 +15,7 @@ struct Document<'a> {
     score: f64,
     avatar: Option<Avatar<'a>>,
     holds: BTreeMap<&'a str, i32>,
-    /// The sprites' columns and rows, by type name.
+    /// The columns and rows of the sprites, by type name.
     objects: BTreeMap<&'a str, Vec<(usize, usize)>>,
 }
 

@@ -16,9 +16,9 @@ pub struct Picture {
     pub height: u32,
 }
 
-/// Draws the observation with `cell` pixels per cell. A legend below the board shows the game's types with
-/// their tiles and names. The image is drawn from the observation rather than the state, so it shows no more
-/// than the other encodings. The same arguments give the same bytes on every machine. Cost: O(pixels).
+/// Draws the observation with `cell` pixels per cell. A legend below the board shows the game's types, each
+/// with its tile and name. The image is drawn from the observation rather than the state, so it shows no more
+/// than the other encodings. The same arguments give identical bytes on every machine. Cost: O(pixels).
 ///
 /// # Errors
 /// Returns an error if the cells or the entire image would be too small or too large.

@@ -1,4 +1,4 @@
-//! The events in an episode's log, with one line of JSON per event.
+//! The events in an episode's log. Each event is one line of JSON.
 
 use crate::client::{ChatReply, Failure, Finish, Role, Usage};
 use crate::commitment::Commitment;
@@ -9,11 +9,11 @@ use base::{Digest, Seed};
 use engine::{Action, Outcome, StateHash};
 use serde::{Deserialize, Serialize};
 
-/// The version of the event format. The version is incremented whenever readers of older logs might misread
-/// newer logs.
+/// The version of the event format. It is incremented whenever programs that read older logs might misread
+/// newer ones.
 pub const SCHEMA: u32 = 1;
 
-/// An event of an episode, stored as one line of its log. Two runs of the same evaluation with the same
+/// An event in an episode, stored as one line of the log. Two runs of the same evaluation with the same
 /// answers differ only in their times (`latency_ms`, `waited_ms`, `took_ms`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case", deny_unknown_fields)]
@@ -22,7 +22,7 @@ pub enum Event {
     Start {
         /// The version of the event format: [`SCHEMA`].
         schema: u32,
-        /// The version of the engine's semantics ([`engine::SEMANTICS`]). Under a different version, the
+        /// The version of the engine's semantics ([`engine::SEMANTICS`]). Under a different version, the same
         /// actions may have different effects.
         semantics: u32,
         /// The game's folder name in the results.
@@ -35,7 +35,7 @@ pub enum Event {
         level_digest: Digest,
         /// The episode's index among this player's episodes on this level.
         run: u64,
-        /// The seed of the game's randomness. All players get the same seed, so that runs are paired.
+        /// The seed of the game's randomness. It is the same for all players, so that runs are paired.
         seed: Seed,
         /// The maximum number of actions in the episode.
         max_steps: u64,
@@ -53,8 +53,8 @@ pub enum Event {
         /// The avatar's column and row, if there is an avatar.
         avatar: Option<(i32, i32)>,
     },
-    /// A text sent to a model or received from a model. Each text is recorded once, and later events refer to
-    /// it by its index.
+    /// A text sent to a model or received from one. Each text is recorded once, and later events refer to it
+    /// by its index.
     Message {
         /// The index of the text within the episode, starting at 0.
         id: u32,
@@ -67,13 +67,13 @@ pub enum Event {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         image: Option<Digest>,
     },
-    /// A request about to be sent. If the log contains no reply, the request may have been paid for, but its
-    /// reply was lost.
+    /// A request about to be sent. If the log contains no reply to it, the request may have been paid for
+    /// although its reply was lost.
     Request {
         /// The number of actions played before the decision.
         step: u64,
-        /// The index of the attempt within the step, starting at 0. Each repetition of the question after an
-        /// invalid answer is a new attempt.
+        /// The index of the attempt within the step, starting at 0. Each time the question is repeated after
+        /// an invalid answer, a new attempt starts.
         attempt: u32,
         /// The messages in the conversation, by index.
         messages: Vec<u32>,
@@ -82,12 +82,13 @@ pub enum Event {
     },
     /// A model's answer to a request.
     Reply(Reply),
-    /// A commitment to several actions, played in the following steps. Players that commit to one action log
-    /// no plans.
+    /// A plan of several actions that the player commits to, played in the following steps. Players that
+    /// commit to one action log no plans.
     Plan {
         /// The number of steps before the plan.
         step: u64,
-        /// The plan's actions, up to the number due. In the remaining due ticks, the player does nothing.
+        /// The plan's actions, up to the number due. If there are fewer, the player does nothing in the
+        /// remaining ticks.
         actions: Vec<Action>,
         /// The origin of the choice, for all steps in the plan.
         validity: Validity,
@@ -114,7 +115,7 @@ pub enum Event {
         /// The duration of the decision, in milliseconds.
         took_ms: f64,
     },
-    /// The player's answer to the question about the rules after the last level of a series.
+    /// The player's answer to the question about the rules that follows the last level of a series.
     Predictions {
         /// The number of steps before the answer.
         step: u64,
@@ -128,7 +129,8 @@ pub enum Event {
         /// correct.
         grade: Grade,
     },
-    /// An aborted episode. Resuming the evaluation with `--resume` continues after this line.
+    /// An aborted episode. If the evaluation is resumed with `--resume`, the episode continues after this
+    /// line.
     Halt {
         /// The category of the abort: `infrastructure`, `budget`, `rejected` or `unusable`.
         reason: String,
@@ -190,7 +192,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// Returns an answer's record. The record does not yet contain the action read from the answer.
+    /// Creates the record of an answer. The action read from the answer is not yet part of the record.
     pub(crate) fn of(step: u64, attempt: u32, class: ReplyClass, answer: ChatReply) -> Reply {
         let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
         let latency_ms = (latency_ms * 1000.0).round() / 1000.0;
@@ -221,7 +223,7 @@ pub enum ReplyClass {
     Strict,
     /// The answer states an action in a different format, read by a tolerant rule.
     Tolerant,
-    /// The answer contains no readable action, or states a nonexistent action.
+    /// The answer contains no readable action, or states a nonexistent one.
     Invalid,
     /// The model declined to answer.
     Refused,
@@ -239,7 +241,7 @@ pub enum Status {
     StepLimit,
 }
 
-/// Returns the origins of the decisions in a log. Each decision is a plan, or a step if the player commits to
+/// Returns the origins of the decisions in a log. A decision is a plan, or a step if the player commits to
 /// one action.
 pub fn decisions(log: &[Event]) -> impl Iterator<Item = Validity> {
     let is_one = !matches!(log.first(), Some(Event::Start { commit, .. }) if !commit.is_one());

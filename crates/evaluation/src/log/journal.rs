@@ -9,8 +9,8 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// The maximum size of a log, in bytes. A long episode with extensive model reasoning can occupy several
-/// hundred million bytes.
+/// The maximum size of a log, in bytes. The log of a long episode with extensive model reasoning can occupy
+/// several hundred megabytes.
 const MAX_LOG: u64 = 1 << 30;
 
 /// The recommendation in error messages about damaged or modified logs.
@@ -22,8 +22,8 @@ pub struct Journal {
     path: PathBuf,
     file: Option<File>,
     events: Vec<Event>,
-    /// The range of events in the current step. The end is set only if the step was decided in an earlier
-    /// run.
+    /// The range of events that belong to the current step. The end is set only if the step was decided in an
+    /// earlier run.
     step: (usize, Option<usize>),
 }
 
@@ -63,8 +63,8 @@ impl Journal {
         &self.events
     }
 
-    /// Returns the events of the current step, without its [`Event::Step`]. After an interruption, these
-    /// events may include requests and replies.
+    /// Returns the current step's events other than its [`Event::Step`]. After an interruption, they may
+    /// include requests and replies.
     pub fn pending(&self) -> &[Event] {
         let (from, to) = self.step;
         &self.events[from..to.unwrap_or(self.events.len())]

@@ -1,4 +1,4 @@
-//! An episode's log, with one event per line. Each event is appended as it happens.
+//! An episode's log, with one event per line. Each event is appended when it happens.
 
 mod event;
 mod journal;

@@ -1,4 +1,4 @@
-//! Checks that the answers before a step are consistent with the step's recorded validity.
+//! Checks that the answers recorded before a step are consistent with the step's validity.
 
 use crate::log::{Event, Reply, ReplyClass};
 use crate::player::Validity;
@@ -22,7 +22,7 @@ impl<'a> Answers<'a> {
         Ok(())
     }
 
-    /// Adds an event other than an answer between two steps.
+    /// Records an event other than an answer, found between two steps.
     pub(super) fn other(&mut self, event: &Event) {
         self.is_model |= matches!(event, Event::Request { .. });
     }
@@ -64,8 +64,8 @@ impl<'a> Answers<'a> {
             return if is_model { wrong("the answer is missing") } else { Ok(()) };
         };
         if !is_model {
-            // The log does not contain the answer that was read successfully. If there was a second
-            // unreadable answer, it was the last answer.
+            // The log does not contain the answer that was read successfully. If there are two unreadable
+            // answers, the second was the last answer.
             let has_failed = replies.len() > 1;
             return match (is_valid, has_failed) {
                 (true, true) => wrong("no answer was usable"),

@@ -16,7 +16,7 @@ use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Returns the flags of all steps except the last. `texts` contains the board before each action, so there is
-/// no board after the last action. Board rows are joined by line feeds.
+/// no board after the last one. Board rows are joined by line feeds.
 ///
 /// ```
 /// # use engine as infinite_arcade_engine;
@@ -38,7 +38,7 @@ pub fn flags_as_code(texts: &[String], actions: &[Action], rewards: &[f64]) -> V
         .collect()
 }
 
-/// Returns the row and column of the character that the reference code treats as the avatar.
+/// Returns the row and column of the character that the reference code takes for the avatar.
 fn place(text: &str) -> Option<(usize, usize)> {
     text.lines().enumerate().find_map(|(row, line)| {
         let column = line.chars().position(|character| character.eq_ignore_ascii_case(&'a'))?;
@@ -59,17 +59,17 @@ fn vanished(before: &str, after: &str) -> bool {
     count(before).into_iter().any(|(character, count)| after.get(&character).copied().unwrap_or(0) < count)
 }
 
-/// Draws boards with the characters that the reference code assigns to cell contents. The characters depend
-/// on the order of appearance, and stay the same throughout an episode.
+/// Draws boards with the characters that the reference code assigns to cell contents. The assignment depends
+/// on the order in which contents appear, and stays the same throughout an episode.
 #[derive(Clone, Debug)]
 pub struct AsCode {
-    /// The level mapping's entries, each with its character and its names as written.
+    /// The level mapping's entries, each as a character and its names as written.
     mapping: Vec<(char, Vec<String>)>,
     symbols: BTreeMap<String, char>,
 }
 
 impl AsCode {
-    /// Creates the characters for the start of an episode.
+    /// Creates the character assignment at the start of an episode.
     pub fn new(game: &Game) -> AsCode {
         let lines = game.description().mapping.iter();
         let mapping =
@@ -89,7 +89,7 @@ impl AsCode {
         cells.chunks(seen.columns.max(1)).map(|row| row.iter().map(symbol).join("")).join("\n")
     }
 
-    /// Assigns characters to new cell contents.
+    /// Assigns characters to cell contents that have not appeared before.
     fn learn(&mut self, cells: &[String]) {
         let entities: BTreeSet<&str> =
             cells.iter().map(String::as_str).filter(|entity| !entity.is_empty()).collect();
@@ -176,7 +176,7 @@ mod tests {
     }
 
     /// The level mapping's characters are used first, for contents whose names match the mapping's spelling.
-    /// The character pool follows in order. Later contents get the remaining characters.
+    /// Next come the characters of the pool, in order. Later contents get the remaining characters.
     #[test]
     fn characters_depend_on_the_order_of_appearance() {
         let game = Game::from_source(
@@ -201,7 +201,7 @@ BasicGame
         let mut code = AsCode::new(&game);
         let board = seen(&[&["floor"], &["wall", "floor"], &["floor", "hero"], &["goal"], &[]]);
         assert_eq!(code.text(&board), ".wAx.");
-        // A new pile of sprites takes the next character, and an old pile keeps its character.
+        // A new stack of sprites takes the next character, and a known stack keeps its character.
         let board =
             seen(&[&["floor"], &["wall", "floor"], &["goal", "hero"], &["wall", "goal"], &["floor", "wall"]]);
         assert_eq!(code.text(&board), ".w@#w");

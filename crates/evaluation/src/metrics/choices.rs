@@ -4,7 +4,7 @@ use crate::log::{Event, ReplyClass};
 use crate::player::Validity;
 use serde::Serialize;
 
-/// The numbers of steps, by the origin of each choice. The counts add up to the total number of steps.
+/// The number of steps for each origin of a choice. The counts add up to the total number of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Choices {
     /// The number of steps chosen by an answer in the requested format, or by a player that does not answer
@@ -25,7 +25,7 @@ impl Choices {
     pub fn of(log: &[Event]) -> Choices {
         let mut choices = Choices::default();
         let mut class = None;
-        // The answer class of the plan that is being played.
+        // The answer class of the plan being played.
         let mut planned = None;
         for event in log {
             match event {
@@ -62,11 +62,11 @@ impl Choices {
     }
 }
 
-/// The cost of an episode's answers. Token counts are reported by the provider. A sum is `None` if any
-/// answer's count is missing, or if there are no answers.
+/// The cost of an episode's answers. Token counts are as reported by the provider. A sum is `None` if any
+/// answer lacks the count, or if there are no answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Spending {
-    /// The number of requests sent, whether or not they were answered. A request forbidden by a cap is not
+    /// The number of requests sent, whether or not they were answered. Requests that a cap forbids are not
     /// sent.
     pub requests: u64,
     /// The number of answers.
@@ -131,8 +131,8 @@ impl Spending {
 
 /// Returns the number of requests in a log that were actually sent.
 ///
-/// Requests are recorded before it is known whether a cap allows them. If the evaluation is resumed, a
-/// forbidden request is sent without being recorded again.
+/// Requests are recorded before it is known whether a cap allows them. When the evaluation is resumed, a
+/// request that a cap had forbidden is sent without being recorded again.
 fn requests(log: &[Event]) -> u64 {
     let (mut sent, mut is_open) = (0, false);
     for event in log {

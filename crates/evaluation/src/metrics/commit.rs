@@ -1,4 +1,4 @@
-//! Compares the plans in a log with the steps that carry them out.
+//! Compares the plans in a log with the steps that execute them.
 
 use crate::commitment::Commitment;
 use crate::log::Event;
@@ -46,7 +46,7 @@ impl Commit {
         Ok(())
     }
 
-    /// Compares a step in a state with the current plan. Returns `true` if the step itself is a decision
+    /// Compares a step in a state with the current plan. Returns `true` if the step itself is a decision,
     /// because the player commits to one action.
     pub(super) fn step(&mut self, event: &Event, game: &Game, state: &State) -> Result<bool, String> {
         let Event::Step { step, action, validity, .. } = event else { return Ok(false) };

@@ -1,4 +1,4 @@
-//! The ending of an episode without a win, with its cause and its distance from a win.
+//! The ending of an episode without a win: its cause, and its distance from a win.
 
 use crate::subject::Subject;
 use engine::analysis::{Condition, EffectSummary};
@@ -8,9 +8,9 @@ use itertools::Itertools;
 use serde::Serialize;
 
 base::named_enum! {
-    /// The kind of ending for an episode without a win.
+    /// The kind of ending of an episode without a win.
     pub enum EndingKind {
-        /// The avatar was removed or transformed into a different type.
+        /// The avatar was removed, or turned into a different type.
         Died = "died",
         /// The game was lost because a required sprite other than the avatar was removed.
         Lost = "lost_sprite",
@@ -24,7 +24,7 @@ base::named_enum! {
         StepLimit = "step_limit",
         /// The game ended without a winner.
         NoWinner = "no_winner",
-        /// The engine stopped the episode because of the game's rules or an engine limit.
+        /// The engine stopped the episode, because of the game's rules or an engine limit.
         Stopped = "stopped",
     }
 }
@@ -50,22 +50,21 @@ impl EndingKind {
 pub struct Ending {
     /// The kind of ending.
     pub kind: EndingKind,
-    /// The removed or appearing sprite type, if its sprite count lost the game.
+    /// The sprite type that was removed or that appeared, if its sprite count lost the game.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sprite: Option<String>,
-    /// The other sprite type in the interaction that last removed or created the sprite, or `EOS`. `None` if
+    /// The other sprite type (or `EOS`) in the interaction that last removed or created the sprite. `None` if
     /// no interaction removed or created the sprite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
-    /// The line in the game description that caused the ending, as written. The line is an interaction if
-    /// known, and otherwise a termination.
+    /// The line in the game description that caused the ending, as written: the interaction if known, and
+    /// otherwise the termination.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<String>,
     /// The reason why the engine stopped the episode, if it did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<Limit>,
-    /// The distance from a win in the last state, or `None` if none of the winning terminations count
-    /// anything.
+    /// The distance from a win in the last state, or `None` if no winning termination counts anything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distance: Option<GoalDistance>,
 }
@@ -76,8 +75,8 @@ const EDGE: &str = "EOS";
 /// The name for ticks as a counted quantity.
 const TICKS: &str = "ticks";
 
-/// The distance from fulfilling a winning termination. With several winning terminations, the nearest one
-/// determines the distance.
+/// The distance from meeting a winning termination. With several winning terminations, the nearest one
+/// counts.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct GoalDistance {
     /// The names of the counted sprite types, as in the termination, or `ticks`.
@@ -119,9 +118,9 @@ impl Ending {
         }
     }
 
-    /// Formats the sprites that caused the ending, as text to append to its kind, as in `of touching
-    /// dragonfly`, `flower to arrow` or `weed`. Returns `None` if the sprites are unknown, or if this kind of
-    /// ending has no causing sprite.
+    /// Formats the sprites that caused the ending, as text to append to its kind, such as `of touching
+    /// dragonfly`, `flower to arrow` or `weed`. Returns `None` if the sprites are unknown, or if no sprites
+    /// cause this kind of ending.
     pub fn particulars(&self) -> Option<String> {
         let sprite = || self.sprite.as_deref().unwrap_or("a sprite");
         match (self.kind, &self.by) {
@@ -138,7 +137,7 @@ impl Ending {
         }
     }
 
-    /// Returns the ending of an episode with only a known outcome, or `None` for a win.
+    /// Returns the ending of an episode of which only the outcome is known, or `None` for a win.
     pub(crate) fn unknown(outcome: Outcome) -> Option<Ending> {
         let kind = match outcome {
             Outcome::Won => return None,
@@ -209,7 +208,7 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         distance: distance.clone(),
     };
     let Some(goal) = analysis.goals().iter().find(|goal| Some(goal.line) == line) else {
-        // The reference engine's time limit is not a line of the game.
+        // The reference engine's time limit does not appear as a line in the game.
         let late = line.is_none() && u64::try_from(last.tick()).is_ok_and(|tick| tick >= game.time_limit());
         return ending(if late { EndingKind::OutOfTime } else { EndingKind::Otherwise });
     };
@@ -219,7 +218,7 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         Condition::Tick(_) => return ending(EndingKind::OutOfTime),
         Condition::AtLeast(..) => EndingKind::Appeared,
         Condition::Exactly(_, limit) if limit > 0 => EndingKind::Appeared,
-        // An avatar that has turned into a different avatar is alive.
+        // An avatar that has turned into a different avatar type is still alive.
         _ if last.avatar_type().is_none() && avatars().any(|avatar| types.contains(&avatar)) => {
             EndingKind::Died
         }
@@ -229,8 +228,8 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         let present = types.iter().find(|&&stype| last.alive(stype) > 0);
         return Ending { sprite: present.map(|&stype| game.name(stype).to_owned()), ..ending(kind) };
     }
-    // Effects on all sprites of a type also remove sprites other than the two that met. The last interaction
-    // of this kind that is a possible cause counts.
+    // Effects on all sprites of a type also remove sprites other than the two that met. Among such
+    // interactions, the last possible cause counts.
     let seen = tick.removals.iter().rev().find(|removal| types.contains(&removal.sprite));
     let seen = seen.map(|removal| (removal.line, removal.sprite, removal.by));
     let at_large =
@@ -251,7 +250,7 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
 }
 
 /// Finds an interaction that may have removed sprites anywhere on the board, as a possible cause. Returns the
-/// interaction's line, the removed type among `types`, and the type that the interaction acted on.
+/// interaction's line, the removed type (one of `types`), and the type that the interaction acted on.
 fn removed_at_large(
     subject: &Subject,
     meeting: &Meeting,
@@ -283,7 +282,7 @@ fn distance(subject: &Subject, first: &State, last: &State) -> Option<GoalDistan
     open.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
 }
 
-/// Returns the source line around a span, without its comment and with single spaces.
+/// Returns the source line around a span, without its comment and with runs of spaces collapsed.
 fn written(source: &str, span: Span) -> String {
     let from = source.get(..span.start).map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
     let line = source.get(from..).unwrap_or("").lines().next().unwrap_or("");

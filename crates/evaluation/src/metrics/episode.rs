@@ -54,7 +54,7 @@ pub struct EpisodeMetrics {
     pub optimal_ticks: Option<usize>,
     /// The meaningful step ratio: the number of meaningful steps divided by the total number of steps.
     pub meaningful: Option<f64>,
-    /// The meaningful step ratio according to the reference code, which omits the last step. The ratio is
+    /// The meaningful step ratio as computed by the reference code, which omits the last step. It is
     /// undefined for an episode with a single step.
     pub meaningful_as_code: Option<f64>,
     /// The metrics of the avatar's movement in the level.
@@ -89,10 +89,10 @@ pub enum EpisodeStatus {
     Over,
     /// The episode reached its step limit without a win.
     StepLimit,
-    /// The episode was aborted for the given reason. The player is not at fault, so the episode is excluded
-    /// from all metrics.
+    /// The episode was aborted for the given reason. The player is not at fault, so no metric includes the
+    /// episode.
     Halted(String),
-    /// The log ends early, because the evaluation was interrupted. The episode is excluded from all metrics.
+    /// The log ends early, because the evaluation was interrupted. No metric includes the episode.
     Interrupted,
 }
 
@@ -158,8 +158,8 @@ impl EpisodeMetrics {
         }
     }
 
-    /// Returns the metrics of a finished episode with only a known outcome, as in results without logs. The
-    /// score and the number of steps are 0.
+    /// Returns the metrics of a finished episode of which only the outcome is known, as in results without
+    /// logs. The score and the number of steps are 0.
     pub fn ended(game: &str, level: usize, run: u64, outcome: Outcome) -> EpisodeMetrics {
         let is_over = outcome != Outcome::Ongoing;
         EpisodeMetrics {
@@ -201,8 +201,8 @@ impl EpisodeMetrics {
         self.outcome == Outcome::Won
     }
 
-    /// Returns `true` if the level was played to learn the rules of a series. Such an episode is excluded
-    /// from all results.
+    /// Returns `true` if the level was played to learn the rules of a series. No result includes such an
+    /// episode.
     pub fn is_practice(&self) -> bool {
         self.series.is_some_and(SeriesPlace::is_practice)
     }
@@ -212,9 +212,9 @@ impl EpisodeMetrics {
         self.status.aborted().is_none()
     }
 
-    /// Returns the number of steps in the shortest win, if proved optimal, divided by the number of steps in
-    /// this episode. The ratio is 1 for an optimal win. Returns `None` unless the episode is a win on a level
-    /// whose shortest win is known.
+    /// Returns the length of the shortest win divided by the number of steps in this episode. The ratio is 1
+    /// for an optimal win. Returns `None` unless the episode is a win on a level whose shortest win is proved
+    /// optimal.
     pub fn optimality(&self) -> Option<f64> {
         let optimal = self.optimal_ticks.filter(|_| self.won() && self.steps > 0)?;
         Some(optimal as f64 / self.steps as f64)
@@ -227,7 +227,8 @@ impl EpisodeMetrics {
 }
 
 impl EpisodeStatus {
-    /// Derives the status from the episode's steps. A missing or contradictory last log line has no effect.
+    /// Derives the status from the episode's steps. A missing or contradictory last line in the log has no
+    /// effect.
     fn of(replayed: &Replayed, max_steps: u64, log: &[Event]) -> EpisodeStatus {
         if replayed.outcome != Outcome::Ongoing {
             return EpisodeStatus::Over;

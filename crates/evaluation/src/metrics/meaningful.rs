@@ -5,7 +5,7 @@
 //!
 //! An action's effect is determined by comparison with a counterfactual: the observation that would follow
 //! from the same state, with the same randomness, if the player had done nothing. Sprites that move by
-//! themselves look the same in both observations, so only the player's effect differs.
+//! themselves look the same in both observations, so only the player's own effects differ.
 
 /// The maximum number of steps within which moves cancel each other.
 pub const WINDOW: usize = 4;
@@ -13,9 +13,9 @@ pub const WINDOW: usize = 4;
 /// An action's effect, compared with doing nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// The result is the same as after doing nothing, without a reward.
+    /// The result is the same as after doing nothing, and there is no reward.
     Nothing,
-    /// Only the avatar's position differs from the result of doing nothing, without a reward.
+    /// Only the avatar's position differs from the result of doing nothing, and there is no reward.
     Moved,
     /// The action earned a reward, or had an effect other than a move. For example, a sprite appeared,
     /// vanished, changed or moved, the avatar turned into a different type, or the game ended.
@@ -26,10 +26,10 @@ pub enum Effect {
 /// the first step and after each step. A position is `None`, or missing at the end, while there is no avatar.
 ///
 /// A step with effect [`Acted`](Effect::Acted) is meaningful. A step with effect [`Moved`](Effect::Moved) is
-/// meaningful unless it is part of a loop. A loop closes when the avatar returns to its position before a
-/// step at most [`WINDOW`] steps back, and all steps since then only moved it. The moves of a closed loop
-/// cancel each other, and the loop is forgotten. In the walk A B A B C, the first two moves cancel each
-/// other, and the last two moves lead from A to C. Cost: O(steps).
+/// meaningful unless it is part of a loop. A loop closes when the avatar returns to the position that it had
+/// before one of the last [`WINDOW`] steps, and all steps since then only moved it. The moves of a closed
+/// loop cancel each other, and the loop is removed from the walk. In the walk A B A B C, the first two moves
+/// cancel each other, and the last two moves lead from A to C. Cost: O(steps).
 ///
 /// ```
 /// use infinite_arcade_evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
@@ -40,8 +40,8 @@ pub enum Effect {
 /// ```
 pub fn meaningful<P: Copy + PartialEq>(effects: &[Effect], places: &[Option<P>]) -> Vec<bool> {
     let mut flags: Vec<bool> = effects.iter().map(|effect| *effect != Effect::Nothing).collect();
-    // The walk since the last step that acted, without its loops. Each move is stored with the position that
-    // it left.
+    // The walk since the last step that acted, without loops. Each move is stored with the position that it
+    // started from.
     let mut walk: Vec<(usize, P)> = Vec::new();
     for (step, effect) in effects.iter().enumerate() {
         let place = |at: usize| places.get(at).copied().flatten();
@@ -96,12 +96,12 @@ mod tests {
         check("aba", "mm", "00");
         // The first two moves cancel each other, and other moves follow.
         check("ababc", "mmmm", "0011");
-        // There are two pairs of moves that cancel each other. The pairs follow each other or are nested.
+        // Two pairs of moves cancel each other. The pairs are successive or nested.
         check("ababa", "mmmm", "0000");
         check("abcba", "mmmm", "0000");
         // Four moves form a loop around a block.
         check("abcda", "mmmm", "0000");
-        // A wall or a pause in between counts as a step of the window.
+        // A bump into a wall or a pause in between counts as a step in the window.
         check("abba", "m.m", "000");
         check("abbba", "m..m", "0000");
         check("abbbba", "m...m", "10001");
@@ -109,7 +109,7 @@ mod tests {
         check("abcdefa", "mmmmmm", "111111");
     }
 
-    /// A walk that collects something and returns has changed the state.
+    /// A walk that collects something and returns has changed the state, so it does not cancel out.
     #[test]
     fn effects_on_the_game_are_never_cancelled() {
         check("aba", "am", "11");
@@ -118,7 +118,7 @@ mod tests {
         check("ababa", "ammm", "1001");
     }
 
-    /// A slide is not a player action, but is part of the walk.
+    /// A slide is not one of the player's actions, but it is part of the walk.
     #[test]
     fn moved_by_something_else() {
         check("aba", "m.", "00");

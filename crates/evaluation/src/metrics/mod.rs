@@ -1,8 +1,8 @@
 //! The metrics of an episode, computed from its log and its game (`docs/reference/metrics.md`).
 //!
 //! The game is replayed from the seed and the actions in the log, and every state hash is compared. Nothing
-//! is measured during play, so metrics can be added or fixed later without querying a model again. Unknown
-//! values are `None`, never 0.
+//! is measured during play, so metrics can be added or corrected later without querying a model again.
+//! Unknown values are `None`, never 0.
 
 mod answers;
 mod as_code;

@@ -12,17 +12,17 @@ pub struct Movement {
     pub bump_rate: Option<f64>,
     /// The length of the longest sequence of steps that were not meaningful.
     pub max_bumps: Option<u64>,
-    /// The bump rate in the last quarter of the steps. The quarter's length is rounded up.
+    /// The bump rate in the last quarter of the steps. The length of the quarter is rounded up.
     pub late_bump_rate: Option<f64>,
-    /// The fraction of steps that returned to the avatar's cell from two steps before, as in A B A.
+    /// The fraction of steps that returned to the cell where the avatar was two steps before, as in A B A.
     pub oscillation_rate: Option<f64>,
-    /// The fraction of steps that left the avatar in the same cell. Such a step is a bump by the paper's
-    /// alternative definition.
+    /// The fraction of steps that left the avatar in the same cell. Under the paper's alternative definition,
+    /// such a step is a bump.
     pub still_rate: Option<f64>,
     /// The number of distinct cells visited by the avatar, including its first cell.
     pub unique_cells: Option<u64>,
-    /// The number of distinct cells visited divided by the area of the cells' bounding rectangle, between 0
-    /// and 1.
+    /// The number of distinct cells visited, divided by the area of their bounding rectangle, between 0 and
+    /// 1.
     pub coverage: Option<f64>,
     /// The distance travelled in cells: the sum of the Manhattan distances over all steps.
     pub displacement: Option<u64>,
@@ -45,8 +45,8 @@ impl Movement {
 
         let known: Vec<(i32, i32)> = cells.iter().copied().flatten().collect();
         let there = !known.is_empty();
-        // Only steps between two known cells are considered. A step from or to an unknown cell is neither
-        // still nor a return.
+        // Only steps between two known cells are considered. A step from or to an unknown cell is neither a
+        // still step nor a return.
         let moves = || cells.windows(2).filter_map(|pair| Some((pair[0]?, pair[1]?)));
         let still = moves().filter(|(from, to)| from == to).count();
         let returns = cells.windows(3).filter(|three| three[0].is_some() && three[0] == three[2]);
@@ -90,7 +90,8 @@ mod tests {
             bump_rate: Some(5.0 / 8.0),
             max_bumps: Some(4),
             late_bump_rate: Some(1.0),
-            // Only the last step is an immediate return, because the step back from (2, 0) came after a pause.
+            // Only the last step is an immediate return, because there was a pause before the step back from
+            // (2, 0).
             oscillation_rate: Some(1.0 / 8.0),
             still_rate: Some(3.0 / 8.0),
             unique_cells: Some(4),
@@ -100,7 +101,7 @@ mod tests {
         assert_eq!(Movement::of(&flags, &cells), expect);
     }
 
-    /// The last quarter of five steps is rounded up to two.
+    /// The last quarter of five steps is rounded up to two steps.
     #[test]
     fn quarters() {
         let late = |flags: &[bool]| Movement::of(flags, &vec![None; flags.len() + 1]).late_bump_rate;

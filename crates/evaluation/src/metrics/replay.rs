@@ -20,12 +20,12 @@ pub struct Replayed {
     pub optimal_ticks: Option<usize>,
     /// The episode's actions.
     pub actions: Vec<Action>,
-    /// The change in score per step.
+    /// The change in score in each step.
     pub rewards: Vec<f64>,
     /// The flags of the meaningful steps. Empty after [`replay_course`].
     pub meaningful: Vec<bool>,
-    /// The flags of the meaningful steps according to the reference code, which has no flag for the last
-    /// step. Empty after [`replay_course`].
+    /// The flags of the steps that are meaningful according to the reference code, which has no flag for the
+    /// last step. Empty after [`replay_course`].
     pub meaningful_as_code: Vec<bool>,
     /// The avatar's column and row before the first step and after each step.
     pub cells: Vec<Option<(i32, i32)>>,
@@ -42,7 +42,7 @@ pub struct Replayed {
 
 /// Replays a logged episode on its game, and compares every state hash, score, outcome and avatar position.
 ///
-/// Other recorded values are also checked. Each step's validity must agree with the preceding answers, the
+/// Other recorded values are checked too: each step's validity must agree with the preceding answers, the
 /// last line with the final state, and the number of steps with the limit.
 ///
 /// Cost per step: two forward-model calls, a copy of the state and O(sprites log sprites).
@@ -284,8 +284,8 @@ fn cell(game: &Game, state: &State) -> Option<(i32, i32)> {
 /// A visible sprite: its type and its rectangle in pixels.
 type SeenSprite = (u16, i32, i32, i32, i32);
 
-/// The visible part of a state, in pixels rather than cells. For sprites that move from cell to cell, pixels
-/// and cells are equivalent. For gliding sprites, cells would not distinguish a short glide from a blocked
+/// The visible part of a state, in pixels rather than cells. Pixels and cells are equivalent for sprites that
+/// move from cell to cell, but for gliding sprites, cells would not distinguish a short glide from a blocked
 /// move.
 #[derive(Clone, Debug, PartialEq)]
 struct Seen {
@@ -312,7 +312,7 @@ impl Seen {
         seen
     }
 
-    /// Returns the position of the avatar's top left corner.
+    /// Returns the position of the avatar's top left corner, if there is an avatar.
     fn place(&self) -> Option<(i32, i32)> {
         self.avatar.map(|(_, x, y, _, _)| (x, y))
     }
@@ -334,8 +334,8 @@ impl Seen {
     }
 }
 
-/// Returns an action's effect by comparison with `idle`, the result of doing nothing. `idle` is `None` if the
-/// action was to do nothing.
+/// Returns an action's effect, compared with `idle`, the result of doing nothing. `idle` is `None` if the
+/// action itself was to do nothing.
 fn effect(seen: &Seen, outcome: Outcome, idle: Option<(Seen, Outcome)>, reward: f64) -> Effect {
     let Some((idle, idle_outcome)) = idle else {
         return if reward == 0.0 { Effect::Nothing } else { Effect::Acted };

@@ -1,4 +1,4 @@
-//! Built-in players, which plan with the forward model or repeat a recorded episode.
+//! Built-in players, which plan with the forward model or replay a recorded episode.
 
 use crate::log::Journal;
 use crate::player::{Agent, Choice, Halt};
@@ -9,7 +9,7 @@ use engine::{Action, Episode};
 
 /// The player of an episode.
 pub enum Contestant {
-    /// A planner. Planners see the state, because they are baselines rather than benchmark subjects.
+    /// A planner. Planners see the state, because they are baselines rather than subjects of the benchmark.
     Planner {
         /// The planner, with its budget if its name contains one.
         spec: PlannerSpec,
@@ -20,7 +20,7 @@ pub enum Contestant {
     Agent(Box<dyn Agent>),
 }
 
-/// An agent that repeats the actions of a recorded episode, and then does nothing.
+/// An agent that replays the actions of a recorded episode, and does nothing afterwards.
 #[derive(Clone, Debug)]
 pub struct Replay {
     actions: Vec<Action>,
@@ -32,7 +32,7 @@ impl Replay {
         Replay { actions: episode.actions.clone() }
     }
 
-    /// Returns a digest of the actions. Replays of different actions have different digests.
+    /// Returns a digest of the actions. Replays of distinct actions have distinct digests.
     pub fn digest(&self) -> Digest {
         let words: Vec<String> = self.actions.iter().map(Action::to_string).collect();
         Digest::of(words.join(" ").as_bytes())

@@ -20,29 +20,29 @@ use engine::Action;
 pub trait Agent: Send {
     /// Chooses the next action, or the next actions if the player commits to several ([`Turn::due`]).
     ///
-    /// Every message and payment must be added to the journal as it happens, before and after each request,
-    /// so that nothing is lost or paid for twice if the program is killed. Events recorded for this turn by
-    /// an interrupted run are already in the journal ([`Journal::pending`]), and must be used before making
-    /// any request.
+    /// Every message and payment must be added to the journal when it happens, before and after each request.
+    /// Then nothing is lost or paid for twice if the program is killed. Events recorded for this turn by an
+    /// interrupted run are already in the journal ([`Journal::pending`]), and must be used before making any
+    /// request.
     ///
     /// # Errors
     /// Returns an error if there is no choice through no fault of the player. The episode is then aborted.
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt>;
 
-    /// Recalls a turn from an interrupted episode, with its recorded choice, while the episode is replayed
-    /// from its log.
+    /// Shows the agent a turn from an interrupted episode with its recorded choice, while the episode is
+    /// replayed from its log.
     ///
     /// # Errors
     /// Returns an error if the agent cannot resume the episode.
     fn recall(&mut self, turn: &Turn<'_>, journal: &Journal, choice: &Choice) -> Result<(), Halt>;
 
-    /// Begins an episode, possibly the next level in a series. The agent remembers the series's earlier
-    /// levels.
+    /// Begins an episode, which may be the next level in a series. The agent remembers the earlier levels of
+    /// the series.
     fn begin(&mut self, _task: &Task<'_>) {}
 
     /// Answers the question after the last level in a series. The question asks which of the given sprite
     /// types kill, stop, disappear or score when they are touched. Returns `None` for players that cannot
-    /// answer questions. Recorded answers are used as in [`act`](Agent::act).
+    /// answer questions. Answers already in the journal are used as in [`act`](Agent::act).
     ///
     /// # Errors
     /// Returns an error if there is no answer through no fault of the player. The episode is then aborted.
@@ -72,8 +72,9 @@ pub struct Said {
 /// An agent's decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// The actions to play, one per tick. [`Action::Nil`] replaces missing actions up to the commitment, and
-    /// actions that are unavailable when they are due. Actions beyond the commitment are not played.
+    /// The actions to play, one per tick. If there are fewer than the player commits to, [`Action::Nil`] is
+    /// played instead. It also replaces actions that are unavailable when they are due. Actions beyond the
+    /// commitment are not played.
     pub actions: Vec<Action>,
     /// The origin of the choice.
     pub validity: Validity,
@@ -95,14 +96,14 @@ impl Choice {
         Choice { actions: Vec::new(), validity }
     }
 
-    /// Returns the action for a tick, counted from the decision.
+    /// Returns the action for a tick. Ticks are counted from the decision.
     pub fn action(&self, tick: usize) -> Action {
         self.actions.get(tick).copied().unwrap_or(Action::Nil)
     }
 }
 
 base::named_enum! {
-    /// The origin of a choice. All tables count origins other than [`Valid`](Validity::Valid) separately.
+    /// The origin of a choice. All tables list origins other than [`Valid`](Validity::Valid) separately.
     pub enum Validity {
         /// The player stated the action.
         Valid = "valid",
@@ -133,7 +134,7 @@ pub enum Halt {
     /// Other games may work.
     #[error("{0}")]
     Unfit(String),
-    /// None of the evaluation's first decisions have a usable answer.
+    /// None of the evaluation's first decisions has a usable answer.
     #[error("{0}")]
     Unusable(String),
     /// The user requested a stop.
@@ -145,8 +146,8 @@ pub enum Halt {
 }
 
 impl Halt {
-    /// Returns the event to record in the log. Returns `None` if the log itself has failed, or if there is
-    /// nothing to record.
+    /// Returns the event to record in the log, or `None` if the log itself has failed or there is nothing to
+    /// record.
     pub(crate) fn event(&self) -> Option<Event> {
         let reason = match self {
             Halt::Infrastructure(_) => "infrastructure",

@@ -35,9 +35,9 @@ pub struct ModelPlayer {
     read: usize,
 }
 
-/// The source of the answers for a turn.
+/// The source of a turn's answers.
 enum Log<'a> {
-    /// The log, followed by the model for answers missing from the log.
+    /// The log, and the model for answers missing from the log.
     Open(&'a mut Journal),
     /// The log alone, because the turn is over.
     Past(&'a Journal),
@@ -177,8 +177,8 @@ impl ModelPlayer {
             ChatErrorKind::Infrastructure => Halt::Infrastructure(error.message),
             ChatErrorKind::Budget => Halt::Budget(error.message),
             ChatErrorKind::Rejected => match error.failures.last().and_then(|failure| failure.status) {
-                // These codes mean that this request is at fault, whereas a wrong key or model affects all
-                // requests.
+                // These codes mean that only this request is at fault, whereas a wrong key or model affects
+                // all requests.
                 Some(400 | 413 | 422) => Halt::Unfit(error.message),
                 _ => Halt::Rejected(error.message),
             },
@@ -208,8 +208,8 @@ impl ModelPlayer {
 
 impl Agent for ModelPlayer {
     fn begin(&mut self, task: &Task<'_>) {
-        // Each level has its own log, in which texts are numbered from 0. The answers of later levels are
-        // drawn from new seeds.
+        // Each level has its own log, in which texts are numbered from 0. The answers on later levels are
+        // drawn with new seeds.
         if !task.is_practice() && task.series.is_some() {
             self.samples = task.chance().child("answers", 0);
         }
@@ -245,8 +245,8 @@ impl Agent for ModelPlayer {
     }
 }
 
-/// Returns an answer's class and its actions. If there are no actions, the text is the reason, as a clause
-/// whose subject is the answer.
+/// Returns an answer's class and its actions. If there are no actions, the text states the reason, as a
+/// clause whose subject is the answer.
 fn classify(
     prompter: &Prompter,
     turn: &Turn<'_>,
@@ -266,7 +266,7 @@ fn classify(
 }
 
 /// Returns the class and the predictions of an answer to the last question. If there are no predictions, the
-/// text is the reason, as a clause whose subject is the answer.
+/// text states the reason, as a clause whose subject is the answer.
 fn classify_predictions(
     prompter: &Prompter,
     kinds: &[String],
@@ -283,7 +283,7 @@ fn classify_predictions(
     }
 }
 
-/// Returns the validity of a turn whose last answer states no action.
+/// Returns the validity of a turn whose last answer stated no action.
 fn validity_of(class: ReplyClass) -> Validity {
     match class {
         ReplyClass::Refused => Validity::Refused,

@@ -9,8 +9,7 @@ use agents::touch_everything::Experience;
 use base::Seed;
 use engine::{Action, Observation};
 
-/// An agent that learns the rules by touching everything. The agent sees each turn's observation, but no
-/// rules.
+/// An agent that learns the rules by touching everything. It sees each turn's observation, but no rules.
 #[derive(Clone, Debug)]
 pub struct Touching {
     player: TouchEverything,
@@ -35,7 +34,7 @@ impl Touching {
     }
 
     /// Returns a prediction based on experience. If the score is hidden, types that seem beneficial are
-    /// expected to score.
+    /// predicted to score.
     fn expects(&self, known: &Experience, fact: TouchFact) -> bool {
         match fact {
             TouchFact::Kills => known.is_deadly(),
@@ -61,7 +60,7 @@ impl Agent for Touching {
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {
-        // Recalling a turn means choosing again, because the same turns give the same choices and the same
+        // To recall a turn, the agent chooses again: the same turns give the same choices and the same
         // experience.
         self.act(turn, &mut Journal::in_memory()).map(drop)
     }

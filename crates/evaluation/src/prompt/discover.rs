@@ -1,4 +1,4 @@
-//! The prompt parts specific to the track without rules: the end of a level and the last question.
+//! The prompt parts that only the track without rules has: the end of a level and the last question.
 
 use super::{Attempt, Past, Prompt, PromptStyle, Prompter, data};
 use crate::encoding;
@@ -18,8 +18,8 @@ impl Prompter {
     }
 
     /// Returns the conversation that ends with the last question in a series. The question follows the last
-    /// turn of the last level, and asks about the effect of touching each of the given sprite types. `kinds`
-    /// contains the game's own names, and the question uses the names shown in prompts.
+    /// turn of the last level, and asks what touching each of the given sprite types does. `kinds` contains
+    /// the game's own names, and the question uses the names shown in prompts.
     pub fn question(&self, last: &Turn<'_>, kinds: &[String], past: &[Past], attempts: &[Attempt]) -> Prompt {
         let end = LevelEnd {
             last: last.observation.clone(),
@@ -51,7 +51,7 @@ impl Prompter {
             .to_owned()
     }
 
-    /// Returns the sprite types' names in prompts, sorted by number.
+    /// Returns the names that prompts use for sprite types, sorted by number.
     fn listed(&self, kinds: &[String]) -> Vec<String> {
         self.asked(kinds).into_keys().sorted_by_key(|name| (name.len(), name.clone())).collect()
     }
@@ -99,8 +99,8 @@ impl Prompter {
     }
 }
 
-/// Returns the visible sprite types present at the start of the given levels, except avatars and floors,
-/// sorted by the game's own names. The last question in a series asks about these types.
+/// Returns the sprite types about which the last question in a series asks: the visible types present at the
+/// start of the given levels, except avatars and floors. They are sorted by the game's own names.
 pub(crate) fn kinds_at_start<'a>(
     analysis: &Analysis,
     levels: impl Iterator<Item = &'a Level>,

@@ -1,10 +1,10 @@
-//! An episode's past turns, and the number of them still shown in a conversation.
+//! An episode's past turns, and how many of them a conversation still shows.
 
 use crate::answer;
 use crate::tokens;
 use engine::Action;
 
-/// The maximum length of an answer's last part shown in later turns, in bytes.
+/// The maximum number of bytes to show from the end of an answer in later turns.
 const MAX_ANSWER: usize = 2_000;
 
 /// The text that replaces an empty answer, because providers reject empty messages.
@@ -33,9 +33,9 @@ impl Past {
     /// Creates a past turn from the shown text ([`Prompt::shown`](super::Prompt::shown)), the answers, and
     /// the action played.
     ///
-    /// Only the end of each answer is retained, without reasoning. Providers require the roles in a
-    /// conversation to alternate. Therefore, a turn without an answer gets a placeholder, and the message
-    /// about the last answer is dropped.
+    /// Only the end of each answer is retained, without reasoning. Providers require roles to alternate in a
+    /// conversation. Therefore, a turn without an answer gets a placeholder, and the message about the last
+    /// answer is dropped.
     pub fn new(shown: String, attempts: &[Attempt], played: Action) -> Past {
         let mut attempts = kept(attempts);
         match attempts.last_mut() {
@@ -77,12 +77,13 @@ fn shortened(answer: &str) -> String {
     if start == 0 { said.to_owned() } else { format!("…{}", &said[start..]) }
 }
 
-/// Returns the index of the first past turn still shown. `fixed` is the number of tokens in the static part,
-/// and `now` is the number in the newest turn. The static part and the newest turn are always shown.
+/// Returns the index of the first past turn that is still shown. `fixed` is the number of tokens in the
+/// static part, and `now` is the number of tokens in the newest turn. The static part and the newest turn are
+/// always shown.
 ///
 /// Whenever the budget would be exceeded, the oldest turns are dropped until a quarter of the budget is free.
-/// Between two such cuts, a conversation only grows at its end, so that providers can cache its beginning.
-/// Cost: O(turns).
+/// Between two such cuts, a conversation grows only at its end, so providers can cache its beginning. Cost:
+/// O(turns).
 pub(super) fn first_kept(past: &[Past], fixed: u64, now: u64, budget: u64) -> usize {
     let (mut start, mut kept) = (0, 0);
     let current = past.iter().map(|turn| turn.shown_tokens).chain([now]);

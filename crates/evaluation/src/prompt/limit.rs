@@ -1,5 +1,5 @@
-//! Describes a game's rules under a step limit, with a sentence about the limit and the consequence of
-//! reaching it.
+//! Describes a game's rules under a step limit, including a sentence that states the limit and the
+//! consequence of reaching it.
 
 use engine::describe::Guide;
 
@@ -19,7 +19,7 @@ pub(crate) fn limited(mut guide: Guide, limit: u64) -> Guide {
     guide
 }
 
-/// Returns the tick at which the game ends according to a sentence.
+/// Returns the tick at which the game ends according to a sentence, if the sentence states one.
 fn last_tick(line: &str) -> Option<u64> {
     let after = ["when tick ", "until tick "].iter().find_map(|words| line.split_once(words))?.1;
     let digits = after.split(|character: char| !character.is_ascii_digit()).next()?;
@@ -31,8 +31,8 @@ mod tests {
     use super::*;
     use engine::Game;
 
-    /// Checks the sentences about winning and losing under a limit, for a game lost at tick 81 and won at
-    /// tick 91.
+    /// Checks the sentences about winning and losing under a limit, for a game that is lost at tick 81 and
+    /// won at tick 91.
     #[track_caller]
     fn check(limit: u64, expect: &[&str]) {
         let game = "BasicGame\n  SpriteSet\n    tick > Immovable\n    avatar > MovingAvatar\n  LevelMapping\n    t > tick\n  \

@@ -1,7 +1,7 @@
 //! Prompts: the conversations sent to language models.
 //!
 //! The static part comes first. It consists of the rules, the legend, the actions and the answer format, and
-//! is byte-identical in all turns on all levels of a game. The observation follows. The texts are in
+//! is byte-identical in all turns of all levels of a game. The observation follows. The texts are in
 //! `templates/`, and [`Prompter::digest`] covers the texts and the settings.
 //! [`docs/reference/prompts.md`](../../../../docs/reference/prompts.md) shows an example, part by part.
 
@@ -39,8 +39,8 @@ use minijinja::value::{Serde, Value};
 use render::Style;
 use serde::Serialize;
 
-/// The version of the templates and the English rules. The version is incremented whenever their wording
-/// changes, so that results with different prompts are easy to distinguish.
+/// The version of the templates and the English rules. It is incremented whenever their wording changes, so
+/// that results with different prompts are easy to tell apart.
 pub const VERSION: u32 = 9;
 
 const TEMPLATES: [(&str, &str); 6] = [
@@ -52,8 +52,8 @@ const TEMPLATES: [(&str, &str); 6] = [
     ("complaint.j2", include_str!("templates/complaint.j2")),
 ];
 
-/// The templates for [`PromptStyle::Discover`]. They are separate, because the digests of the other styles
-/// cover all templates in the shared list.
+/// The templates for [`PromptStyle::Discover`]. They are kept out of the shared list, because the digests of
+/// the other styles cover all templates in it.
 const DISCOVER: [(&str, &str); 4] = [
     ("discover_static.j2", include_str!("templates/discover_static.j2")),
     ("discover_turn.j2", include_str!("templates/discover_turn.j2")),
@@ -65,7 +65,7 @@ const DISCOVER: [(&str, &str); 4] = [
 const NUMBERED: [Action; 6] =
     [Action::Nil, Action::Use, Action::Left, Action::Right, Action::Down, Action::Up];
 
-/// Writes prompts for one game.
+/// A writer of prompts for one game.
 #[derive(Debug)]
 pub struct Prompter {
     settings: PromptSettings,
@@ -81,7 +81,7 @@ pub struct Prompter {
     static_tokens: Vec<PartTokens>,
 }
 
-/// The token count for one part of a prompt.
+/// The token count of one part of a prompt.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PartTokens {
     /// The heading of the section, or [`TASK`] for the text before the first heading.
@@ -90,12 +90,12 @@ pub struct PartTokens {
     pub tokens: u64,
 }
 
-/// The token counts for the parts of a prompt.
+/// The token counts of a prompt's parts.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PromptTokens {
-    /// The token counts for the static part, by section.
+    /// The token counts of the static part, by section.
     pub fixed: Vec<PartTokens>,
-    /// The token counts for the current turn, by section. Image tokens are estimated.
+    /// The token counts of the current turn, by section. Image tokens are estimated.
     pub turn: Vec<PartTokens>,
     /// The number of tokens in earlier turns, and in this turn's earlier answers.
     pub history: u64,
@@ -122,7 +122,7 @@ pub struct Prompt {
     pub messages: Vec<ChatMessage>,
     /// The text of the newest turn, to be passed to [`Past::new`] when the turn is over.
     pub shown: String,
-    /// The number of oldest turns dropped.
+    /// The number of turns dropped, oldest first.
     pub left_out: usize,
     /// The prompt's token counts.
     pub tokens: PromptTokens,
@@ -138,7 +138,7 @@ impl Prompter {
     }
 
     /// Prepares the prompts for a game whose episodes have at most `limit` actions. The rules in the prompts
-    /// mention no later tick. The prompts request the number of actions that the player commits to.
+    /// mention no later tick, and the prompts request as many actions as the player commits to.
     ///
     /// # Errors
     /// Returns an error if the settings are out of range, if the reference's style is combined with a
@@ -171,7 +171,7 @@ impl Prompter {
         };
         let masked = mask.as_ref().map(|mask| Analysis::of(&mask.game));
         let analysis = masked.as_ref().unwrap_or(&subject.analysis);
-        // The characters of a game can reveal as much as its names.
+        // A game's characters can reveal as much as its names.
         let neutral = is_neutral.then(|| Mask::neutral_characters(&subject.game));
         let shuffled = settings.shuffled_symbols.or(neutral).or(settings.masked_names.then_some(0));
         let options = LegendOptions { tracking: settings.identity_tracking, shuffled };
@@ -212,7 +212,7 @@ impl Prompter {
         &self.actions
     }
 
-    /// Returns the byte-identical beginning of all the game's prompts.
+    /// Returns the byte-identical beginning shared by all of the game's prompts.
     pub fn static_part(&self) -> &str {
         &self.static_part
     }

@@ -1,14 +1,14 @@
-//! Prompt sections, each of which begins with a heading.
+//! Prompt sections. Each section begins with a heading.
 
 /// The prefix of a heading line.
 const HEADING: &str = "## ";
 
-/// The name of the section before the first heading.
+/// The name of the text before the first heading.
 pub const TASK: &str = "Task";
 
 /// Returns a message's sections, each with its heading and its text without surrounding blank lines. The
-/// section before the first heading is named [`TASK`]. If a heading occurs twice, the first occurrence
-/// belongs to the template, and later occurrences belong to inserted text. Cost: O(bytes).
+/// section before the first heading is named [`TASK`]. If a heading occurs more than once, the first
+/// occurrence belongs to the template, and later ones belong to inserted text. Cost: O(bytes).
 pub fn sections(message: &str) -> Vec<(&str, &str)> {
     let mut sections = Vec::new();
     let (mut heading, mut start, mut at) = (TASK, 0, 0);

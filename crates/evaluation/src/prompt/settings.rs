@@ -10,14 +10,14 @@ use serde_json::Value;
 pub struct PromptSettings {
     /// The prompt style, which determines the parts and their order.
     pub style: PromptStyle,
-    /// The choice of earlier turns that a prompt includes.
+    /// The earlier turns that a prompt includes.
     pub mode: Mode,
     /// The form in which the rules are shown.
     pub rules: Rules,
     /// `true` if sprite types have meaningless names in rules, legend and boards.
     pub masked_names: bool,
-    /// `true` if all types, including walls and the avatar, have meaningless names and characters, drawn
-    /// separately for each game.
+    /// `true` if all types, including walls and the avatar, have meaningless names and characters, drawn anew
+    /// for each game.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub neutral_names: bool,
     /// `true` to show the meanings of the board's characters.
@@ -65,13 +65,14 @@ impl Default for PromptSettings {
 }
 
 impl PromptSettings {
-    /// Returns the sorted differences from the default settings, such as `no-legend`, `rules=vgdl` or `json`.
-    /// The mode is not included. Advice appears only as `strategy`.
+    /// Returns the ways in which the settings differ from the defaults, such as `no-legend`, `rules=vgdl` or
+    /// `json`, sorted. The mode is not included. Advice appears only as `strategy`.
     pub fn aids(&self) -> Vec<String> {
         self.aids_beyond(&PromptSettings::default())
     }
 
-    /// Returns the differences from the given settings, in the same format as [`aids`](PromptSettings::aids).
+    /// Returns the ways in which the settings differ from the given settings, in the same format as
+    /// [`aids`](PromptSettings::aids).
     pub fn aids_beyond(&self, usual: &PromptSettings) -> Vec<String> {
         let flat = |settings: &PromptSettings| {
             let mut all = serde_json::to_value(settings).expect("plain data");
@@ -109,9 +110,9 @@ pub enum PromptStyle {
     /// The suite's own style.
     #[default]
     Standard,
-    /// The style of the reference's pipeline (`spec/06` §1.4), reworded. The prompts have the same parts in
-    /// the same order, numbered actions, and a list of every cell. The switches for legend, meanings,
-    /// position, feedback and encodings have no effect.
+    /// The style of the reference's pipeline (`spec/06` §1.4), reworded. As there, the prompts have the same
+    /// parts in the same order, numbered actions, and a list of every cell. The switches for legend,
+    /// meanings, position, feedback and encodings have no effect.
     Reference,
     /// The style of [`Track::Discover`](crate::Track::Discover), which shows visible events but no rules and
     /// no score. The board has rulers and neutral names. The switches for legend, meanings, position,
@@ -120,10 +121,10 @@ pub enum PromptStyle {
 }
 
 base::named_enum! {
-    /// The choice of earlier turns that a prompt includes.
+    /// The earlier turns that a prompt includes.
     #[derive(Default)]
     pub enum Mode {
-        /// Every turn is independent. Earlier turns are not shown.
+        /// No earlier turns. Every turn is independent.
         #[default]
         ZeroShot = "zero-shot",
         /// The conversation continues from turn to turn, within its token budget.
@@ -144,13 +145,13 @@ pub enum Rules {
     None,
 }
 
-/// The forms in which a state is shown.
+/// The forms in which the state is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Encodings {
     /// The board with one character per cell, and a list of the cells that contain several sprites.
     pub grid: bool,
-    /// Spaces between the characters of a row, which cost more tokens, but make each character a separate
+    /// Spaces between the characters of each row. They cost more tokens, but make each character a separate
     /// token for most models.
     pub spaced: bool,
     /// The first sprite in each direction from the avatar, and the nearest sprites of each type.

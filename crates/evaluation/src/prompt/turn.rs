@@ -11,7 +11,7 @@ use itertools::Itertools;
 use render::EMPTY;
 use serde_json::{Value, json};
 
-/// A turn and the data needed to render it.
+/// A turn, and the data needed to render it.
 pub(super) struct View<'a> {
     /// The data about the end of the previous level, if any.
     pub(super) previous: Option<Value>,
@@ -33,7 +33,7 @@ impl View<'_> {
     pub(super) fn data(&self) -> Value {
         let (now, turn) = (self.now, self.turn);
         let last = u64::from(now.ticks) + turn.limit.saturating_sub(turn.number);
-        // A prompt without rules does not reveal when a Timeout ends the game.
+        // A prompt without rules must not reveal when a Timeout ends the game.
         let limit = match self.settings.rules {
             Rules::None => u64::MAX,
             Rules::Described | Rules::Vgdl => turn.subject.game.time_limit(),
@@ -168,7 +168,7 @@ fn board(rows: String, spaced: bool) -> String {
     rows.lines().map(|row| row.chars().join(" ")).join("\n")
 }
 
-/// Formats the avatar's resources, as in `2 keys, 1 gem`. Returns `nothing` if there are none.
+/// Formats the avatar's resources, such as `2 keys, 1 gem`, or `nothing` if there are none.
 fn holds(seen: &Observation) -> String {
     let held = seen.resources.iter().filter(|(_, amount)| *amount != 0);
     let held = held
@@ -180,7 +180,7 @@ fn holds(seen: &Observation) -> String {
     if held.is_empty() { "nothing".to_owned() } else { held }
 }
 
-/// Formats a reward with its sign, as in `+2`, `-1` or `0`.
+/// Formats a reward with its sign, such as `+2`, `-1` or `0`.
 fn signed(reward: f64) -> String {
     if reward > 0.0 { format!("+{reward}") } else { reward.to_string() }
 }

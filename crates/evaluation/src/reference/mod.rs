@@ -1,8 +1,8 @@
-//! Reference players, completely determined by their names. Their wins show how hard a level is
+//! Reference players, each completely determined by its name. Their wins show how hard a level is
 //! ([docs/explanation/difficulty.md](../../../../docs/explanation/difficulty.md)).
 //!
-//! Releases store the results of some reference players as marks (`plays.rs`). The scale compares monthly
-//! releases by the results of the versioned players in `table.rs`.
+//! Releases store the results of some reference players as marks (`plays.rs`). The scale uses the results of
+//! the versioned players in `table.rs` to compare monthly releases.
 
 mod player;
 mod plays;

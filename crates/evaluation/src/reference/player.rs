@@ -12,8 +12,8 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
-/// A reference player, completely determined by its name. It plans in open loop, reads prompts, or learns by
-/// touching.
+/// A reference player, completely determined by its name. It either plans in open loop, reads prompts, or
+/// learns by touching.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ReferencePlayer {
     /// A planner that searches with the forward model.

@@ -28,8 +28,8 @@ pub struct ReferencePlays {
 pub const SEED: &str = "evaluate";
 
 impl ReferencePlays {
-    /// Plays a game's levels with each player and commitment. The levels are given as texts, and the players
-    /// and commitments by name. Returns the number of wins for each level, player and commitment.
+    /// Plays a game's levels with each player and commitment. Levels are given as texts, and players and
+    /// commitments by name. Returns the number of wins for each level, player and commitment.
     ///
     /// # Errors
     /// Returns an error if the game cannot be loaded, if a player or commitment does not exist, or if a
@@ -58,8 +58,8 @@ impl ReferencePlays {
     /// Returns the number of wins with each commitment.
     ///
     /// The numbers match an evaluation of the player with the same seed, runs and step limit. On
-    /// deterministic levels, a planner plans the same actions that it would choose at each decision. On such
-    /// levels, its episodes with one commitment also count for all other commitments.
+    /// deterministic levels, a planner plans the same actions that it would choose at each decision, so its
+    /// episodes with one commitment count for all other commitments too.
     ///
     /// # Errors
     /// Returns an error if the player cannot play the game.

@@ -1,6 +1,6 @@
 //! The scale's reference players, each with a name and a version
 //! ([docs/reference/examinees.md](../../../../docs/reference/examinees.md)). Their episodes place releases on
-//! a common scale. A modified player gets a new version, and counts as a new player.
+//! a common scale. A player that is modified gets a new version, and counts as a new player.
 
 use super::ReferencePlayer;
 use crate::player::Contestant;
@@ -12,7 +12,7 @@ use serde_json::json;
 use statistics::scale::Dimension;
 use std::collections::BTreeMap;
 
-/// A reference player with a fixed name, budget and version.
+/// A reference player whose name, budget and version are fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScalePlayer {
     /// The examinee's name, including its version, such as `mcts-1`.
@@ -48,14 +48,14 @@ pub fn scale_player_named(name: &str) -> Option<&'static ScalePlayer> {
     SCALE_PLAYERS.iter().find(|player| player.name == name)
 }
 
-/// A function that creates the player for an episode, given the game ID.
+/// A function that creates an episode's player, given the game ID.
 type PlayerOf = Box<dyn Fn(&str) -> Contestant + Sync>;
 
 impl ScalePlayer {
     /// Returns the examinee as an entrant in evaluation results.
     pub fn entrant(&self) -> Entrant {
         let mut details = json!({ "examinee": self.name, "family": self.family, "player": self.player });
-        // This field distinguishes planners from readers, as it does for planners that are not on the scale.
+        // This field distinguishes planners from readers, as it does for planners outside the scale.
         if self.dimension == Dimension::Planner {
             details["planner"] = json!(self.player);
         }

@@ -1,4 +1,4 @@
-//! Measures the duration of decisions. Durations are recorded with the results, but do not influence them.
+//! Measures the duration of decisions. Durations are recorded with the results, but do not affect them.
 
 use std::time::{Duration, Instant};
 

@@ -1,4 +1,4 @@
-//! Plays one episode to its end, starting at its first tick or at an interruption.
+//! Plays one episode to its end, starting at its first tick or where it was interrupted.
 
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
@@ -44,14 +44,14 @@ impl Task<'_> {
 
     /// Returns the seed of the game's randomness.
     ///
-    /// The seed depends only on the initial state and the run. Therefore, all players get the same seed. A
-    /// renamed game has the same seed, because its states are the same.
+    /// The seed depends only on the initial state and the run, so it is the same for all players. It is also
+    /// the same for a renamed game, because the states are the same.
     pub fn chance(&self) -> Seed {
         let start = self.subject.first_state(self.level);
         self.seed.child(&start.to_string(), 0).child("run", self.run)
     }
 
-    /// Returns the seed used by older versions, whose seeds also depended on the game's names.
+    /// Returns the seed used by older versions, which also depended on the game's names.
     fn chance_by_name(&self) -> Seed {
         let game = self.seed.child(&self.subject.game.digest().to_string(), 0);
         game.child(&self.level.level.digest().to_string(), 0).child("run", self.run)
@@ -70,8 +70,8 @@ impl Task<'_> {
         steps.div_ceil(self.commit.due(steps).max(1))
     }
 
-    /// Compares a log's first line with the task. The remaining lines are compared with the game during the
-    /// replay.
+    /// Compares a log's first line with the task. The remaining lines are compared with the game when the
+    /// episode is replayed.
     ///
     /// # Errors
     /// Returns a sentence about the first difference.
@@ -117,9 +117,9 @@ pub enum PlayResult {
     Halted(Halt),
 }
 
-/// Plays an episode to its end. If the log already contains events, the episode is resumed at the end of the
-/// log. Every step in the log is replayed, and its state hash is compared. A planner's interrupted episode is
-/// restarted from the beginning, which costs only time.
+/// Plays an episode to its end. If the log already contains events, the episode resumes where the log ends:
+/// every step in the log is replayed, and its state hash is compared. A planner's interrupted episode
+/// restarts from the beginning, which costs only time.
 ///
 /// # Errors
 /// Returns an error if the log belongs to a different episode, or cannot be written.
@@ -143,8 +143,8 @@ pub(crate) struct Context<'a> {
     pub(crate) watch: &'a dyn Fn(Validity) -> Option<Halt>,
 }
 
-/// Plays an episode like [`play`]. Also returns the end of the level, if the episode ended. An ended episode
-/// is shown to the agent once more.
+/// Plays an episode like [`play`]. If the episode ended, it is shown to the agent once more, and the end of
+/// the level is returned as well.
 pub(crate) fn play_watched(
     task: &Task<'_>,
     contestant: &mut Contestant,
@@ -266,7 +266,7 @@ impl<'a> Playing<'a> {
     }
 
     /// Replays the decisions in the log, and shows them to the agent. If the last decision was interrupted,
-    /// plays its remaining actions.
+    /// plays the rest of its actions.
     fn replay_log(&mut self, journal: &mut Journal) -> Result<Option<Halt>, EvaluationError> {
         journal.set_step(1, None);
         let mut from = 1;
@@ -285,7 +285,7 @@ impl<'a> Playing<'a> {
         Ok(None)
     }
 
-    /// Requests a decision from the contestant, plays its actions and records them.
+    /// Requests a decision from the contestant, then plays and records its actions.
     fn decide(&mut self, journal: &mut Journal) -> Result<Result<Validity, Halt>, EvaluationError> {
         let (game, started) = (self.game(), Stopwatch::start());
         let recent = std::mem::take(&mut self.recent);
@@ -316,7 +316,7 @@ impl<'a> Playing<'a> {
         }
     }
 
-    /// Plays a decision's actions, and records them from the event at index `at` onwards. Existing events
+    /// Plays a decision's actions, and records them starting at event index `at`. Events that already exist
     /// must match. Returns the index of the event after the decision.
     fn carry_out(
         &mut self,
@@ -432,7 +432,7 @@ fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     kinds_at_start(&subject.analysis, levels)
 }
 
-/// Grades an answer to the last question in a series. Without a usable answer, no prediction is correct, and
+/// Grades an answer to the last question in a series. Without a usable answer, no prediction is correct and
 /// the insight is 0.
 pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: Option<&Predicted>) -> Grade {
     match predicted {

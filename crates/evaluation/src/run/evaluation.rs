@@ -26,11 +26,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 /// The name of the lock file, locked by the program that writes to a results folder.
 const LOCK_FILE: &str = ".lock";
 
-/// The number of consecutive episodes aborted by environment failures after which an evaluation stops. The
-/// remaining episodes are left open.
+/// The number of consecutive episodes aborted by environment failures after which an evaluation stops,
+/// leaving the remaining episodes open.
 const FAILURES_IN_A_ROW: u64 = 8;
 
-/// A results folder, which contains everything needed to compute all metrics and to replay every episode:
+/// A results folder. It contains everything needed to compute all metrics and to replay every episode:
 /// `evaluation.json`, the games' texts in `games/`, and one log per episode in `episodes/`.
 #[derive(Debug)]
 pub struct Evaluation {
@@ -42,12 +42,12 @@ pub struct Evaluation {
     _lock: Option<Lock>,
 }
 
-/// Displays an evaluation's progress.
+/// A display of an evaluation's progress.
 pub trait Progress: Sync {
     /// Called when an episode ends or is aborted.
     fn episode(&self, task: &Task<'_>, result: &PlayResult);
 
-    /// Called once, as soon as more than a fifth of the decisions so far, and at least 20 decisions, lack a
+    /// Called once, as soon as at least 20 decisions have been made and more than a fifth of them lack a
     /// usable answer. `is_all` is `true` if all of the first 20 decisions lack a usable answer. Returns
     /// `false` to stop the evaluation.
     fn unusable(&self, _answers: &Answers, _is_all: bool) -> bool {
@@ -55,11 +55,11 @@ pub trait Progress: Sync {
     }
 
     /// Called when the evaluation stops and leaves the running episodes open, so that players can stop
-    /// waiting for answers. May be called several times.
+    /// waiting for answers. May be called more than once.
     fn stopped(&self, _halt: &Halt) {}
 }
 
-/// An evaluation's episode counts, by final status.
+/// The number of an evaluation's episodes with each final status.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     /// The total number of episodes.
@@ -80,12 +80,12 @@ pub struct Tally {
     /// The decision counts over all episodes: in total, and without a usable answer.
     #[serde(flatten)]
     pub answers: Answers,
-    /// The number of aborted episodes, and of episodes not started because others were aborted.
+    /// The number of aborted episodes, plus the episodes not started because others were aborted.
     pub open: u64,
     /// The reason for the first aborted episode, if any.
     pub halted: Option<String>,
-    /// `true` if the abort was caused by the network, the server, the disk or a player's process, rather than
-    /// by a cap or the user.
+    /// `true` if the abort was caused by the network, the server, the disk or a player's process, not by a
+    /// cap or the user.
     pub infrastructure: bool,
 }
 
@@ -105,8 +105,8 @@ fn is_zero(number: &u64) -> bool {
 }
 
 impl Evaluation {
-    /// Returns `true` if the folder can be resumed: if it contains an evaluation, or an evaluation whose
-    /// creation was interrupted.
+    /// Returns `true` if the folder can be resumed: it contains an evaluation, or one whose creation was
+    /// interrupted.
     pub fn is_begun(folder: &Path) -> bool {
         [SETTINGS_FILE, LOCK_FILE].iter().any(|name| folder.join(name).exists())
     }
@@ -211,8 +211,8 @@ impl Evaluation {
         Ok(Evaluation { folder: folder.to_owned(), settings, subjects, _lock: None })
     }
 
-    /// Deletes the results folder if it contains no decisions and no answers, so that a different player can
-    /// use the folder. Returns `true` if the folder was deleted.
+    /// Deletes the results folder if it contains neither decisions nor answers, so that a different player
+    /// can use it. Returns `true` if the folder was deleted.
     ///
     /// # Errors
     /// Returns an error if a log cannot be read, or if the folder cannot be deleted.
@@ -252,8 +252,8 @@ impl Evaluation {
         if is_there(&path)? { crate::log::read(&path) } else { Ok(Vec::new()) }
     }
 
-    /// Checks that the folder contains no logs from other episodes. If the settings listed fewer runs or
-    /// games than were played, results would be ignored.
+    /// Checks that the folder contains no logs from other episodes. Otherwise, settings that list fewer runs
+    /// or games than were played would hide results.
     ///
     /// # Errors
     /// Returns an error if there is a log from a different episode, or if the folder cannot be listed.
@@ -293,7 +293,7 @@ impl Evaluation {
         Ok(found)
     }
 
-    /// Replays the ended episodes from their logs. An episode that would be rejected by a report must not
+    /// Replays the ended episodes from their logs, because an episode that a report would reject must not
     /// count as played.
     fn check_ended(&self, tasks: &[Task<'_>]) -> Result<(), EvaluationError> {
         self.check_logs(tasks)?;
@@ -327,8 +327,8 @@ impl Evaluation {
     /// Plays episodes like [`Evaluation::run`], but in batches.
     ///
     /// `choose` receives the episodes that have ended since its last call, each with `true` if it was won. It
-    /// returns the indices of the next episodes in [`Evaluation::tasks`], or an empty list to finish.
-    /// Episodes that ended in an earlier run keep their results.
+    /// returns the next episodes' indices in [`Evaluation::tasks`], or an empty list to finish. Episodes that
+    /// ended in an earlier run keep their results.
     ///
     /// The remaining episodes are left open if a cap is reached, if the server rejects a request, or if
     /// environment failures abort `FAILURES_IN_A_ROW` consecutive episodes.
@@ -349,8 +349,8 @@ impl Evaluation {
         let is_unfit = |task: &Task<'_>| unfit.lock().expect("no holder panics").contains(&task.subject.id);
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
-        // Episodes are taken in order rather than by splitting the list. If a run is aborted, every level has
-        // then been played about equally often.
+        // Episodes are taken in order instead of by splitting the list, so that every level has been played
+        // about equally often if the run is aborted.
         let is_stopped = || stopped.load(Ordering::Relaxed) || watch.halt().is_some();
         let watched = |validity| {
             let halt = watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
@@ -441,8 +441,8 @@ impl Evaluation {
     }
 }
 
-/// Returns all of an evaluation's episodes, sorted by run. If the evaluation is aborted, all levels have been
-/// played about equally often.
+/// Returns all of an evaluation's episodes, sorted by run, so that all levels have been played about equally
+/// often if the evaluation is aborted.
 pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a>> {
     let (seed, max_steps) = (Seed::from_text(&settings.seed), settings.max_steps);
     let on = |run: u64| {
@@ -521,7 +521,8 @@ fn is_absent(error: &std::io::Error) -> bool {
     matches!(error.kind(), std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory)
 }
 
-/// Returns `true` if an ID from a results folder is safe as a file name and cannot lead outside the folder.
+/// Returns `true` if an ID from a results folder is safe to use as a file name and cannot lead outside the
+/// folder.
 fn is_file_name(id: &str) -> bool {
     !id.is_empty()
         && !id.starts_with('.')

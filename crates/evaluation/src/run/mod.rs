@@ -1,4 +1,4 @@
-//! Entire evaluations, stored as results folders with settings, games and all episode logs.
+//! Entire evaluations, stored as results folders that contain settings, games and all episode logs.
 
 pub(crate) mod clock;
 mod episode;

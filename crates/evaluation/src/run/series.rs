@@ -1,16 +1,17 @@
-//! Series of levels. One player plays a game's levels in succession, and remembers the earlier levels.
+//! Series of levels. In a series, one player plays a game's levels in succession, and remembers the earlier
+//! levels.
 
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal};
 use crate::player::{Contestant, Halt, Validity};
 use crate::run::episode::{Context, PlayResult, Task, play_watched};
 
-/// A series of episodes, in order. A level played alone is a series of one episode.
+/// A series of episodes, in order. A level played alone is a series with one episode.
 pub(crate) struct Series<'a> {
     pub(crate) tasks: &'a [Task<'a>],
     /// A function that receives the validity of each new decision, and can abort the episode.
     pub(crate) watch: &'a dyn Fn(Validity) -> Option<Halt>,
-    /// A function that returns `true` once no more episodes should be started.
+    /// A function that returns `true` once no further episodes should be started.
     pub(crate) is_stopped: &'a dyn Fn() -> bool,
 }
 
@@ -20,9 +21,9 @@ pub(crate) fn series_of<'a>(tasks: &'a [Task<'a>]) -> Vec<&'a [Task<'a>]> {
     tasks.chunk_by(is_next).collect()
 }
 
-/// Plays the episodes of a series with one player. Returns the results of the started episodes, each with
-/// `true` if it is practice. Ended episodes are replayed only if a later episode is open, so that the player
-/// remembers them.
+/// Plays the episodes of a series with one player. Returns the results of the episodes that were started,
+/// each with `true` if it is practice. Ended episodes are replayed, so that the player remembers them, but
+/// only if a later episode is open.
 pub(crate) fn play_series(
     series: &Series<'_>,
     contestant: &impl Fn(&Task<'_>) -> Result<Contestant, Halt>,
@@ -64,7 +65,7 @@ pub(crate) fn play_series(
 
 /// Plays the episodes of one series, or a single episode, with one player, as in an evaluation. `open`
 /// returns the log of an episode, and `played` receives each episode with its log. Returns the results of the
-/// started episodes.
+/// episodes that were started.
 ///
 /// # Errors
 /// Returns an error if a log belongs to a different episode, or cannot be written.

@@ -23,7 +23,7 @@ pub const MAX_DECISIONS: u64 = 1_000_000;
 /// The maximum size of [`SETTINGS_FILE`], in bytes.
 pub(crate) const MAX_SETTINGS: usize = 1 << 26;
 
-/// An evaluation's settings: exactly the inputs that determine its results. A resumed evaluation must have
+/// An evaluation's settings: exactly the inputs that determine its results. Resuming an evaluation requires
 /// the same settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -38,8 +38,8 @@ pub struct Settings {
     pub snapshot: Option<Digest>,
     /// The evaluation's player.
     pub entrant: Entrant,
-    /// The text from which the seeds of all episodes are derived. A seed depends only on this text, the game, the
-    /// level and the run.
+    /// The text from which the seeds of all episodes are derived. Each seed depends only on this text, the
+    /// game, the level and the run.
     pub seed: String,
     /// The number of episodes per level.
     pub runs: u64,
@@ -94,11 +94,11 @@ pub struct Entrant {
     pub name: String,
     /// The mode, `zero-shot` or `contextual`, or `None` for players that are not models.
     pub mode: Option<String>,
-    /// The differences of the player's prompts from the default, sorted, with one flag per difference. The
-    /// flags identify the variants in an ablation.
+    /// Flags for how the player's prompts differ from the default, one per difference, sorted. They identify
+    /// the variants in an ablation.
     pub aids: Vec<String>,
     /// All inputs that determine the player's requests and answers, such as the model, the server, the
-    /// decoding, the prompt settings and digests.
+    /// decoding, the prompt settings and their digests.
     pub details: serde_json::Value,
 }
 
@@ -168,7 +168,7 @@ impl Settings {
     }
 
     /// Checks that the settings stay within their limits, and that every game and level is listed only once.
-    /// The limits bound the size of a results folder for its readers.
+    /// The limits bound the size of results folders, to protect programs that read them.
     ///
     /// # Errors
     /// Returns a message that states the out-of-range value, or the repeated game or level.

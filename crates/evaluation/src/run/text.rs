@@ -1,5 +1,5 @@
-//! Reads files from a results folder whose source may be untrusted. Only regular files are read, and only up
-//! to a size limit.
+//! Reads files from a results folder whose source may be untrusted. Reads only regular files up to a size
+//! limit.
 
 use crate::error::EvaluationError;
 use std::fs;
@@ -11,7 +11,7 @@ use std::path::Path;
 pub(crate) const RESTORE: &str = "restore the results folder";
 
 /// Returns `true` if a file or folder exists within a results folder. A dangling link is an error, because
-/// its target was lost.
+/// its target has been lost.
 ///
 /// # Errors
 /// Returns an error if the path is a dangling link, or cannot be examined.
@@ -26,8 +26,8 @@ pub(crate) fn is_there(path: &Path) -> Result<bool, EvaluationError> {
     }
 }
 
-/// Opens a regular file of at most `limit` bytes. Other kinds of files, such as pipes, are never opened,
-/// because opening a pipe can block forever. `next_step` is appended to error messages.
+/// Opens a regular file of at most `limit` bytes. Files of other kinds are never opened, because opening a
+/// pipe, for example, can block forever. `next_step` is appended to error messages.
 ///
 /// # Errors
 /// Returns an error if the path is not a regular file, exceeds the limit, or cannot be read.

@@ -6,13 +6,13 @@ use std::fmt;
 use std::sync::Mutex;
 
 /// The number of decisions after which a player without a single usable answer is stopped. No warning is
-/// shown earlier.
+/// shown before then.
 const FIRST: u64 = 20;
 
-/// The reciprocal of a fraction. A warning is shown if a greater fraction of decisions lacks a usable answer.
+/// The reciprocal of the fraction of decisions without a usable answer above which a warning is shown.
 const ONE_IN: u64 = 5;
 
-/// The number of decisions, and the number of decisions in which the player did nothing because no answer was
+/// The total number of decisions, and the number in which the player did nothing because no answer was
 /// usable.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Answers {
@@ -70,8 +70,8 @@ struct Watched {
 }
 
 impl Watch {
-    /// Counts a decision. Calls `tell` once, when too many decisions lack a usable answer. Its second
-    /// argument is `true` if none of the decisions have a usable answer. `tell` returns `false` to stop the
+    /// Counts a decision. Calls `tell` once, when too many decisions lack a usable answer. The second
+    /// argument of `tell` is `true` if no decision has a usable answer. `tell` returns `false` to stop the
     /// evaluation.
     pub(crate) fn decided(
         &self,
@@ -128,7 +128,7 @@ mod tests {
         check(&"i".repeat(19), &[]);
         check(&"i".repeat(40), &[(20, true)]);
         check(&format!("v{}", "t".repeat(40)), &[(20, false)]);
-        // A fraction of exactly a fifth is not more than a fifth.
+        // A fraction of exactly one fifth is not more than a fifth.
         check(&format!("iiii{}", "v".repeat(20)), &[]);
         check(&format!("iiii{}ii", "v".repeat(17)), &[(22, false)]);
         check(&"v".repeat(100), &[]);

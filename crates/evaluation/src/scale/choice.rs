@@ -1,5 +1,5 @@
-//! Chooses levels with a scale. A plan chooses levels for a target in advance. The adaptive choice selects
-//! each next level from the results of previous episodes.
+//! Chooses levels with a scale. A plan chooses levels for a target in advance. An adaptive choice selects
+//! each next level based on the results of the previous episodes.
 
 use super::file::ScaleFile;
 use crate::run::{Adaptive, Settings, SubjectEntry};
@@ -17,7 +17,7 @@ pub struct ScaledLevels {
     /// The standard error shared by the difficulties of all levels.
     link: f64,
     prior: MismatchPrior,
-    /// `true` if `arcade study scale` could estimate the player's ability from results on all levels.
+    /// `true` if `arcade study scale` could estimate the player's ability from results on each of the levels.
     pub is_linked: bool,
 }
 
@@ -27,8 +27,8 @@ pub struct ScaledLevels {
 pub enum Target {
     /// The given standard error of the ability, in logits.
     Error(f64),
-    /// The given difference in logits between two players on the same levels, detectable at the 5% level in
-    /// 80% of evaluations.
+    /// The given difference in logits between two players on the same levels, to be detected at the 5% level
+    /// in 80% of evaluations.
     Difference(f64),
     /// The given number of episodes.
     Episodes(u64),
@@ -62,8 +62,8 @@ pub struct PlannedErrors {
     pub games: u64,
     /// The ability's standard error.
     pub error: f64,
-    /// The smallest difference between two players on the same levels detectable at the 5% level in 80% of
-    /// evaluations.
+    /// The smallest difference between two players on the same levels that is detectable at the 5% level in
+    /// 80% of evaluations.
     pub difference: f64,
 }
 
@@ -93,9 +93,10 @@ impl ScaledLevels {
         Ok(ScaledLevels { games: found, link, prior: scale.mismatch_prior(is_reader), is_linked })
     }
 
-    /// Plans an evaluation for a target. Episodes are spread over games first: each round adds the most
-    /// informative remaining level of each game at the given ability. If one run of all levels does not reach
-    /// the target, each level is played up to `most_runs` times. Cost: O(levels² + levels · log `most_runs`).
+    /// Plans an evaluation for a target. Episodes are spread over games first: each round adds each game's
+    /// most informative remaining level at the given ability. If one run of all levels does not reach the
+    /// target, each level is played several times, up to `most_runs`. Cost: O(levels² + levels · log
+    /// `most_runs`).
     pub fn plan(&self, ability: f64, target: Target, most_runs: u64) -> Plan {
         let order = self.order(ability);
         let all = order.len() as u64;
@@ -164,7 +165,7 @@ impl ScaledLevels {
         let mut games = self.games.clone();
         levels.iter().for_each(|&(game, level)| games[game].levels[level].of = runs as f64);
         let error = expected_error(&games, ability, self.prior.median, self.link);
-        // The errors of the difficulties cancel out, because the two players share the levels.
+        // The errors of the difficulties cancel out, because both players play the same levels.
         for game in &mut games {
             game.common = 0.0;
             game.levels.iter_mut().for_each(|level| level.own = 0.0);
@@ -181,15 +182,15 @@ impl ScaledLevels {
     }
 }
 
-/// The adaptive choice of an evaluation's episodes. The choice depends only on the scale, the settings and
-/// the outcomes so far. Therefore, an evaluation's logs reproduce its choices.
+/// The adaptive choice of an evaluation's episodes. It depends only on the scale, the settings and the
+/// outcomes so far, so an evaluation's logs reproduce its choices.
 #[derive(Clone, Debug)]
 pub struct AdaptiveChoice {
     selection: Selection,
     adaptive: Adaptive,
-    /// The indices of the game and the level, for each episode of a run.
+    /// For each episode of a run, the indices of its game and its level.
     places: Vec<(usize, usize)>,
-    /// The number of times each level has been chosen.
+    /// The number of times that each level has been chosen.
     runs: Vec<u64>,
     link: f64,
     choices: Vec<AdaptiveStep>,
@@ -227,8 +228,8 @@ impl AdaptiveChoice {
         })
     }
 
-    /// Returns the indices of the next episodes, counted over all the evaluation's episodes, or an empty list
-    /// to finish. `played` contains the episodes that have ended since the last call, with `true` for wins.
+    /// Returns the indices of the next episodes among all of the evaluation's episodes, or an empty list to
+    /// finish. `played` contains the episodes that have ended since the last call, with `true` for wins.
     pub fn next(&mut self, settings: &Settings, played: &[(usize, bool)]) -> Vec<usize> {
         for &(episode, won) in played {
             let (game, level) = self.places[episode % self.places.len()];
@@ -297,7 +298,7 @@ mod tests {
         assert!(before.errors.error > 0.5, "{before:?}");
         let far = levels().plan(0.0, Target::Difference(0.2), 3);
         assert!(!far.is_reached && far.runs == 3 && far.errors.episodes == 360, "{far:?}");
-        // The maximum number of runs does not affect the cost of planning. No more runs are used than the
+        // The maximum number of runs does not affect the cost of planning. A plan has no more runs than the
         // target requires.
         let much = levels().plan(0.0, Target::Error(0.25), 1_000_000);
         let [enough, less] =

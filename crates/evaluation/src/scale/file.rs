@@ -1,5 +1,5 @@
-//! The file `scale.json`, which contains the examinees, the spreads, and each release's levels with their
-//! difficulties.
+//! The file `scale.json`, which contains the examinees, the spreads, and the levels of each release with
+//! their difficulties.
 
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
@@ -19,8 +19,8 @@ use std::path::Path;
 
 /// The version of the scale file format.
 pub const SCALE_FORMAT: u32 = 1;
-/// The maximum size of the file, in bytes. A level occupies about 300 bytes, so the maximum suffices for a
-/// hundred months of 500 levels.
+/// The maximum size of the file, in bytes. A level occupies about 300 bytes, so this suffices for a hundred
+/// months of 500 levels each.
 const MAX_SCALE: usize = 1 << 24;
 
 /// The maximum absolute value of a logit on a scale. At this value, a player wins (or loses) all but one in
@@ -34,7 +34,7 @@ const LEAST_SPREAD: f64 = 1e-6;
 /// The maximum number of bootstrap replicates.
 const MAX_REPLICATES: f64 = 10_000.0;
 
-/// The recommendation in error messages about files other than scales.
+/// The recommendation in error messages about files that are not scales.
 const NEXT_STEP: &str = "pass the scale.json that `arcade study calibrate` wrote";
 
 /// A scale, with the releases placed on it.
@@ -51,8 +51,8 @@ pub struct ScaleFile {
     pub examinees: Vec<ExamineeEntry>,
     /// The standard deviations and slopes in the statistical model.
     pub spreads: SpreadsEntry,
-    /// The covariance matrix of three groups of parameters: the examinees' abilities, the origins for
-    /// planners and readers, and the planners' ease. The matrix is stored by rows.
+    /// The covariance matrix, stored by rows, of three groups of parameters: the examinees' abilities, the
+    /// origins for planners and readers, and the planners' ease.
     pub covariance: Vec<f64>,
     /// The mean difficulties of the first release for planners and for readers, in the coordinates of the
     /// abilities.
@@ -115,8 +115,8 @@ pub struct MonthEntry {
     pub snapshot: Option<Digest>,
     /// The text from which the seeds of the release's episodes were derived.
     pub seed: String,
-    /// The mean difficulty relative to the first release, for planners and for readers. The errors include
-    /// the link error for arbitrary players in the dimension.
+    /// The mean difficulty relative to the first release, for planners and for readers. The standard errors
+    /// include the link error for arbitrary players in the dimension.
     pub shifts: [Estimate; 2],
     /// The shift in mean difficulty for exactly the scale's planners.
     pub planners_shift: Estimate,
@@ -250,8 +250,8 @@ impl ScaleFile {
     }
 
     /// Checks for values that no calibration produces, and returns an error with the key of the first such
-    /// value. Unchecked, some values could exhaust memory in plots and integrals, and others would make
-    /// results undefined.
+    /// value. Unchecked, some of these values could exhaust memory in plots and integrals, and others would
+    /// make results undefined.
     fn check(&self) -> Result<(), String> {
         within(format_args!("max_steps"), self.max_steps as f64, 1.0..=MAX_DECISIONS as f64)?;
         within(format_args!("replicates"), self.replicates as f64, 0.0..=MAX_REPLICATES)?;
@@ -295,7 +295,7 @@ impl ScaleFile {
         Ok(())
     }
 
-    /// Checks that the covariance matrix is symmetric, and that no covariance exceeds the limit implied by
+    /// Checks that the covariance matrix is symmetric, and that no covariance exceeds the bound implied by
     /// the variances.
     fn check_covariance(&self) -> Result<(), String> {
         let size = self.examinees.len() + 3;
@@ -400,7 +400,7 @@ impl ScaleFile {
     }
 }
 
-/// The part of a scale file that reveals newer formats.
+/// The part of a scale file that shows whether its format is newer.
 #[derive(Deserialize)]
 struct Version {
     format: Option<u64>,
@@ -462,8 +462,8 @@ impl MonthEntry {
 }
 
 impl GameEntry {
-    /// Returns a level's difficulty in a dimension, with the error component not shared with the game's other
-    /// levels.
+    /// Returns a level's difficulty in a dimension, with the error component that it does not share with the
+    /// game's other levels.
     pub(super) fn difficulty(&self, level: usize, side: usize) -> (f64, f64) {
         let levels = self.levels.iter().map(|one| {
             let Estimate { value, error } = one.difficulty[side];

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 
 /// The smallest lower bound of the correlation at which planners alone can link a month for readers.
 const LEAST_CORRELATION: f64 = 0.5;
-/// The minimum number of anchors for linking a month for readers. With a single anchor, it is unknown how
-/// much the anchor has in common with other readers.
+/// The minimum number of anchors for linking a month for readers. A single anchor would leave open how much
+/// it has in common with other readers.
 const ANCHORS: u64 = 2;
 
 /// A person's abilities, one per release.
@@ -23,8 +23,8 @@ pub struct PersonAbility {
     pub months: Vec<MonthAbility>,
     /// The number of distinct episodes on levels missing from the scale.
     pub unknown: u64,
-    /// The number of episodes for each group of settings outside the scale's calibration. The key lists the
-    /// differing settings, such as `--commit 3`.
+    /// The number of episodes excluded for their settings, by difference from the scale's calibration. The
+    /// key lists the differing settings, such as `--commit 3`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub left_out: BTreeMap<String, u64>,
 }
@@ -42,19 +42,19 @@ pub struct MonthAbility {
     pub games: u64,
     /// The ability in logits, relative to the first release's mean difficulty.
     pub ability: Option<Span>,
-    /// For the lower and the upper end of the interval, `true` if that end is determined by the data.
+    /// For the lower and the upper end of the interval, `true` if the data determine that end.
     pub is_bounded: [bool; 2],
     /// The total standard error of the ability, and its components.
     pub error: Option<ErrorParts>,
     /// The standard deviation of the person's mismatches with games.
     pub mismatch_sd: Option<f64>,
-    /// The reason why the ability could not be estimated, if it could not.
+    /// The reason why the ability could not be estimated, if any.
     pub refusal: Option<Refusal>,
     /// The release's drift, estimated from the anchors.
     pub drift: Option<Estimate>,
 }
 
-/// A standard error and its components. The components satisfy total² = sampling² + mismatch² + link².
+/// A standard error and its components, which satisfy total² = sampling² + mismatch² + link².
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorParts {
     /// The total standard error.
@@ -72,7 +72,7 @@ pub struct ErrorParts {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Refusal {
-    /// The release has fewer than two anchors, so only planners link the release to the scale, and planners
+    /// The release has fewer than two anchors. It is therefore linked to the scale only by planners, which
     /// are not informative enough about readers.
     FewAnchors {
         /// The number of anchors that played the release.
@@ -83,7 +83,7 @@ pub enum Refusal {
     },
 }
 
-/// Returns the persons' abilities on each of their releases.
+/// Returns the abilities of the persons on each of their releases.
 pub fn abilities(scale: &ScaleFile, persons: &[PersonPlays]) -> Vec<PersonAbility> {
     persons.iter().map(|person| of_person(scale, person)).collect()
 }

@@ -19,8 +19,8 @@ pub struct PersonPlays {
     pub player: Player,
     /// The person's dimension. Players that see the state are planners, and all other players are readers.
     pub dimension: Dimension,
-    /// The number of episodes for each group of settings outside the scale's calibration. The key lists the
-    /// differing settings, such as `--commit 3`. These episodes are not included in `levels`.
+    /// The number of episodes excluded for their settings, by difference from the scale's calibration. The
+    /// key lists the differing settings, such as `--commit 3`. `levels` does not include these episodes.
     pub left_out: BTreeMap<String, u64>,
     /// The versions of the suite that evaluated the person, by game digest.
     pub suites: BTreeMap<Digest, BTreeSet<String>>,
@@ -29,7 +29,7 @@ pub struct PersonPlays {
 }
 
 /// Reads results folders, and distinguishes their persons as in reports. Aborted episodes do not count.
-/// Episodes with a different track, commitment or step limit than a scale with `max_steps` do not count,
+/// Neither do episodes whose track, commitment or step limit differs from that of a scale with `max_steps`,
 /// because the scale's difficulties would not apply.
 ///
 /// Cost: one [`replay_course`](crate::metrics::replay_course) per episode, on the threads of the current

@@ -1,4 +1,4 @@
-//! A timeline of the months on a scale, with players' abilities and each month's difficulty.
+//! A timeline of the months on a scale, with the players' abilities and each month's difficulty.
 
 use super::file::{Estimate, ScaleFile, Span};
 use super::person::{MonthAbility, PersonAbility, Refusal, of_person};
@@ -19,8 +19,8 @@ pub struct Timeline {
     pub correlation: Option<Span>,
     /// The months of the scale, in chronological order.
     pub months: Vec<TimelineMonth>,
-    /// The timeline's players. Players that were not used to calibrate the scale come first. Each of the two
-    /// groups is sorted by descending mean ability.
+    /// The timeline's players. Those that were not used to calibrate the scale come first. Within each of the
+    /// two groups, players are sorted by descending mean ability.
     pub players: Vec<TimelinePlayer>,
 }
 
@@ -41,12 +41,11 @@ pub struct TimelineMonth {
     pub planners_shift: Estimate,
     /// The standard deviations of the level difficulties, for planners and for readers.
     pub spreads: [f64; 2],
-    /// The mean misfit of the month's games. The value is about 1 if the episodes fit the model.
+    /// The mean misfit of the month's games, which is about 1 if the episodes fit the model.
     pub misfit: f64,
     /// The number of anchors that played the month. Anchors are the readers among the scale's examinees.
     pub anchors: u64,
-    /// The month's additional difficulty for the anchors, beyond the value implied by its difficulty for
-    /// planners.
+    /// The month's additional difficulty for the anchors, beyond what its difficulty for planners implies.
     pub drift: Option<Estimate>,
     /// `true` if the drift's 95% interval excludes 0.
     pub is_drift_flagged: bool,
@@ -63,8 +62,8 @@ pub struct TimelinePlayer {
     pub is_examinee: bool,
     /// The versions of the suite that evaluated the player, in the order of the ability's `months`.
     pub suites: Vec<BTreeSet<String>>,
-    /// The evidence for a change in ability. `None` if the player has both won and lost in fewer than two
-    /// months.
+    /// The evidence for a change in ability. `None` if there are fewer than two months in which the player
+    /// both won and lost episodes.
     pub change: Option<Change>,
 }
 
@@ -74,12 +73,12 @@ pub struct Change {
     /// The number of months in which the player both won and lost episodes. In other months, the ability's
     /// interval has only one end.
     pub months: u64,
-    /// The mean ability, weighted by the inverse squares of the errors.
+    /// The mean ability, weighted by the inverse squares of the standard errors.
     pub mean: Estimate,
     /// The ability in the last month minus the ability in the first month. Only months in which the player
     /// both won and lost are considered.
     pub from_first_to_last: Span,
-    /// The sum of the squared deviations from the mean, each divided by the ability's squared error.
+    /// The sum of the squared deviations from the mean, each divided by the ability's squared standard error.
     pub chi_squared: f64,
     /// The probability of a sum at least as large if the ability never changed.
     pub p: f64,
@@ -136,7 +135,7 @@ impl Timeline {
     }
 
     /// Returns the players whose ability changed, and the number of players tested. A change is significant
-    /// if the adjusted p-value is at most 5%.
+    /// if its adjusted p-value is at most 5%.
     pub fn changed(&self) -> (Vec<&TimelinePlayer>, usize) {
         let tested = self.players.iter().filter(|player| player.change.is_some()).collect_vec();
         let count = tested.len();
@@ -310,7 +309,7 @@ impl TimelinePlayer {
 
 impl Change {
     /// Computes the change in an ability. Returns `None` if fewer than two months contain both wins and
-    /// losses. `q` is set to `p` until it is adjusted.
+    /// losses. `q` is set to `p`, and adjusted later.
     fn of(months: &[MonthAbility]) -> Option<Change> {
         let placed = months.iter().filter(|month| month.is_bounded == [true, true]);
         let placed =

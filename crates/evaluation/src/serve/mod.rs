@@ -1,9 +1,9 @@
 //! Players of known strength that see only the prompt. The players are served as chat completions on
 //! loopback, or called directly ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)).
 //!
-//! Such players have no access to the game, so all their knowledge comes from the conversation. Therefore,
-//! they test the entire path from the state through the prompt and the answer to the action. They can also
-//! test third-party harnesses. The same conversation always gets the same answer.
+//! Such players have no access to the game, so all their knowledge comes from the conversation. They
+//! therefore test the entire path from the state to the prompt, the answer and the action, and can also test
+//! third-party harnesses. The same conversation always gets the same answer.
 
 mod origin;
 mod prompted;
@@ -35,7 +35,7 @@ pub const PROMPT_PLAYERS: &[&str] = &["random", "reflex"];
 pub enum PromptPlayer {
     /// Plays random actions other than nil, derived from the digest of the conversation.
     Random,
-    /// Takes the shortest path to a good target according to the rules, as described in [the
+    /// Takes the shortest path to a target that is good according to the rules, as described in [the
     /// documentation](../../../../docs/how-to/serve-player.md).
     Reflex,
     /// Plans from the position reconstructed from the prompt. The prompt must show all relevant information

@@ -1,5 +1,5 @@
-//! A served player called directly, without a server. The player gets the same prompts, and its answers are
-//! parsed identically.
+//! A served player that is called directly, without a server. It gets the same prompts, and its answers are
+//! parsed in the same way.
 
 use super::PromptPlayer;
 use crate::log::Journal;
@@ -9,7 +9,7 @@ use crate::turn::Turn;
 use std::sync::Arc;
 
 /// An agent that plays a [`PromptPlayer`]'s answers to a game's prompts. The agent's log contains no prompts,
-/// because they are determined by the settings and the state.
+/// because the settings and the state determine them.
 #[derive(Debug)]
 pub struct Prompted {
     player: PromptPlayer,
@@ -35,7 +35,7 @@ impl Agent for Prompted {
     }
 
     fn recall(&mut self, turn: &Turn<'_>, _: &Journal, _: &Choice) -> Result<(), Halt> {
-        // The same prompt gets the same answer, so the answer need not be stored.
+        // The same prompt always gets the same answer, so answers need not be stored.
         self.act(turn, &mut Journal::in_memory()).map(|_| ())
     }
 }

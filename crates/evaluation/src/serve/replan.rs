@@ -1,8 +1,8 @@
 //! Plans from a position reconstructed from the prompt.
 //!
-//! The prompt must show all relevant information. The rules must be shown as VGDL, the game must be
-//! deterministic and wait for the player, and the sprites must have no hidden state. If any of these
-//! conditions is uncertain, the player does not answer.
+//! The prompt must show all relevant information: the rules must be shown as VGDL, the game must be
+//! deterministic and wait for the player, and the sprites must have no hidden state. If it is uncertain that
+//! these conditions hold, the player does not answer.
 
 use super::Unanswerable;
 use super::shown::Shown;
@@ -70,8 +70,8 @@ pub(super) fn check(shown: &Shown<'_>, spec: &PlannerSpec) -> Result<(), Unanswe
     found.map(drop).map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))
 }
 
-/// Reconstructs the position shown in a prompt, within an equivalent game. Returns the reason if this
-/// reconstruction is impossible. The result does not depend on the seed.
+/// Reconstructs the position shown in a prompt, within an equivalent game. If this is impossible, returns the
+/// reason. The result does not depend on the seed.
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
         return Err("the planner needs the rules as VGDL: pass --rules vgdl to `arcade evaluate`, or set \
@@ -85,7 +85,7 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Position { game, level } = Position::of(description, shown)?;
     let facing = shown.you.and_then(|you| you.facing).and_then(direction);
     let held = shown.held.iter().flatten();
-    // For amounts above one, the prompt gives the names of resources in the plural.
+    // For amounts above one, the prompt states resource names in the plural.
     let resource = |name: &str, amount: i32| {
         game.sprite_types().find(|&stype| match amount {
             1 => game.name(stype) == name,
@@ -97,8 +97,8 @@ fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     Ok((game, state))
 }
 
-/// Checks that a game's state is determined by the board and by the avatar's resources and direction. Returns
-/// the reason if the state is not determined.
+/// Checks that the board, together with the avatar's resources and direction, determines the game's state. If
+/// it does not, returns the reason.
 fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     let game = analysis.game();
     let possible = || game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
@@ -221,7 +221,7 @@ mod tests {
         (seen.outcome, avatar, resources, board)
     }
 
-    /// Corpus game positions reconstructed from prompts continue in the same way as the original states.
+    /// Positions of corpus games reconstructed from prompts continue in the same way as the original states.
     #[test]
     fn positions_read_from_a_board_play_like_the_original() {
         let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };

@@ -1,4 +1,4 @@
-//! A server with OpenAI-compatible chat completions, answered by a player.
+//! A server for OpenAI-compatible chat completions that are answered by a player.
 
 use super::refusal::refusal;
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use tokio::sync::oneshot;
 
-/// A server bound to its port that does not serve requests yet.
+/// A server that is bound to its port but does not serve requests yet.
 #[derive(Debug)]
 pub struct Server {
     player: PromptPlayer,
@@ -28,8 +28,8 @@ pub struct Server {
 }
 
 impl Server {
-    /// Binds a port on 127.0.0.1, or any free port if `port` is 0. Only programs on this machine can reach
-    /// the server.
+    /// Binds the given port on 127.0.0.1, or any free port if `port` is 0. Only programs on this machine can
+    /// reach the server.
     ///
     /// # Errors
     /// Returns an error if the port cannot be bound.
@@ -173,7 +173,8 @@ async fn complete(
         Ok(read) => read,
         Err(why) => return unreadable(&why),
     };
-    // A connection whose complete request is waiting for the player does not block other clients.
+    // A connection that only waits for the player to answer its complete request does not block other
+    // clients.
     let _kept = asker.keep();
     let answered = tokio::task::spawn_blocking(move || {
         let answered = completion(&serving.player, &body);

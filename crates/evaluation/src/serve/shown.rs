@@ -5,7 +5,7 @@ use crate::client::ChatMessage;
 use engine::Action;
 use std::collections::BTreeMap;
 
-/// The maximum number of actions in a plan. A limit is needed because a served player does not know how long
+/// The maximum number of actions in a plan. A limit is needed, because a served player does not know how long
 /// the game lasts.
 const MAX_PLAN: u64 = 1000;
 
@@ -15,7 +15,7 @@ const AVATAR: char = '@';
 /// A prompt's parsed content.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shown<'a> {
-    /// The rules' sentences in order, including the sentences about the keys.
+    /// The sentences of the rules in order, including those about the keys.
     pub(super) rules: Vec<&'a str>,
     /// The rules as VGDL, if the prompt shows them in this form.
     pub(super) vgdl: Option<&'a str>,
@@ -43,7 +43,7 @@ pub(super) struct Shown<'a> {
 /// The player's position and type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct You<'a> {
-    /// The player's type as stated in the prompt, or else the player's name in the legend.
+    /// The player's type if the prompt states it, and otherwise the player's name in the legend.
     pub(super) name: &'a str,
     pub(super) cell: usize,
     pub(super) facing: Option<Action>,
@@ -58,8 +58,8 @@ fn section<'a>(message: &'a ChatMessage, heading: &str) -> Option<&'a str> {
 }
 
 impl<'a> Shown<'a> {
-    /// Parses a conversation. The static part is in the first message, and the turn is in the last message
-    /// that contains a turn.
+    /// Parses a conversation. The first message contains the static part, and the last message that contains
+    /// a turn is the current turn.
     ///
     /// # Errors
     /// Returns an error if the conversation lists no actions.
@@ -113,7 +113,7 @@ impl<'a> Shown<'a> {
         Ok(shown)
     }
 
-    /// Formats actions as required by the conversation: as a single action or a plan.
+    /// Formats actions in the form that the conversation requires: a single action or a plan.
     pub(super) fn answer(&self, actions: &[Action]) -> String {
         let action = actions.first().copied().unwrap_or(Action::Nil);
         match &self.numbered {

@@ -1,4 +1,4 @@
-//! Studies. A study combines the results of several players, and provides every table of a report as plain
+//! Studies. A study combines the results of several players, and provides each of a report's tables as plain
 //! data.
 //!
 //! ```
@@ -57,7 +57,7 @@ pub struct Study {
     pub games: Vec<StudyGame>,
     /// All episodes, including aborted episodes, sorted by player, game, level and run.
     pub episodes: Vec<StudyEpisode>,
-    /// Notes about the limits of the comparisons, such as different step limits or missing episodes.
+    /// Notes on limitations of the comparisons, such as different step limits or missing episodes.
     pub notes: Vec<String>,
     /// The leaderboard, best player first.
     pub leaderboard: Vec<LeaderRow>,
@@ -66,7 +66,7 @@ pub struct Study {
     pub by_game: Vec<Matrix>,
     /// The heat maps by level, one per [`Scope`] with models.
     pub by_level: Vec<Matrix>,
-    /// The comparisons between models, and between models and other players.
+    /// The comparisons between models, and of models with other players.
     pub pairs: Contrasts,
     /// The comparisons between each model's zero-shot mode and its contextual mode.
     pub modes: Contrasts,
@@ -74,7 +74,8 @@ pub struct Study {
     pub aids: Contrasts,
     /// The correlations between winning and other variables.
     pub correlations: Correlations,
-    /// The failure modes, which compare the movement in won episodes with the movement in all other episodes.
+    /// The failure modes: comparisons of the movement in won episodes with the movement in all other
+    /// episodes.
     pub failures: Vec<FailureMode>,
     /// The levels on which players move back and forth, highest oscillation rate first.
     pub oscillations: Vec<OscillationRow>,
@@ -105,7 +106,7 @@ pub struct Study {
     pub power: Vec<PowerRow>,
 }
 
-/// A game of a study.
+/// A game in a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct StudyGame {
     /// The game's folder name.
@@ -115,7 +116,7 @@ pub struct StudyGame {
     /// The kind of game stated by the release. The text is empty if the kind is not recorded.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub kind: String,
-    /// The kind of game according to its rules, with one sentence per aspect of the taxonomy.
+    /// The kind of game according to its rules, as one sentence per aspect of the taxonomy.
     pub taxonomy: Vec<String>,
     /// `true` for a stochastic game, or `None` if unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -261,7 +262,7 @@ impl Study {
         }
     }
 
-    /// Returns the players included in numbers about several players: the players on the first player's
+    /// Returns the players included in numbers across several players: the players on the first player's
     /// track, and the baselines that read no prompts.
     pub(crate) fn on_first_track(&self) -> impl Iterator<Item = usize> + '_ {
         let first = self.players.iter().find(|player| player.track().is_some() || !player.is_reference());

@@ -18,10 +18,10 @@ use std::path::{Path, PathBuf};
 impl Study {
     /// Reads a study from results folders. Every episode is replayed from its log.
     ///
-    /// A person's folders are merged. Persons are the same if their name, mode, aids, prompts, decoding and
-    /// served version are equal.
+    /// Results of the same person in several folders are merged. Persons are the same if their name, mode,
+    /// aids, prompts, decoding and served version are equal.
     ///
-    /// Games with the same ID count as one game in two cases: their rules are equal except for names and
+    /// Games with the same ID count as one game in two cases: their rules are equal except for names, and
     /// their levels start in the same states, or their rules and levels are mirrored. Results on the two
     /// variants belong to separate players.
     ///
@@ -113,9 +113,9 @@ struct Names {
 struct KnownGame {
     game: StudyGame,
     rules: Game,
-    /// The levels' canonical texts, by number.
+    /// The levels' canonical texts, by level number.
     levels: BTreeMap<usize, String>,
-    /// The hashes of the levels' first states under a fixed seed, by number.
+    /// The hashes of the levels' first states under a fixed seed, by level number.
     starts: BTreeMap<usize, StateHash>,
 }
 
@@ -131,8 +131,7 @@ enum Surface {
 }
 
 impl Surface {
-    /// Returns a phrase that describes the difference from the earlier game, or `None` if there is no
-    /// difference.
+    /// Returns a phrase describing the difference from the earlier game, or `None` if there is no difference.
     fn words(self) -> Option<&'static str> {
         match self {
             Surface::Own => None,
@@ -143,8 +142,8 @@ impl Surface {
 }
 
 impl KnownGame {
-    /// Returns the relation to a different game with the same ID. If the games are unrelated, returns a
-    /// description of the difference.
+    /// Returns the relation of the game to a different game with the same ID. If the games are unrelated,
+    /// returns a description of the difference.
     fn surface(&self, subject: &Subject, levels: &BTreeMap<usize, String>) -> Result<Surface, String> {
         let differing = |image: fn(&str) -> String| {
             let mut shared =
@@ -237,7 +236,7 @@ impl Names {
         self.games.iter().map(|known| known.game.clone()).collect()
     }
 
-    /// Returns a note if some episodes were not played by all players.
+    /// Returns a note if not all players have played the same episodes.
     fn unpaired(&self) -> Option<String> {
         let mut counts: BTreeMap<(&str, usize, u64), usize> = BTreeMap::new();
         let mut players: Vec<&Player> = Vec::new();

@@ -28,8 +28,8 @@ fn legends_have_a_character_for_each_thing() {
     }
 }
 
-/// Parses the grid and the lines about piles. Returns the names in each cell, from the lowest to the
-/// uppermost sprite.
+/// Parses the grid and the lines about piles. Returns the names in each cell, from the bottom sprite to the
+/// top one.
 fn read_back(seen: &Observation, legend: &Legend) -> Vec<Vec<String>> {
     let names = by_symbol(legend);
     let grid = encoding::grid(seen, legend);
@@ -63,7 +63,7 @@ fn tells_everything(subject: &Subject, legend: &Legend, seen: &Observation) {
         let others =
             all.iter().filter(|name| !own(name) && seen(name) && entry(name).role != EntryRole::Floor);
         let others: Vec<&str> = others.map(String::as_str).collect();
-        // All states of the avatar look the same on the board.
+        // All of the avatar's states look the same on the board.
         let (below, top) = if is_here { read.split_at(read.len() - 1) } else { (&read[..], &[][..]) };
         assert!(top.iter().all(|name| entry(name).role == EntryRole::Avatar), "{id}: {read:?} at {place:?}");
         let dead = |name: &String| entry(name).role == EntryRole::Avatar && below.len() == 1;
@@ -87,8 +87,8 @@ fn boards_can_be_read_back_completely() {
     }
 }
 
-/// Boards of the public games also show everything, although these games were not written for prompts. Every
-/// prompt can be rendered.
+/// Boards of the public games also show everything, although these games were not written for prompts. All
+/// their prompts can be rendered.
 #[test]
 fn boards_of_public_games_can_be_read_back() {
     for subject in public_games() {
@@ -183,7 +183,7 @@ fn available_actions_are_listed_where_they_change() {
     assert!(shown.contains("## Board\n@...i\n"), "{shown}");
 }
 
-/// A game with two birds of one type that turn back at walls, rain that always falls, and a field of soil.
+/// A game with two birds of one type that turn around at walls, rain that always falls, and a field of soil.
 const FIELD: &str = "BasicGame
   SpriteSet
     floor > Immovable hidden=True
@@ -227,14 +227,14 @@ fn directions_are_told_where_they_vary_and_scenery_is_not_listed() {
         "{around:?}"
     );
     walk.play(Action::Down);
-    // One soil sprite is gone, so that the list is short enough to be shown.
+    // One soil sprite has been removed, so the list is now short enough to be shown.
     let around = encoding::grounding(&walk.now, &legend);
     assert!(around.iter().any(|line| line.starts_with("soil: ")), "{around:?}");
     walk.play(Action::Nil);
     assert_eq!(encoding::directions(&walk.now, &legend), ["bird: left (8,1), right (2,1)"]);
 }
 
-/// The directions of sprites that stand still are listed if the directions change.
+/// The directions of sprites that stand still are listed if their directions change.
 #[test]
 fn points_tell_the_way_to_which_they_are_set() {
     let yard = FIELD

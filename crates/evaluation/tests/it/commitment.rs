@@ -53,8 +53,8 @@ fn task<'a>(subject: &'a Subject, commit: &str, max_steps: u64) -> Task<'a> {
     Task { subject, level: &subject.levels[0], run: 0, seed, max_steps, commit, track: None, series: None }
 }
 
-/// An agent that answers with the given plans and records what it is shown. A plan of `None` is an unusable
-/// answer.
+/// An agent that answers with the given plans, and records the turns that it is shown. A plan of `None` is an
+/// unusable answer.
 #[derive(Clone, Default)]
 struct Planned {
     plans: Vec<Option<Vec<Action>>>,
@@ -77,7 +77,8 @@ impl Agent for Planned {
     }
 }
 
-/// Parses plans such as `rr u -` from the initials of their actions. A `-` stands for an unusable answer.
+/// Parses plans such as `rr u -`, written as the initials of their actions. A `-` stands for an unusable
+/// answer.
 fn planned(plans: &str) -> Planned {
     let action = |initial: char| match initial {
         'r' => Action::Right,
@@ -94,8 +95,8 @@ fn played(task: &Task<'_>, agent: impl Agent + 'static, journal: &mut Journal) {
     play(task, &mut Contestant::Agent(Box::new(agent)), journal).expect("it can be played");
 }
 
-/// Plays plans, and checks the played actions, the decisions and the outcome. `expect` holds the initials of
-/// the actions, with a `|` before each decision.
+/// Plays plans, and checks the played actions, the decisions and the outcome. `expect` contains the initials
+/// of the actions, with a `|` before each decision.
 #[track_caller]
 fn check(commit: &str, max_steps: u64, plans: &str, actions: &str, looks: &[(u64, usize)], end: &str) {
     let (subject, agent) = (subject(), planned(plans));
@@ -146,7 +147,7 @@ fn unavailable_actions_do_nothing() {
     check("6", 6, "srrsrl", "|nrrurl", &[(0, 0)], "Ongoing");
 }
 
-/// An episode that is interrupted after any event continues to the same log.
+/// An episode interrupted after any event continues to the same log.
 #[test]
 fn interrupted_plans_continue() {
     let subject = subject();
@@ -212,7 +213,7 @@ fn changed_plans_are_refused() {
     );
 }
 
-/// Served players answer the prompts of all commitments in the requested format.
+/// Served players answer the prompts for all commitments in the requested format.
 #[test]
 fn served_players_read_what_is_due() {
     let subject = game("quiet-jars");
@@ -248,8 +249,7 @@ fn the_reference_asks_for_one_action() {
     assert!(error.contains("the reference's prompts ask for one action"), "{error}");
 }
 
-/// The next decision shows the result of the plan, with its actions, positions, unavailable actions and
-/// points.
+/// The next decision shows the plan's result: its actions, positions, unavailable actions and points.
 #[test]
 fn plans_are_told_at_the_next_look() {
     let subject = subject();

@@ -1,4 +1,5 @@
-//! Tests of mailboxes, with files that are not answers, folders that are not mailboxes, and interruptions.
+//! Tests of mailboxes, including files that are not answers, folders that are not mailboxes, and
+//! interruptions.
 
 use crate::games::corridor;
 use base::Seed;
@@ -166,7 +167,7 @@ fn files_that_are_no_answers_are_set_aside() {
 }
 
 /// A killed program may leave any part of the log and any files. The final log is still the same, and no
-/// answered turn is asked again.
+/// answered turn is requested again.
 #[test]
 fn interrupted_episodes_are_resumed() {
     let whole = tempfile::tempdir().unwrap();
@@ -213,8 +214,8 @@ fn interrupted_episodes_are_resumed() {
     };
     thread::scope(|scope| {
         for (answered, (at, _)) in replies.enumerate() {
-            // The answer was logged and its file is still present, or the answer was written but not read, or
-            // the answer was not written.
+            // Either the answer was logged and its file is still present, or the answer was written but not
+            // read, or the answer was not written.
             for (kept, is_written) in [(at + 1, true), (at, true), (at, false)] {
                 scope.spawn(move || check(answered, kept, is_written));
             }
@@ -222,7 +223,7 @@ fn interrupted_episodes_are_resumed() {
     });
 }
 
-/// A mailbox that cannot be written aborts the episode, and `--resume` continues the episode to its end.
+/// A mailbox that cannot be written aborts the episode, and `--resume` later continues it to its end.
 #[test]
 fn unwritable_mailboxes_leave_the_episode_open() {
     let home = tempfile::tempdir().unwrap();
@@ -240,7 +241,8 @@ fn unwritable_mailboxes_leave_the_episode_open() {
             let open = prompt(home, step, 0);
             answer(home, &open, "ACTION: up");
             prompt(home, step + 1, 0);
-            // The folder is renamed, not removed file by file, because the player may still be writing in it.
+            // The folder is renamed rather than removed file by file, because the player may still be writing
+            // to it.
             fs::rename(&episode, home.join(format!("taken-{step}"))).unwrap();
             playing.join().unwrap()
         })
@@ -277,7 +279,7 @@ fn foreign_folders_are_refused() {
     assert!(Desk::open(&folder).unwrap().view().unwrap().is_running);
     drop(first);
     assert!(!Desk::open(&folder).unwrap().view().unwrap().is_running);
-    // A mailbox without an episode belongs to no evaluation.
+    // A mailbox without an episode does not belong to any evaluation.
     drop(open(&folder, "another", false).unwrap());
     fs::create_dir(folder.join("corridor-lvl0-run0")).unwrap();
     assert!(refused("another", false).contains("continue it with --resume"));
@@ -325,7 +327,7 @@ fn waiting_episodes_give_up_when_the_evaluation_stops() {
     prompt(home.path(), 0, 0);
 }
 
-/// The player shares the mailbox, and can replace the evaluation's files with links. The targets of the links
+/// The player shares the mailbox, and could replace the evaluation's files with links. The links' targets
 /// stay unchanged.
 #[cfg(unix)]
 #[test]

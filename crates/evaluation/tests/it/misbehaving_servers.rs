@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-/// An API key that a misbehaving server could repeat.
+/// An API key that a misbehaving server could repeat in its replies.
 const KEY: &str = "sk-zebra-0123456789abcdef";
 
 fn request(text: &str) -> ChatRequest {
@@ -24,7 +24,7 @@ fn request(text: &str) -> ChatRequest {
     }
 }
 
-/// Connects to a model on a server, with a key, up to three tries and a fake clock.
+/// Connects to a model on a server, using a key, up to three tries and a fake clock.
 fn connect(server: &Server, change: impl FnOnce(&mut ModelOptions)) -> (Connection, Arc<FakeClock>) {
     let mut options = ModelOptions::new("some-model");
     options.base_url = Some(server.base_url());
@@ -38,7 +38,7 @@ fn connect(server: &Server, change: impl FnOnce(&mut ModelOptions)) -> (Connecti
     (connection, clock)
 }
 
-/// Returns transient failures. Each has a name, the server's reaction, and the expected status and part of
+/// Returns transient failures, each with a name, the server's reaction, and the expected status and part of
 /// the message.
 fn transient_failures() -> Vec<(&'static str, Response, Option<u16>, &'static str)> {
     let error = |message: &str| json!({ "error": { "message": message } }).to_string();

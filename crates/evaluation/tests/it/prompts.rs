@@ -27,7 +27,7 @@ pub(crate) fn text(messages: &[ChatMessage]) -> String {
     messages.iter().map(one).collect::<Vec<_>>().join("\n")
 }
 
-/// Compares a text with a file in `golden/`, or writes the file.
+/// Compares a text with a file in `golden/`, or rewrites the file.
 pub(crate) fn golden(name: &str, got: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name);
     if std::env::var_os("BLESS").is_some() {
@@ -56,8 +56,8 @@ fn first_turns_of_all_games() {
     golden("first_turns.txt", &lines);
 }
 
-/// Prompts of all styles are compared with golden files. The games include a game with several avatar states,
-/// a game with shots, and a game that never stands still.
+/// Prompts of all styles are compared with golden files. The games include one with several avatar states,
+/// one with shots, and one that never stands still.
 #[test]
 fn prompts_to_read() {
     let plans = ["10", "all"].map(|commit| {
@@ -226,8 +226,8 @@ fn vgdl_in_prompts_is_the_game() {
     }
 }
 
-/// A name counts as leaked if a masked prompt contains it and no masked prompt of another game contains it.
-/// Such a name is not part of the common wording.
+/// A name counts as leaked if a masked prompt contains it and no masked prompt of another game does, because
+/// then it is not part of the common wording.
 #[test]
 fn masked_prompts_contain_no_names() {
     let words = |subject: &Subject, rules: Rules| -> BTreeSet<String> {
@@ -347,8 +347,8 @@ fn digests_distinguish_settings() {
     assert_ne!(standard.digest(), prompter(&subject, &other).digest());
 }
 
-/// If the budget would be exceeded, whole turns are dropped, oldest first. Otherwise, the conversation only
-/// grows at its end. Only the static part and the newest turn can exceed the budget.
+/// When the budget would be exceeded, whole turns are dropped, oldest first. Between such cuts, the
+/// conversation grows only at its end. Only the static part and the newest turn can exceed the budget.
 #[test]
 fn histories_keep_to_their_budget() {
     let subject = game("first-ice");

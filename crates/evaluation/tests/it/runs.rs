@@ -1,5 +1,5 @@
-//! Tests of evaluations with built-in players. The tests cover the written files, and interruptions that must
-//! have no effect on the results.
+//! Tests of evaluations with built-in players: the files written, and interruptions, which must not affect
+//! the results.
 
 use crate::games::corridor;
 use agents::Budget;
@@ -107,7 +107,7 @@ fn players_are_paired() {
     assert_ne!(random[0], random[1]);
 }
 
-/// A resumed evaluation has the same logs, whatever was written before the program was killed.
+/// A resumed evaluation produces the same logs, whatever was written before the program was killed.
 #[test]
 fn interrupted_evaluations_are_resumed() {
     let home = tempfile::tempdir().unwrap();
@@ -118,7 +118,7 @@ fn interrupted_evaluations_are_resumed() {
     for (part, cut) in [0, 1, 5, 9].into_iter().enumerate() {
         let folder = home.path().join(format!("cut{part}"));
         Evaluation::create(&folder, settings(&subjects), subjects.clone()).unwrap();
-        // One log is complete, one log is truncated within a line, and the other logs do not exist.
+        // One log is complete, one is truncated within a line, and the others do not exist.
         for (at, (name, _)) in undisturbed.iter().take(2).enumerate() {
             let bytes = fs::read(whole.join("episodes").join(name)).unwrap();
             let kept = if at == 0 { bytes.len() } else { bytes.len() * cut / 10 };

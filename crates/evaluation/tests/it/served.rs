@@ -1,5 +1,5 @@
-//! Tests of served players. They play the same moves over the network as in a direct call, and report errors
-//! in the format of the real APIs.
+//! Tests of served players. They play the same moves over the network as when called directly, and report
+//! errors in the format of the real APIs.
 
 use crate::sweeping;
 use base::Seed;
@@ -19,7 +19,7 @@ use std::time::Duration;
 /// The maximum number of decisions per episode.
 const LIMIT: u64 = 200;
 
-/// Reads a game of the corpus, with its first level only.
+/// Reads a corpus game with only its first level.
 fn corpus_game(folder: &Path) -> Subject {
     let text = |file: &str| std::fs::read_to_string(folder.join(file)).unwrap();
     let name = folder.file_name().unwrap().to_str().unwrap();
@@ -103,7 +103,7 @@ fn spawn(player: &str) -> Running {
     Server::bind(player.parse().unwrap(), 0).unwrap().spawn()
 }
 
-/// Posts a request, and returns the status and the JSON document of the reply.
+/// Posts a request, and returns the status and the JSON document in the reply.
 fn post(server: &Running, path: &str, body: &str) -> (u16, Value) {
     let agent: ureq::Agent = ureq::Agent::config_builder().http_status_as_error(false).build().into();
     let request = agent.post(format!("{}{path}", server.base_url()));
@@ -123,7 +123,7 @@ fn body(model: &str, messages: &[ChatMessage]) -> String {
     json!({"model": model, "messages": messages, "temperature": 0.7}).to_string()
 }
 
-/// Sends a conversation through a model's client, and returns the answer.
+/// Sends a conversation through a model client, and returns the answer.
 fn through(model: &dyn Model, messages: &[ChatMessage]) -> String {
     let (messages, sample) = (messages.to_vec(), Seed::from_text("through"));
     model.chat(&ChatRequest { messages, decoding: Decoding::default(), sample }).unwrap().text
@@ -183,7 +183,7 @@ fn reflex_follows_the_rules() {
     check("wwwwwwww\nwA....bw\nw......w\nwwwwwwww\n", 12);
 }
 
-/// The rules state the price of a shot as `1 key`, but the turn states the resources as `2 keys`.
+/// The rules state a shot's price as `1 key`, but the turn states the resources as `2 keys`.
 #[test]
 fn reflex_counts_what_it_holds() {
     let check = |game: &str, level: &str| {
@@ -337,7 +337,7 @@ fn raw(server: &Running, bytes: &str) -> String {
     reply
 }
 
-/// A web page from another site in a browser on this machine gets no answers from a served player.
+/// A web page from another site, opened in a browser on this machine, gets no answers from a served player.
 #[test]
 fn foreign_pages_are_refused() {
     let server = spawn("random");
@@ -371,7 +371,7 @@ fn bounded(bounds: Bounds) -> Running {
 
 const HEAD: &str = "POST /v1/chat/completions HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nConnection: close\r\n";
 
-/// Slow clients are disconnected, both during the head and during the body of a request.
+/// Slow clients are disconnected, whether they are slow in the head or in the body of a request.
 #[test]
 fn slow_clients_are_disconnected() {
     let short = Duration::from_millis(200);
@@ -385,7 +385,7 @@ fn slow_clients_are_disconnected() {
 }
 
 /// If all connections are taken, the client that has been silent for the longest time is disconnected. This
-/// rule affects idle clients, and clients that send requests but read nothing.
+/// affects idle clients, and clients that send requests but read nothing.
 #[test]
 fn idle_and_slow_clients_give_way() {
     let ask = "GET /v1/models HTTP/1.1\r\nHost: localhost\r\n";
@@ -421,7 +421,7 @@ fn clients_that_read_nothing_are_disconnected() {
     assert!(!matches!(gone.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut), "{gone}");
 }
 
-/// The total memory for bodies in flight stays within the bounds.
+/// The total memory for bodies in flight stays within its bound.
 #[test]
 fn bodies_are_bounded() {
     let server =
@@ -442,7 +442,7 @@ fn bodies_are_bounded() {
     let mut reply = String::new();
     waiting.read_to_string(&mut reply).unwrap();
     assert!(reply.starts_with("HTTP/1.1 400") && reply.contains("invalid_json"), "{reply}");
-    // The body is too large by its stated length, or too large in chunks.
+    // The body is too large according to its stated length, or turns out to be too large when sent in chunks.
     let much = (48 << 10) + 1;
     let stated = raw(&server, &format!("{HEAD}Content-Length: {much}\r\n\r\n{}", " ".repeat(much)));
     assert!(stated.starts_with("HTTP/1.1 413"), "{stated}");

@@ -1,4 +1,5 @@
-//! A scripted server on loopback with good and bad answers, and a clock that advances only during sleep.
+//! A scripted server on loopback that gives good and bad answers, and a clock that advances only during
+//! sleep.
 
 #![allow(dead_code, reason = "every test file uses its part")]
 
@@ -10,7 +11,7 @@ use std::sync::{Arc, Condvar, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, SystemTime};
 
-/// The server's reaction to a request.
+/// The server's response to a request.
 #[derive(Clone, Debug)]
 pub(crate) enum Response {
     /// Sends a complete HTTP reply.
@@ -24,7 +25,7 @@ pub(crate) enum Response {
     },
     /// Sends nothing until the server is dropped.
     Hang,
-    /// Sends the given bytes, which are not a complete HTTP reply, and closes the connection.
+    /// Sends the given bytes, which do not form a complete HTTP reply, and closes the connection.
     Cut(Vec<u8>),
 }
 
@@ -103,8 +104,8 @@ struct State {
 }
 
 impl Server {
-    /// Starts a server that calls `script` to get its reaction to each request. The argument of `script` is
-    /// the index of the request.
+    /// Starts a server that calls `script` for its response to each request. The argument of `script` is the
+    /// index of the request.
     pub(crate) fn start(
         script: impl Fn(usize, &ReceivedRequest) -> Response + Send + Sync + 'static,
     ) -> Server {
@@ -117,13 +118,12 @@ impl Server {
         Server { address, shared, thread: Some(thread) }
     }
 
-    /// Starts a server that reacts to successive requests with the given reactions. The last reaction is
-    /// repeated.
+    /// Starts a server that gives the listed responses to successive requests. The last response is repeated.
     pub(crate) fn scripted(acts: Vec<Response>) -> Server {
         Server::start(move |number, _| acts[number.min(acts.len() - 1)].clone())
     }
 
-    /// Returns the server's base URL, as used for `--base-url`.
+    /// Returns the server's base URL, in the form used for `--base-url`.
     pub(crate) fn base_url(&self) -> String {
         format!("http://{}/v1", self.address)
     }
@@ -174,8 +174,8 @@ fn serve(mut stream: TcpStream, shared: &Shared) {
         state.received.len() - 1
     };
     let act = (shared.script)(number, &received);
-    // The request must be counted as finished before the answer is sent. Otherwise, the client could already
-    // send the next request.
+    // The request must be counted as finished before the answer is sent, because the client could then
+    // already send the next one.
     let leave = || shared.state.lock().unwrap().at_once -= 1;
     match act {
         Response::Reply { status, headers, body } => {

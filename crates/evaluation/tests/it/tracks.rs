@@ -1,5 +1,4 @@
-//! Tests of tracks, including their prompts, the information that the prompts must hide, and series of
-//! levels.
+//! Tests of tracks: their prompts, the information that the prompts must hide, and series of levels.
 //!
 //! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it tracks` rewrites the files in `golden/`. A
 //! change to any word requires a new version of the track.
@@ -37,7 +36,7 @@ fn prompter(subject: &Subject, track: Track) -> Prompter {
 fn series(subject: &Subject, steps: usize) -> Vec<ChatMessage> {
     let prompter = prompter(subject, Track::Discover);
     let (mut past, mut previous, mut messages) = (Vec::new(), None::<LevelEnd>, Vec::new());
-    // The question asks about sprite types under the game's own names.
+    // The question is given sprite types under the game's own names.
     let first = Walk::new(subject, 0);
     let own = |name: &String| first.now.avatar.as_ref().is_some_and(|avatar| avatar.name == *name);
     let kinds: BTreeSet<String> =
@@ -81,19 +80,19 @@ fn prompts_of_tracks_to_read() {
     );
 }
 
-/// Returns the words of a text, which consist of letters and digits.
+/// Returns a text's words, which consist of letters and digits.
 fn words(text: &str) -> BTreeSet<&str> {
     text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty()).collect()
 }
 
-/// Returns `true` if a word reveals nothing, because it is a neutral name, a number, or in capitals.
+/// Returns `true` if a word reveals nothing, because it is a neutral name, a number or in capitals.
 fn says_nothing(word: &str) -> bool {
     let rest = word.strip_prefix('t').unwrap_or(word).trim_end_matches('s');
     !rest.is_empty() && rest.chars().all(|c| c.is_ascii_digit())
 }
 
-/// A name counts as leaked if a masked prompt contains it and no masked prompt of another game contains it.
-/// Such a name is not part of the common wording. Walls and avatars are also renamed.
+/// A name counts as leaked if a masked prompt contains it and no masked prompt of another game does, because
+/// then it is not part of the common wording. Walls and avatars are also renamed.
 #[test]
 fn masked_prompts_tell_no_names() {
     let games = corpus();
@@ -127,8 +126,8 @@ const VOCABULARY: &str = "You are at facing up left down right nil use Level of 
      each these kinds End your answer with four lines the it true separated by commas or none KILLS kills least while STOPS cannot \
      enter its GOES disappears turns into another kind once when what takes SCORES changes over ACTION wait";
 
-/// On the track `discover`, the prompts of games differ only in neutral names and characters, and in whether
-/// there is anything to shoot.
+/// On the track `discover`, the prompts of different games differ only in neutral names and characters, and
+/// in whether there is anything to shoot.
 #[test]
 fn prompts_without_rules_tell_no_rules() {
     let vocabulary: BTreeSet<&str> = VOCABULARY.split_whitespace().collect();
@@ -166,8 +165,8 @@ fn prompts_without_rules_tell_no_rules() {
     assert!(fixed.values().all(|parts| parts.len() == 1), "{fixed:?}");
 }
 
-/// The truth about the sprite types of the corpus follows from the rules, and predictions are graded by
-/// comparison with it.
+/// The truth about the sprite types in the corpus follows from the rules, and predictions are graded against
+/// it.
 #[test]
 fn truths_of_the_corpus() {
     let mut lines = String::new();
@@ -231,8 +230,8 @@ fn truths_hold_in_play() {
     assert!(contacts > 1000, "{contacts}");
 }
 
-/// A program gets the same information as a model: neutral names, no rules and no score. At the end, the
-/// program is asked for predictions.
+/// A program gets the same information as a model: neutral names, no rules and no score. At the end, it is
+/// asked for predictions.
 #[cfg(unix)]
 #[test]
 fn a_program_plays_a_series() {
@@ -316,8 +315,8 @@ fn settings(name: &str, track: Track, subjects: &[Subject]) -> Settings {
     settings.on_track(track).unwrap()
 }
 
-/// A model that walks to the right, and makes predictions at the end. The network fails after `left` answers.
-/// The model checks that the prompts show its past turns.
+/// A model that walks to the right and makes predictions at the end. The network fails after `left` answers.
+/// The model checks that its past turns appear in the prompts.
 struct Walker {
     left: AtomicU64,
 }
@@ -387,7 +386,7 @@ fn a_series_is_one_conversation() {
     let said = |log: &str| undisturbed[log].iter().any(|event| matches!(event, Event::Predictions { .. }));
     assert_eq!([0, 1, 2].map(|level| said(&format!("corridor-lvl{level}-run1.jsonl"))), [false, false, true]);
 
-    // A failure at any answer, followed by a resumption, does not change the results.
+    // Failing at any answer and then resuming does not change the results.
     for answers in [0, 3, 9, 11, 13, 14, 15, 20] {
         let folder = home.path().join(format!("after{answers}"));
         let evaluation = Evaluation::create(&folder, settings.clone(), subjects.clone()).unwrap();
@@ -412,7 +411,7 @@ fn rayon_one<T: Send>(run: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(run)
 }
 
-/// A player that remembers earlier levels can be resumed at any byte of any log. The final logs are the same.
+/// A player that remembers earlier levels can be resumed at any byte of any log, with the same final logs.
 #[test]
 fn series_are_resumed_anywhere() {
     let (home, subjects) = (tempfile::tempdir().unwrap(), vec![three_levels()]);

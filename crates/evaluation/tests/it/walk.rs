@@ -1,4 +1,4 @@
-//! Games of the corpus for tests, and episodes with random actions.
+//! Corpus games for tests, and episodes with random actions.
 
 use base::Seed;
 use engine::{Action, Game, Observation, State};
@@ -11,7 +11,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Returns the games of the corpus, sorted by name.
+/// Returns the corpus games, sorted by name.
 pub(crate) fn corpus() -> Vec<Subject> {
     let mut folders: Vec<PathBuf> =
         fs::read_dir(root().join("corpora")).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -31,8 +31,7 @@ fn read(folder: &Path) -> Subject {
     subject(folder, &source).unwrap_or_else(|| panic!("{}: faults", folder.display()))
 }
 
-/// Builds a game from the given text, with the levels in a folder. Returns `None` if the game does not
-/// compile.
+/// Builds a game from the given text and the levels in a folder. Returns `None` if the game does not compile.
 fn subject(folder: &Path, source: &str) -> Option<Subject> {
     let name = folder.file_name()?.to_string_lossy().into_owned();
     let file = |number: usize| {
@@ -43,8 +42,8 @@ fn subject(folder: &Path, source: &str) -> Option<Subject> {
     Subject::read(&name, source, &levels, SubjectFacts::default()).ok()
 }
 
-/// Returns the public games next to the checkout that compile with all their levels. If there are no such
-/// games, prints a message and returns an empty list.
+/// Returns the public games next to the checkout that compile with all their levels. If there are none,
+/// prints a message and returns an empty list.
 #[allow(dead_code, reason = "not all tests play them")]
 pub(crate) fn public_games() -> Vec<Subject> {
     let folder = root().join("../shared/gvgai/games");
@@ -58,7 +57,7 @@ pub(crate) fn public_games() -> Vec<Subject> {
     folders.iter().filter_map(read).collect()
 }
 
-/// An episode with random actions, and its observations.
+/// An episode of random actions, with its observations.
 pub(crate) struct Walk<'a> {
     subject: &'a Subject,
     level: usize,
@@ -100,13 +99,13 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Plays a random action. Returns `true` if the game continues.
+    /// Plays a random action. Returns `true` if the game goes on.
     pub(crate) fn step(&mut self) -> bool {
         let action = *self.sampler.choose(&self.actions);
         self.play(action)
     }
 
-    /// Plays an action. Returns `true` if the game continues.
+    /// Plays the given action. Returns `true` if the game goes on.
     pub(crate) fn play(&mut self, action: Action) -> bool {
         let score = self.state.score();
         self.subject.game.step(&mut self.state, action);

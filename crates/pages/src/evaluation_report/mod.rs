@@ -21,7 +21,7 @@ pub struct Results<'a> {
     pub replays: usize,
 }
 
-/// The content of `report.json`. Folder names are omitted, so that the same results give the same bytes
+/// The content of `report.json`. Folder names are omitted, so that the same results give identical bytes
 /// wherever they are stored.
 #[derive(Serialize)]
 struct Document<'a> {
@@ -42,7 +42,7 @@ struct Asked<'a> {
 }
 
 /// Returns the report files: `report.html`, `report.md`, `report.json` and the files in `tables/`. The same
-/// results give the same bytes.
+/// results give identical bytes.
 ///
 /// # Errors
 ///

@@ -16,7 +16,7 @@ const TEMPLATE: &str = include_str!("page.html");
 const PARTS: [(&str, &str); 2] =
     [("page.css", include_str!("page.css")), ("replay.js", include_str!("replay.js"))];
 
-/// The approximate page size, in bytes. The replays may use the space left by the plots.
+/// The approximate page size, in bytes. Replays may use the space that the plots leave.
 const BYTES: usize = 12_000_000;
 
 #[derive(Serialize)]
@@ -34,12 +34,12 @@ struct Page<'a> {
     /// The style rules that show the heat map selected by the reader.
     tab_rules: String,
     replays: Option<Replays>,
-    /// The nonce of the page's script, which prevents all other scripts from running. The nonce is derived
-    /// from the page's entire content, so the content cannot contain the nonce.
+    /// The nonce of the page's script, which prevents all other scripts from running. It is derived from the
+    /// page's entire content, so the content cannot contain it.
     nonce: String,
 }
 
-/// Renders the page. The same results give the same bytes.
+/// Renders the page. The same results give identical bytes.
 pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Result<String, PageError> {
     let (sections, tab_rules) = sections::all(results.study, tables);
     let room = BYTES.saturating_sub(sections.iter().map(Section::bytes).sum());
@@ -63,7 +63,7 @@ pub(super) fn render(results: &Results<'_>, told: &Told, tables: &[Table]) -> Re
     crate::page::render(&PARTS, TEMPLATE, &page)
 }
 
-/// Returns the figures at the top of the page: the best models, or the best players if there are no models,
+/// Returns the figures at the top of the page: the best models (or the best players if there are no models),
 /// and the reference players to compare them with.
 fn headlines(study: &Study) -> Vec<Fact> {
     let is_model = |row: &&LeaderRow| !study.players[row.player].is_reference();

@@ -12,7 +12,7 @@ use std::fmt::Write;
 
 /// The approximate number of columns per group in a heat map.
 const COLUMNS: usize = 6;
-/// The width in pixels of one group in a heat map, which fits a phone screen.
+/// The width of one group in a heat map, in pixels. It fits a phone screen.
 const WIDTH: f64 = 240.0;
 
 #[derive(Serialize)]
@@ -37,7 +37,7 @@ pub(super) struct Heats {
     panels: Vec<Panel>,
 }
 
-/// The heat maps for one measure in one scope, over all games.
+/// The heat maps for one measure in one scope, across all games.
 #[derive(Serialize)]
 struct Panel {
     measure: usize,
@@ -151,7 +151,7 @@ impl Panel {
     }
 }
 
-/// Formats a value, as in `.45` or `1`. The zero before the decimal point is omitted, so that the text fits
+/// Formats a value, such as `.45` or `1`. The zero before the decimal point is omitted, so that the text fits
 /// into a cell.
 fn two_digits(value: f64) -> String {
     let text = format!("{value:.2}");
@@ -170,8 +170,8 @@ fn key() -> String {
     format!("<svg width=\"132\" height=\"12\" viewBox=\"0 0 132 12\" aria-hidden=\"true\">{steps}</svg>")
 }
 
-/// Splits a matrix's columns into groups of about [`COLUMNS`]. A game is split only if it has more columns.
-/// Several games share a group if their titles fit.
+/// Splits a matrix's columns into groups of about [`COLUMNS`] columns. A game is split only if it has more
+/// columns than that. Several games share a group if their titles fit.
 fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     let mut stretches: Vec<(f64, Vec<usize>)> = Vec::new();
     for game in 0..study.games.len() {
@@ -192,8 +192,8 @@ fn packed(study: &Study, matrix: &Matrix) -> Vec<Vec<usize>> {
     stretches.into_iter().map(|(_, columns)| columns).collect()
 }
 
-/// Returns a player's label in two parts: the name, and a note with the mode and aids, or with the fact that
-/// the player is a reference player.
+/// Returns a player's label in two parts: the name, and a note that either lists the mode and aids or
+/// identifies a reference player.
 fn label(name: &str, reference: bool) -> Label {
     match name.split_once(" (") {
         Some((name, note)) => Label { name: name.to_owned(), note: note.trim_end_matches(')').to_owned() },
@@ -204,7 +204,7 @@ fn label(name: &str, reference: bool) -> Label {
     }
 }
 
-/// Plots all players' win rates over all episodes.
+/// Plots all players' win rates across all episodes.
 pub(super) fn win_rates(study: &Study) -> Plot {
     let rows: Vec<ForestRow> = study
         .leaderboard
@@ -313,7 +313,7 @@ pub(super) fn correlations(study: &Study) -> Vec<Plot> {
     vec![plot("Pearson", |pair| pair.pearson), plot("Spearman", |pair| pair.spearman)]
 }
 
-/// Formats a p-value, as in `p < 0.001`.
+/// Formats a p-value, such as `p < 0.001`.
 fn corrected(p: f64) -> String {
     if p < 0.001 { "p < 0.001".to_owned() } else { format!("p {p:.3}") }
 }

@@ -23,8 +23,8 @@ impl Section {
         Section { id, title, note: note.into(), ..Section::default() }
     }
 
-    /// Returns the size of the section's heat maps, in bytes. Heat maps are by far the largest part of the
-    /// page.
+    /// Returns the size of the section's heat maps, in bytes. Heat maps account for by far the largest part
+    /// of the page.
     pub(super) fn bytes(&self) -> usize {
         self.heats.as_ref().map_or(0, Heats::bytes)
     }
@@ -126,7 +126,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     (first.chain(others).collect(), rules)
 }
 
-/// Returns a leaderboard row with the mean length of the proved shortest wins.
+/// Returns a leaderboard row with the mean length of the shortest wins that are proved optimal.
 fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     let levels: Vec<Option<usize>> =
         study.games.iter().flat_map(|game| &game.levels).map(|level| level.optimal_ticks).collect();
@@ -145,7 +145,7 @@ fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     (!known.is_empty()).then(|| Row { cells: columns.iter().map(cell).collect(), mark: true })
 }
 
-/// Returns a table from the study, with rows marked if their player is not a model.
+/// Returns a table from the study, marking rows whose player is not a model.
 fn shown(study: &Study, table: &Table) -> Shown {
     let labels = |marks: bool| -> Vec<String> {
         let players = study.players.iter().filter(|player| player.is_reference() == marks);
@@ -154,7 +154,7 @@ fn shown(study: &Study, table: &Table) -> Shown {
     let (models, marks) = (labels(false), labels(true));
     let about = |cells: &[String], players: &[String]| cells.iter().any(|cell| players.contains(cell));
     let found = Shown::of(table);
-    // In these tables, the important cells are to the right of long texts.
+    // In these tables, the important cells come after long texts.
     let is_long = ["causes", "taxonomy"].contains(&table.id.as_str())
         || ["pairs-", "modes-", "aids-"].iter().any(|start| table.id.starts_with(start));
     let found = if is_long { found.stacked() } else { found };

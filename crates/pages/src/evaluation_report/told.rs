@@ -1,4 +1,4 @@
-//! The report's introduction, which states which episodes count, and why other episodes do not.
+//! The report's introduction, which states which episodes count and why the others do not.
 
 use super::Results;
 use crate::page::words;
@@ -12,13 +12,13 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The introductory text for the page and the Markdown file.
 pub(super) struct Told {
     pub(super) title: String,
-    /// A line about the source of the results.
+    /// A line stating the source of the results.
     pub(super) subtitle: String,
-    /// A summary of the results, followed by one paragraph per player about its failures.
+    /// A summary of the results, followed by a paragraph about the failures of each player.
     pub(super) verdict: Vec<String>,
     /// Sentences about the numbers of counted episodes, players and levels.
     pub(super) counted: Vec<String>,
-    /// Warnings about the limits of comparisons.
+    /// Warnings about limitations of the comparisons.
     pub(super) warnings: Vec<String>,
 }
 
@@ -78,7 +78,7 @@ fn levels(study: &Study) -> u64 {
     study.games.iter().map(|game| game.levels.len() as u64).sum()
 }
 
-/// Returns a sentence for citing the result, if all results come from releases.
+/// Returns a sentence with which to cite the result, if all results come from releases.
 fn citation(evaluations: &[Evaluation]) -> Option<String> {
     let one = |evaluation: &Evaluation| {
         let root = evaluation.settings.snapshot?;
@@ -92,8 +92,8 @@ fn citation(evaluations: &[Evaluation]) -> Option<String> {
     (!cited.is_empty()).then(|| format!("Cite this result as: {cited}."))
 }
 
-/// Returns a line about the source, such as `snapshot 3f2a…, seed “evaluate”, at most 1 000 steps an episode,
-/// semantics 2, arcade 0.1.0`.
+/// Returns a line stating the source, such as `snapshot 3f2a…, seed “evaluate”, at most 1 000 steps an
+/// episode, semantics 2, arcade 0.1.0`.
 fn subtitle(evaluations: &[Evaluation]) -> String {
     let all = |said: &dyn Fn(&Evaluation) -> String| {
         let different: BTreeSet<String> = evaluations.iter().map(said).collect();
@@ -116,7 +116,7 @@ fn subtitle(evaluations: &[Evaluation]) -> String {
     )
 }
 
-/// Returns a sentence with the number of counted episodes, and the reasons why other episodes do not count.
+/// Returns a sentence stating the number of episodes that count, and the reasons why others do not.
 fn episodes(study: &Study) -> String {
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     let mut excluded: BTreeMap<String, u64> = BTreeMap::new();

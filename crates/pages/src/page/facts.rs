@@ -1,4 +1,4 @@
-//! The figures on a page. Each figure answers a question, and includes an interval.
+//! The figures on a page. Each figure answers a question and includes an interval.
 
 use super::tables::Shown;
 use super::words;
@@ -17,15 +17,15 @@ pub(crate) struct Section {
 pub(crate) struct Fact {
     name: String,
     value: String,
-    /// The bar as SVG, or an empty text if there is nothing to draw.
+    /// The bar as SVG. Empty if there is nothing to draw.
     bar: String,
     band: String,
-    /// A phrase about the size of the figure's sample.
+    /// A phrase stating the size of the figure's sample.
     of: String,
 }
 
 impl Section {
-    /// Converts a report section to a page section. Quantiles of several samples get their own table.
+    /// Converts a report section to a page section. Quantiles of several samples get a table of their own.
     pub(crate) fn of(section: &report::Section) -> Section {
         let columns = ["", "least", "¼", "median", "¾", "most", "of"];
         let mut quantiles = Table::new("quantiles", "", "", &columns);
@@ -49,7 +49,7 @@ impl Section {
 }
 
 impl Fact {
-    /// Converts a report figure to a fact on a page. Quantiles are represented by their median.
+    /// Converts a report figure to a fact on a page. Quantiles are represented by the median.
     pub(crate) fn headline(figure: &Figure) -> Fact {
         let name = &*figure.name;
         match &figure.value {

@@ -27,25 +27,25 @@ pub(crate) struct Figure {
     png: String,
     size: [u32; 2],
     head: String,
-    /// An always empty text. The field is kept because the page's nonce is computed over it.
+    /// A text that is always empty. The field is kept because the page's nonce is computed over it.
     line: &'static str,
 }
 
 impl Figure {
-    /// Creates a captioned PNG image from a drawing.
+    /// Creates a captioned PNG image of a drawing.
     pub(crate) fn of(picture: &Picture, head: String) -> Result<Figure, RenderError> {
         let size = [picture.width(), picture.height()];
         Ok(Figure { png: STANDARD.encode(png(picture)?), size, head, line: "" })
     }
 
-    /// Returns the PNG size in bytes.
+    /// Returns the size of the PNG data, in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.png.len()
     }
 }
 
 /// Renders a page from a template as a single self-contained HTML file. The template may include or import
-/// the given `parts` by name, in addition to the shared parts. The same arguments give the same bytes.
+/// the given `parts` by name, in addition to the shared parts. The same arguments give identical bytes.
 pub(crate) fn render(
     parts: &[(&'static str, &'static str)],
     template: &'static str,

@@ -1,13 +1,13 @@
-//! Tables in report pages.
+//! Tables on report pages.
 
 use super::words;
 use report::{Table, TableCell};
 use serde::Serialize;
 
-/// The maximum number of table rows shown on a page. The table's file contains all rows.
+/// The maximum number of table rows to show on a page. The table's file contains all rows.
 const MOST: usize = 150;
 
-/// A table as required by the template `table`.
+/// A table in the form that the template `table` requires.
 #[derive(Serialize)]
 pub(crate) struct Shown {
     pub(crate) id: String,
@@ -15,14 +15,14 @@ pub(crate) struct Shown {
     note: String,
     pub(crate) columns: Vec<Column>,
     pub(crate) rows: Vec<Row>,
-    /// A phrase about the number of omitted rows. The text is empty if no rows are omitted.
+    /// A phrase stating the number of omitted rows. Empty if no rows are omitted.
     more: String,
     /// `true` if each row is shown as a list of cells on a narrow page. This layout suits tables with long
     /// texts.
     stack: bool,
 }
 
-/// A table column. The flag is `true` if the column contains right-aligned numbers.
+/// A table column. The flag is `true` if the column contains numbers and is right-aligned.
 #[derive(Serialize)]
 pub(crate) struct Column {
     pub(crate) name: String,
@@ -32,7 +32,7 @@ pub(crate) struct Column {
 #[derive(Serialize)]
 pub(crate) struct Row {
     pub(crate) cells: Vec<String>,
-    /// `true` if the row is displayed less prominently than other rows.
+    /// `true` if the row is displayed less prominently than the others.
     pub(crate) mark: bool,
 }
 

@@ -3,17 +3,17 @@
 use itertools::Itertools;
 use report::TableCell;
 
-/// Formats a count with its noun, as in `1 level` or `2 levels`.
+/// Formats a count with its noun, such as `1 level` or `2 levels`.
 pub(crate) fn many(count: u64, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{} {noun}s", grouped(count)) }
 }
 
-/// Formats a number with up to two decimal places, depending on its size, as in `12.2`.
+/// Formats a number with up to two decimal places, depending on its size, such as `12.2`.
 pub(crate) fn short(value: f64) -> String {
     TableCell::short(value).plain()
 }
 
-/// Formats a number with grouped digits, as in `12 345 678`.
+/// Formats a number with grouped digits, such as `12 345 678`.
 pub(crate) fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let first = digits.len() % 3;
@@ -25,7 +25,7 @@ pub(crate) fn grouped(count: u64) -> String {
 /// The text shown in place of a missing value.
 pub(crate) const NONE: &str = "–";
 
-/// Formats a fraction as a percentage, as in `95 %`, with a non-breaking space.
+/// Formats a fraction as a percentage with a non-breaking space, such as `95 %`.
 pub(crate) fn whole_percent(share: f64) -> String {
     format!("{:.0}\u{a0}%", 100.0 * share)
 }

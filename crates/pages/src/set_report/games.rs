@@ -16,7 +16,7 @@ use validators::Difficulty;
 const SIDE: u32 = 380;
 
 /// Returns the report files for a set of games. `games` must be in the order of the report's rows. The page
-/// shows the title, the method and the elapsed time in seconds. Cost: O(pixels), and half an episode per
+/// shows the title, the method and the elapsed time in seconds. Cost: O(pixels), plus half an episode per
 /// game.
 ///
 /// # Errors
@@ -63,7 +63,7 @@ pub fn game_report(
     files(&report.set, &showcase)
 }
 
-/// Draws the judges' costs, largest first. Each cost is divided into three parts: accepted levels, rejected
+/// Draws the judges' costs, largest first. Each cost is split into three parts: accepted levels, rejected
 /// levels, and levels whose game was rejected.
 fn costs(cost: &Tally) -> Option<(String, String)> {
     let mut judges: Vec<(&String, &JudgeCost)> =
@@ -86,8 +86,8 @@ fn drawn(game: &SurveyedGame) -> Result<Option<Picture>, PageError> {
     picture(&looks, &state, &Style::bare(cell(level, SIDE, 40))).map(Some).map_err(failed)
 }
 
-/// Returns the level closest to the middle of the game with a known win, and its state halfway through that
-/// win. Without known wins, returns the middle level in its initial state.
+/// Returns the level with a known win closest to the middle of the game, and its state halfway through that
+/// win. If there are no known wins, returns the middle level in its initial state.
 fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     let SurveyedGame { game, levels, report, .. } = surveyed;
     let half = levels.len() / 2;
@@ -104,7 +104,7 @@ fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     Some((&levels[at], state))
 }
 
-/// Returns the class and the text for a level's label.
+/// Returns the class and the text for a level's difficulty label.
 fn chip(number: usize, label: Option<Difficulty>) -> (String, String) {
     // The classes range from `d0` for very easy levels to `d5` for unbeaten levels.
     let class = label.map_or("dx".to_owned(), |label| format!("d{}", label as usize));

@@ -11,9 +11,9 @@ use render::{Looks, Picture, Style, picture};
 /// The approximate length of a board's longer side, in pixels.
 const SIDE: u32 = 320;
 
-/// Returns the report files for a set of levels. The new levels must be in the order of the report's rows,
-/// and are shown next to the game's own levels. `title` is the game's title. The page shows the elapsed time,
-/// but the JSON omits it.
+/// Returns the report files for a set of levels. The new levels must be in the order of the report's rows.
+/// They are shown next to the game's own levels. `title` is the game's title. The page shows the elapsed
+/// time, but the JSON omits it.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! The report on a set of levels or games, as three files: `report.json`, the self-contained page
+//! The report on a set of levels or games. It consists of three files: `report.json`, the self-contained page
 //! `report.html`, and `sheet.png`.
 
 mod games;
@@ -14,7 +14,7 @@ use render::{Picture, RenderError, png, sheet};
 use report::SetReport;
 use serde::Serialize;
 
-/// The parts of a page beyond the [`SetReport`].
+/// The parts of a page that the [`SetReport`] does not contain.
 #[derive(Serialize)]
 struct Showcase<'a> {
     title: String,
@@ -22,7 +22,7 @@ struct Showcase<'a> {
     subtitle: String,
     /// The manual page that explains the figures.
     manual: &'static str,
-    /// The heading above the images, with a note about the images.
+    /// The heading above the images, and a note on the images.
     items: [String; 2],
     pictures: Vec<Shot>,
     /// The images of the game's own levels.
@@ -38,8 +38,8 @@ struct Showcase<'a> {
     sheet: Sheet,
 }
 
-/// A contact sheet: the images with their captions, the number of images per row, and the side length of an
-/// image's square in pixels.
+/// A contact sheet: the images with their captions, the number of images per row, and the side length in
+/// pixels of the square that an image must fit.
 struct Sheet(Vec<(Picture, String)>, usize, u32);
 
 /// An image of a level or a game.
@@ -47,7 +47,7 @@ struct Sheet(Vec<(Picture, String)>, usize, u32);
 struct Shot {
     figure: Option<Figure>,
     head: String,
-    /// A description of how to win the game.
+    /// A description of the way to win the game.
     goal: String,
     line: String,
     /// The difficulty labels of a game's levels, each with its class and text.
@@ -80,7 +80,7 @@ fn failed(error: RenderError) -> PageError {
     PageError::failed("the pictures of the report")(error)
 }
 
-/// Returns a phrase such as ` · made in 3.5 s`, or an empty text if the time is unknown.
+/// Returns a phrase such as ` · made in 3.5 s`, or an empty text if the duration is unknown.
 fn made_in(seconds: Option<f64>) -> String {
     seconds.map_or(String::new(), |seconds| format!(" · made in {} s", crate::page::words::short(seconds)))
 }

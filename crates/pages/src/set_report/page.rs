@@ -19,7 +19,7 @@ struct Page<'a> {
     every: Vec<Shown>,
 }
 
-/// Renders the page. The same arguments give the same bytes.
+/// Renders the page. The same arguments give identical bytes.
 pub(super) fn render(report: &SetReport, showcase: &Showcase<'_>) -> Result<String, PageError> {
     let is_grid = |table: &&report::Table| showcase.grids.contains(&table.id.as_str());
     let (grids, every): (Vec<&report::Table>, Vec<_>) = report.tables.iter().partition(is_grid);

@@ -7,7 +7,7 @@ use crate::{File, PageError};
 use evaluation::scale::Timeline;
 
 /// Returns the timeline report's files: `timeline.html`, `timeline.json` and the files in `tables/`. The same
-/// timeline gives the same bytes.
+/// timeline gives identical bytes.
 ///
 /// # Errors
 ///

@@ -35,7 +35,7 @@ struct Page {
     /// The plots for individual players, with intervals.
     panels: Vec<Panel>,
     difficulties: String,
-    /// The drift plot. The text is empty if no anchor played.
+    /// The drift plot. Empty if no anchor has played.
     drift: String,
     correlation: String,
     tables: Vec<Shown>,
@@ -48,13 +48,13 @@ struct Panel {
     svg: String,
 }
 
-/// Renders the page. The same timeline gives the same bytes.
+/// Renders the page. The same timeline gives identical bytes.
 pub(super) fn render(timeline: &Timeline, tables: &[Table]) -> Result<String, PageError> {
     let months = timeline.months.iter().map(|month| month.name.clone()).collect_vec();
     let shown = |player: &&TimelinePlayer| player.ability.months.iter().any(|month| month.ability.is_some());
     let players = timeline.players.iter().filter(shown).collect_vec();
     let range = range(&players);
-    // The lines of placed players are drawn over the lines of the examinees that define the scale.
+    // The lines of players placed on the scale are drawn over the lines of the examinees that define it.
     let mut lines = players
         .iter()
         .filter(|one| one.is_examinee)
@@ -152,8 +152,8 @@ fn series(months: &[String], player: &TimelinePlayer, class: &str, whiskers: boo
     MonthSeries { name: player.ability.player.clone(), class: class.to_owned(), points, whiskers }
 }
 
-/// Returns the range of the ability axis. The range includes all abilities whose intervals have two ends, and
-/// up to two logits of each interval on either side of its ability.
+/// Returns the range of the ability axis. It includes all abilities whose intervals have two ends, and each
+/// interval up to two logits on either side of its ability.
 fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     let months = players.iter().flat_map(|player| &player.ability.months);
     let spans = months.filter(|month| month.is_bounded == [true, true]).filter_map(|month| month.ability);
@@ -162,7 +162,7 @@ fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     whole(&ends)
 }
 
-/// Returns the smallest range with integer logits at its ends that includes 0 and all given ranges.
+/// Returns the smallest range that has integer logits at its ends and includes 0 and all given ranges.
 fn whole(ends: &[[f64; 2]]) -> [f64; 2] {
     let least = ends.iter().fold(0.0_f64, |least, [low, _]| least.min(*low));
     let most = ends.iter().fold(0.0_f64, |most, [_, high]| most.max(*high));

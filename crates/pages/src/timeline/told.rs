@@ -13,7 +13,7 @@ pub(super) fn title(timeline: &Timeline) -> String {
     format!("{} to {}: {} on one scale", first.name, last.name, many(timeline.months.len() as u64, "month"))
 }
 
-/// Returns a line with the number of levels, games, episodes and players.
+/// Returns a line stating the numbers of levels, games, episodes and players.
 pub(super) fn subtitle(timeline: &Timeline) -> String {
     let levels = timeline.months.iter().map(|month| month.levels).sum();
     let games = timeline.months.iter().map(|month| month.games).sum();
@@ -29,7 +29,7 @@ pub(super) fn subtitle(timeline: &Timeline) -> String {
     )
 }
 
-/// Returns the answers to the page's questions, one sentence per answer.
+/// Returns the answers to the page's questions, one sentence each.
 pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
     let mut told = Vec::new();
     for (is_examinee, who) in [(false, "players"), (true, "players that calibrate the scale")] {
@@ -89,7 +89,7 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
     told
 }
 
-/// Returns the reasons for missing abilities in some months, one sentence per player.
+/// Returns the reasons why abilities are missing in some months, one sentence per player.
 pub(super) fn refusals(timeline: &Timeline) -> Vec<String> {
     let mut told = Vec::new();
     for player in &timeline.players {
@@ -138,12 +138,12 @@ fn moved(player: &TimelinePlayer) -> String {
     )
 }
 
-/// Formats a number with its sign, as in `+0.31`, `-0.12` or `0.00`.
+/// Formats a number with its sign, such as `+0.31`, `-0.12` or `0.00`.
 pub(super) fn signed(value: f64) -> String {
     if value.abs() < 0.005 { "0.00".to_owned() } else { format!("{value:+.2}") }
 }
 
-/// Formats an estimate with its interval, as in `+0.31, -0.12 to +0.74`.
+/// Formats an estimate with its interval, such as `+0.31, -0.12 to +0.74`.
 fn interval(one: Estimate) -> String {
     let half = Z95 * one.error;
     format!("{}, {} to {}", signed(one.value), signed(one.value - half), signed(one.value + half))

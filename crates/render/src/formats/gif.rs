@@ -1,8 +1,9 @@
 //! Episodes as animated GIFs.
 //!
 //! All frames share one palette, which is created before the first frame is written. The palette contains the
-//! exact colours of all tiles, followed by the blended colours of smooth edges. Blends without a similar
-//! colour come first, ordered by frequency. A frame contains only the changed rectangle.
+//! exact colours of all tiles, followed by the blended colours of smooth edges. Among these, blends without a
+//! similar colour in the palette come first, ordered by frequency. A frame contains only the changed
+//! rectangle.
 
 use super::pixels::{Image, Painter};
 use crate::caption;
@@ -16,11 +17,11 @@ use std::collections::BTreeMap;
 const COLOURS: usize = 255;
 /// The palette entry that leaves a pixel unchanged. Long runs of this entry compress well.
 const UNCHANGED: u8 = 255;
-/// The duration of the last frame, in multiples of the other frames' duration.
+/// The duration of the last frame, as a multiple of the other frames' duration.
 const LAST: u16 = 12;
 
-/// The minimum squared distance from a blend to every palette entry for adding the blend, in successive
-/// passes.
+/// The minimum squared distance between a blend and every palette entry for the blend to be added, in
+/// successive passes.
 const APART: [u32; 3] = [1200, 300, 0];
 
 /// An encoder that writes equally sized images as the frames of an endlessly repeating GIF.
@@ -43,8 +44,8 @@ pub struct Animation {
 
 impl Animation {
     /// Starts an animation of images like `specimens`. The first specimen determines the size. A frame lasts
-    /// `delay` hundredths of a second. Colours not contained in any specimen are mapped to the nearest
-    /// palette entry.
+    /// `delay` hundredths of a second. Colours that no specimen contains are mapped to the nearest palette
+    /// entry.
     ///
     /// # Errors
     ///
@@ -112,8 +113,8 @@ impl Animation {
         Ok(self.encoder.into_inner()?)
     }
 
-    /// Returns the palette index of each pixel. Looks up only the changed pixels, because most pixels stay
-    /// the same.
+    /// Returns the palette index of each pixel. Looks up only the changed pixels, because most pixels do not
+    /// change.
     fn indices(&mut self, image: &Image) -> Vec<u8> {
         let Animation { palette, nearest, before, shown, .. } = self;
         let mut last = None;
@@ -155,7 +156,7 @@ fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, 
     }
     let mut blends: Vec<(Colour, u32)> = counts.into_iter().collect();
     blends.retain(|(colour, _)| !palette.contains(colour));
-    // The sort is stable, so that equally frequent blends stay sorted by colour.
+    // The sort is stable, so equally frequent blends stay sorted by colour.
     blends.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
     // Blends far from all entries come first, because many rare blends are better served by one entry in their midst.
     for apart in APART {
@@ -168,8 +169,8 @@ fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, 
     Ok(palette)
 }
 
-/// Returns the smallest rectangle (left, top, right, bottom) that contains all differences: a single pixel if
-/// there are none, and the whole frame for the first frame.
+/// Returns the smallest rectangle (left, top, right, bottom) that contains all differences. If there are
+/// none, returns a single pixel. For the first frame, returns the whole frame.
 fn changed(before: &[u8], now: &[u8], width: usize) -> [usize; 4] {
     if before.len() != now.len() {
         return [0, 0, width, now.len() / width.max(1)];

@@ -22,7 +22,7 @@ pub struct Image {
 }
 
 /// A rasteriser that caches the pixels of tiles. The same [`Picture`] yields the same pixels on every
-/// machine, regardless of earlier drawings.
+/// machine, regardless of what was drawn before.
 #[derive(Debug, Default)]
 pub struct Painter {
     /// The number assigned to each tile seen so far.
@@ -38,7 +38,7 @@ impl Painter {
     }
 
     /// Rasterises an image. Sprites are aligned to whole pixels. Cost: O(pixels of the stamps), plus the cost
-    /// of drawing uncached tiles.
+    /// of drawing tiles that are not in the cache.
     ///
     /// # Errors
     ///
@@ -87,7 +87,7 @@ impl Image {
     /// Blends a tile over the image, with the tile's top left corner at `(x, y)`.
     fn blend(&mut self, tile: &Pixmap, x: i32, y: i32) {
         let (width, height) = (self.width as usize, self.height as usize);
-        // Parts to the left of the image or above it are skipped.
+        // Parts to the left of or above the image are skipped.
         let [skipped_columns, skipped_rows] = [x, y].map(|at| at.min(0).unsigned_abs() as usize);
         let (left, top) = (x.max(0) as usize, y.max(0) as usize);
         let sources = tile.pixels().chunks(tile.width() as usize).skip(skipped_rows);
@@ -107,7 +107,7 @@ impl Image {
     }
 }
 
-/// Returns the whole pixels that a stamp covers, or `None` if the stamp is outside the image.
+/// Returns the whole pixels that a stamp covers, or `None` if the stamp lies outside the image.
 fn snapped(stamp: &Stamp, width: u32, height: u32) -> Option<(i32, i32, u32, u32)> {
     let place = stamp.place;
     let span = |from: f32, size: f32, limit: u32| {

@@ -4,7 +4,7 @@ use crate::looks::shape::{Outline, Paint, Segment, Shape};
 use crate::picture::{Picture, Tile};
 use std::fmt::Write;
 
-/// Returns an image as an SVG document. The same image yields the same bytes. Hovering over a sprite shows
+/// Returns an image as an SVG document. The same image yields identical bytes. Hovering over a sprite shows
 /// its name.
 pub fn svg(picture: &Picture) -> String {
     let (width, height) = (picture.width(), picture.height());
@@ -27,8 +27,8 @@ pub fn svg(picture: &Picture) -> String {
     text
 }
 
-/// Returns a tile as an SVG group with this ID, in a unit square, for pages that stamp the tile many times.
-/// Hovering over the tile shows its name.
+/// Returns a tile as an SVG group with the given ID, in a unit square, for pages that stamp the tile many
+/// times. Hovering over the tile shows its name.
 pub fn svg_tile(id: &str, tile: &Tile) -> String {
     let mut text = format!("<g id=\"{id}\">");
     if let Some(name) = &tile.name {

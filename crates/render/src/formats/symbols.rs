@@ -1,5 +1,5 @@
-//! One character for each of a game's sprite types, for boards as text. The characters are ASCII as long as
-//! free ASCII characters remain.
+//! The characters that represent a game's sprite types on boards as text. They are ASCII as long as unused
+//! ASCII characters remain.
 
 use crate::looks::glyph::Glyph;
 use crate::looks::look::Looks;
@@ -9,11 +9,11 @@ use engine::{Analysis, SpriteType};
 #[derive(Clone, Debug)]
 pub struct Symbols(Vec<char>);
 
-/// The character for an empty cell, or for a cell that contains only floor.
+/// The character of an empty cell, or of a cell that contains only floor.
 pub const EMPTY: char = '.';
 
-/// The spare characters, for types whose level character and name letters are all taken. Letters of other
-/// alphabets follow the spare characters, so that no two types ever share a character.
+/// The spare characters, for types whose level character and name letters are all taken. After them come
+/// letters of other alphabets, so that no two types ever share a character.
 const SPARE: &str =
     "+*%&$=~^?!:;|/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@<>()[]{}-_,`'\"\\";
 

@@ -1,4 +1,5 @@
-//! A state as text: one character per cell, then the caption, the legend, and the contents of crowded cells.
+//! A state as text: one character per cell, followed by the caption, the legend, and the contents of crowded
+//! cells.
 
 use super::symbols::{EMPTY, Symbols};
 use crate::caption;
@@ -11,9 +12,8 @@ use std::fmt::Write;
 /// The maximum number of cells with several sprites to list.
 const MAX_STACKS: usize = 20;
 
-/// Returns the board as lines of characters. Each cell shows the uppermost sprite in the cell. A sprite
-/// between cells appears in all cells that it overlaps. Each line ends with a newline. Cost: O(sprites +
-/// cells).
+/// Returns the board as lines of characters. Each cell shows its topmost sprite. A sprite between cells
+/// appears in all cells that it overlaps. Each line ends with a newline. Cost: O(sprites + cells).
 pub fn rows(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     let columns = state.size().0.max(1) as usize;
     let cells = stacks(looks, symbols, state);
@@ -22,7 +22,7 @@ pub fn rows(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     cells.chunks(columns).map(row).collect()
 }
 
-/// Returns the whole text: the rows, the caption, a legend for the types on the board, and the cells with
+/// Returns the complete text: the rows, the caption, a legend for the types on the board, and the cells with
 /// several sprites.
 pub fn text(looks: &Looks, symbols: &Symbols, state: &State) -> String {
     let game = looks.game();

@@ -13,8 +13,8 @@ pub(crate) const GROUND: Colour = Colour([0xf4, 0xf0, 0xe7]);
 /// The colour of the lines between cells.
 pub(crate) const GRID: Colour = Colour([0xe5, 0xde, 0xd0]);
 
-/// The palette by Okabe and Ito ("Color Universal Design", 2008). People with any common type of colour
-/// vision can distinguish its colours.
+/// The palette by Okabe and Ito ("Color Universal Design", 2008). Its colours can be told apart with any
+/// common type of colour vision.
 pub(crate) const ORANGE: Colour = Colour([0xe6, 0x9f, 0x00]);
 pub(crate) const SKY: Colour = Colour([0x56, 0xb4, 0xe9]);
 pub(crate) const GREEN: Colour = Colour([0x00, 0x9e, 0x73]);
@@ -23,7 +23,7 @@ pub(crate) const BLUE: Colour = Colour([0x00, 0x72, 0xb2]);
 pub(crate) const VERMILION: Colour = Colour([0xd5, 0x5e, 0x00]);
 pub(crate) const PURPLE: Colour = Colour([0xcc, 0x79, 0xa7]);
 
-/// The colours for unimportant motionless types: two greys and two browns.
+/// The colours of unimportant stationary types: two greys and two browns.
 pub(crate) const SLATE: Colour = Colour([0x6c, 0x75, 0x86]);
 pub(crate) const STONE: Colour = Colour([0x9a, 0x9c, 0xa3]);
 pub(crate) const EARTH: Colour = Colour([0xb5, 0x93, 0x68]);
@@ -42,7 +42,7 @@ impl Colour {
         self.mixed(PAPER, 45)
     }
 
-    /// Returns a darker colour of the same hue, or a lighter colour if this colour is dark.
+    /// Returns a darker colour of the same hue, or a lighter one if this colour is already dark.
     pub(crate) fn shade(self) -> Colour {
         if self.luma() < 60 { self.mixed(PAPER, 35) } else { self.mixed(INK, 40) }
     }

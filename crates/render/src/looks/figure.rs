@@ -1,9 +1,9 @@
 //! Figures for named sprites: a table of drawings, with the words and roles that each drawing represents.
 //!
 //! A game specifies an image with `img=`. Composed games write `img=role/noun`, or `img=role/adjective/noun`
-//! for a type that represents a different state of a sprite. Other games write a file path, whose last part
-//! is a noun. The noun determines the figure. For an unknown noun, the role determines the figure. If the
-//! role is unknown, too, the rules determine a [`Glyph`].
+//! for a type that represents a different state of a sprite. Other games write a file path whose last part is
+//! a noun. The noun determines the figure. If the noun is unknown, the role determines it. If the role is
+//! unknown too, the rules determine a [`Glyph`].
 
 use super::colour::{Colour, GROUND, INK, PAPER};
 use super::glyph::Glyph;
@@ -35,11 +35,11 @@ const PEOPLE: [&str; 12] = [
     "mage",
 ];
 
-/// The figures that turn into the figure of an open door in the state `open`. Other sprites that open get a
-/// mark instead.
+/// The figures that turn into the figure of an open door in the state `open`. Other sprites that can be open
+/// get a mark instead.
 const DOORS: [&str; 6] = ["door", "gate", "grille", "fence", "house", "opendoor"];
 
-/// The minimum length of a word for recognising it as the end of a longer word.
+/// The minimum length of a word that is recognised as the end of a longer word.
 const SHORTEST_END: usize = 4;
 
 /// A tile's drawing, without its colour and details.
@@ -47,7 +47,7 @@ const SHORTEST_END: usize = 4;
 pub enum Form {
     /// The drawing of a glyph.
     Glyph(Glyph),
-    /// A line in the table of figures.
+    /// The drawing in a line of the table of figures.
     Figure(u16),
 }
 
@@ -95,7 +95,7 @@ pub(crate) struct Figure {
     pub(crate) is_dangerous: bool,
     pub(crate) turns: bool,
     is_mark: bool,
-    /// The glyph whose drawing the figure shares.
+    /// The glyph whose drawing the figure uses, if any.
     glyph: Option<Glyph>,
     pub(crate) parts: Vec<Part>,
 }
@@ -116,7 +116,7 @@ static WORDS: LazyLock<BTreeMap<&'static str, u16>> = LazyLock::new(|| {
 });
 
 impl Form {
-    /// Returns the figure, or `None` if the form is a glyph's drawing.
+    /// Returns the figure, or `None` if the form is the drawing of a glyph.
     pub(crate) fn figure(self) -> Option<&'static Figure> {
         match self {
             Form::Glyph(_) => None,
@@ -207,7 +207,7 @@ impl<'a> Hint<'a> {
     }
 
     /// Returns the hint given by the name of a type without `img=`. Returns `None` if the glyph from the
-    /// rules shows a direction, as portals and signs do, because a noun cannot express a direction.
+    /// rules shows a direction, as those of portals and signs do, because a noun cannot express a direction.
     pub(crate) fn of_name(name: &'a str, glyph: Glyph) -> Option<Hint<'a>> {
         use Glyph as G;
         let shows_way = matches!(glyph, G::Portal | G::PortalExit | G::Pointer | G::Sign | G::Conveyor);
@@ -228,7 +228,7 @@ impl<'a> Hint<'a> {
         let noun = || noun(self.noun).map(Form::of_entry);
         let is_wall = |form: &Form| form.figure().is_some_and(|figure| figure.is_wall);
         match (self.role, glyph) {
-            // An avatar that is an animal looks like that animal. A person has the figure of the glyph.
+            // An avatar that is an animal looks like that animal. A person gets the figure of the glyph.
             (_, Glyph::Avatar) => noun().filter(|form| form.has_face() && !form.is_person()).unwrap_or(drawn),
             (_, Glyph::Craft) | (None, Glyph::Floor) => drawn,
             (Some("floor"), _) => Form::Glyph(Glyph::Floor),
@@ -244,8 +244,7 @@ impl<'a> Hint<'a> {
     }
 
     /// Returns the figure for the type's state. A prize keeps its own figure and gets a mark instead, because
-    /// a fallen prize does not look like a fallen bridge. The same applies to an open object that is not a
-    /// door.
+    /// a fallen prize does not look like a fallen bridge. The same applies to open objects other than doors.
     fn state(self) -> Option<u16> {
         let is_door = || noun(self.noun).is_none_or(|at| DOORS.contains(&TABLE[usize::from(at)].name));
         let adjective = self.adjective.filter(|_| self.role != Some("prize"))?;
@@ -282,8 +281,8 @@ fn named(sign: &str, word: &str) -> Option<u16> {
     WORDS.get(format!("{sign}{}", word.to_lowercase()).as_str()).copied()
 }
 
-/// Returns the table entry for a noun in camel case: for the whole noun, for its last word, or for the longest suffix of that
-/// word in the table.
+/// Returns the table entry for a noun in camel case: the entry for the whole noun, for its last word, or for
+/// the longest suffix of that word that is in the table.
 fn noun(noun: &str) -> Option<u16> {
     let noun = noun.trim_end_matches(|letter: char| letter.is_ascii_digit() || letter == '_');
     let last = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or(0);
@@ -296,7 +295,7 @@ fn noun(noun: &str) -> Option<u16> {
     })
 }
 
-/// Parses a line in the table. A test finds faults in the table.
+/// Parses a line in the table. The table's correctness is checked by a test.
 fn parsed(line: &'static str) -> Figure {
     let fields: Vec<&str> = line.splitn(3, '|').map(str::trim).collect();
     let &[head, words, drawing] = &fields[..] else { unreachable!("`{line}` has three fields") };
@@ -447,7 +446,7 @@ mod tests {
         check("", Glyph::Gem, "a gem");
     }
 
-    /// Checks that objects that look different have different figures.
+    /// Checks that objects that look different have distinct figures.
     #[test]
     fn similar_words_do_not_share_a_figure() {
         let name = |word: &str| noun(word).map(|at| TABLE[usize::from(at)].name);

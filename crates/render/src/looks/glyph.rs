@@ -1,4 +1,4 @@
-//! Tile glyphs, one for each kind of sprite that a player must be able to distinguish.
+//! The glyphs of tiles, one for each kind of sprite that a player must be able to distinguish.
 
 use super::art::Art;
 use super::colour;
@@ -8,7 +8,7 @@ use crate::looks::art::{creatures, ground, passages, shots, things};
 use engine::analysis::{EffectSummary, Harm, Key, Motion, Role, Steering};
 use engine::{Analysis, SpriteClass, SpriteType};
 
-/// Declares the glyphs in one place: variant, form, meaning, colour, terminal symbols, drawing.
+/// Declares each glyph in one place, with its variant, form, meaning, colour, terminal symbols and drawing.
 macro_rules! glyphs {
     ($($name:ident, $form:literal, $meaning:literal, $colour:ident, $unicode:literal, $ascii:literal, $draw:path;)*) => {
         /// A tile's glyph.
@@ -97,8 +97,8 @@ glyphs! {
 }
 
 impl Glyph {
-    /// Chooses a sprite type's glyph: by its role first, then by its movement and its purpose. A type has no
-    /// star if the game is always lost before the type can win it.
+    /// Chooses the glyph of a sprite type: by its role first, then by its movement and its purpose. A type
+    /// gets no star if the game is always lost before the type can win it.
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Glyph {
         let glyph = Glyph::by_role(analysis, stype);
         let plain = match glyph {
@@ -214,8 +214,8 @@ fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.facts(stype).makes.is_empty() && analysis.game().sprite_types().any(drops)
 }
 
-/// Returns `true` if the type stays when touched, and several level characters place something over it. Such
-/// a type is the ground in a part of the board, not an object on the board.
+/// Returns `true` if sprites of the type stay when touched, and several level characters place something over
+/// them. Such a type is the ground in part of the board, not an object on it.
 fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let stays = analysis.avatars().iter().all(|avatar| !analysis.touch(avatar.stype, stype).ends_other());
@@ -225,14 +225,15 @@ fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
 }
 
 /// Returns `true` if rules involve the type, and no level character places anything over it. Such a type does
-/// not affect an avatar on the same cell, but is not ground either.
+/// not affect an avatar in the same cell, but it is not ground either.
 fn is_thing(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let above = |symbol: &u8| game.places(*symbol).last() == Some(&stype);
     !analysis.is_scenery(stype) && analysis.facts(stype).symbols.iter().all(above)
 }
 
-/// Returns `true` if the type gives a resource to every avatar that touches it, and stays on the board.
+/// Returns `true` if the type gives a resource to every avatar that touches it, and its sprites stay on the
+/// board.
 fn is_source(analysis: &Analysis, stype: SpriteType) -> bool {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     touches.all(|touch| !touch.ends_other() && touch.gives.iter().any(|&(_, by)| by > 0))
@@ -256,8 +257,8 @@ pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<Sp
     })
 }
 
-/// Returns the glyph for a type that gives a key. The glyph is a button if touching the type is enough, or
-/// coins if the avatar can hold many.
+/// Returns the glyph for a type that gives a key: a button if touching the type is enough, or coins if the
+/// avatar can hold many.
 fn key(analysis: &Analysis, stype: SpriteType) -> Glyph {
     let many = |resource: SpriteType| {
         analysis.resources().iter().any(|known| known.stype == resource && known.limit > 2)
@@ -288,7 +289,7 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> Glyph {
     }
 }
 
-/// Returns `true` if a type is a friend that must be kept safe: it is harmless, but others turn it into a
+/// Returns `true` if a type is a friend to be kept safe: it is harmless, but other types can turn it into a
 /// forbidden type.
 pub(crate) fn is_spoilt(analysis: &Analysis, stype: SpriteType) -> bool {
     let prevented = |to: SpriteType| analysis.aims().prevent.contains(&to);

@@ -4,14 +4,14 @@ use super::colour::Colour;
 use super::shape::{Outline, Paint, Point, Shape};
 
 /// The strokes of `!` to `~`, one character per line: the character and then its strokes, separated by
-/// spaces. A stroke is a list of points with two digits each: column 0 to 4, and row 0 to 9. Capitals stand
-/// on row 7 and reach up to row 1. A single point is a dot.
+/// spaces. A stroke is a list of points of two digits each: a column from 0 to 4, and a row from 0 to 9.
+/// Capitals stand on row 7 and reach up to row 1. A single point is a dot.
 const STROKES: &str = include_str!("letters.txt");
 
 /// The strokes of any other character.
 const UNKNOWN: &str = "0141470701";
 
-/// Returns the shapes of a character in the left three fifths of a unit square.
+/// Returns the shapes of a character, in the left three fifths of a unit square.
 pub(crate) fn shapes(letter: char, colour: Colour) -> Vec<Shape> {
     let mut known = STROKES.lines().filter_map(|line| line.strip_prefix(letter)?.strip_prefix(' '));
     let strokes = match letter {

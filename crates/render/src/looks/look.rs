@@ -11,7 +11,7 @@ use engine::analysis::{EffectSummary, Key};
 use engine::{Analysis, Game, SpriteType};
 use std::collections::BTreeMap;
 
-/// The squared distance below which two colours are too similar to distinguish two types with the same glyph.
+/// The squared distance below which two colours are too similar to distinguish types with the same glyph.
 const ALIKE: u32 = 3000;
 /// The maximum number of dots on a tile.
 const MAX_PIPS: u8 = 4;
@@ -21,7 +21,7 @@ const MAX_PIPS: u8 = 4;
 pub struct Look {
     /// The glyph according to the rules, which determines the type's meaning in legends.
     pub glyph: Glyph,
-    /// The drawn shape: a figure if the game specifies an image, or else the glyph.
+    /// The shape drawn: a figure if the game specifies an image, or else the glyph.
     pub form: Form,
     /// The mark for the type's state, as an index into the table of figures.
     pub(crate) mark: Option<u16>,
@@ -52,7 +52,8 @@ impl Look {
 
 impl Look {
     /// Returns `true` if players cannot distinguish two types with these looks. Such types have the same
-    /// drawing and the same number of dots, and their colours are similar or not shown by the drawing.
+    /// drawing and the same number of dots, and their colours are either similar or not visible in the
+    /// drawing.
     pub fn is_like(self, other: Look) -> bool {
         let drawing = |look: Look| (look.form, look.mark, look.mood, look.variant, look.pips);
         // Figures show less of the type's colour than glyphs do.
@@ -62,14 +63,14 @@ impl Look {
     }
 }
 
-/// The looks of all types in one game. Looks are immutable, and the same game always yields the same looks.
+/// The looks of all types in a game. Looks are immutable, and the same game always yields the same looks.
 #[derive(Clone, Debug)]
 pub struct Looks {
     game: Game,
     looks: Vec<Look>,
     /// For each type, `true` if its sprites are visible to players.
     visible: Vec<bool>,
-    /// The types whose sprites can be seen in some episode.
+    /// The types whose sprites can be visible in some episode.
     shown: Vec<SpriteType>,
     /// `true` if avatars can hold resources or have health.
     holdings: bool,
@@ -78,13 +79,13 @@ pub struct Looks {
     prospects: Prospects,
     /// The floor of a composed game.
     floor: Option<SpriteType>,
-    /// For each type, the direction of its signs according to the rules.
+    /// For each type, the direction that its signs have according to the rules.
     fronts: Vec<Option<Point>>,
 }
 
 impl Looks {
-    /// Computes the looks for an analysed game, with the images that the game specifies or that the names of
-    /// its types suggest. Cost: O(types²).
+    /// Computes the looks for an analysed game, with the images that the game specifies or that its types'
+    /// names suggest. Cost: O(types²).
     pub fn of(analysis: &Analysis) -> Looks {
         let named = pictures(analysis.game());
         let by_name = |stype: SpriteType, glyph: Glyph| match named.get(&stype) {
@@ -114,8 +115,8 @@ impl Looks {
         let visible: Vec<bool> = game.sprite_types().map(|stype| !analysis.facts(stype).hidden).collect();
         let glyphs: Vec<Glyph> = game.sprite_types().map(|stype| Glyph::of(analysis, stype)).collect();
         let mut looks: Vec<Look> = glyphs.iter().map(|&glyph| Look::plain(glyph)).collect();
-        // Only looks that the game can show count, so that types which never occur use up no variant. Gates come last, because
-        // they follow their keys.
+        // Only looks that the game can show count, so that types that never occur do not use up variants.
+        // Gates come last, because their looks follow those of their keys.
         let mut seen: Vec<Look> = Vec::new();
         let mut order: Vec<SpriteType> = game.sprite_types().collect();
         order.sort_by_key(|stype| glyphs[stype.index()] == Glyph::Gate);
@@ -178,7 +179,8 @@ impl Looks {
         self.floor
     }
 
-    /// Returns a sign's direction according to the rules. The sign's sprites may be turned during play.
+    /// Returns a sign's direction according to the rules, although the sign's sprites may be turned during
+    /// play.
     pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
         self.fronts[stype.index()]
     }
@@ -192,7 +194,8 @@ impl Looks {
         self.shown.iter().copied()
     }
 
-    /// Returns `true` if an avatar can hold something or has health. Captions then show more than the score.
+    /// Returns `true` if an avatar can hold something or has health. If so, captions show more than the
+    /// score.
     pub fn has_holdings(&self) -> bool {
         self.holdings
     }
@@ -203,8 +206,7 @@ impl Looks {
     }
 }
 
-/// Returns the images specified by a game (`img=`), by type. A type without an image inherits its parent's
-/// image.
+/// Returns the images that a game specifies (`img=`), by type. A type without an image inherits its parent's.
 fn pictures(game: &Game) -> BTreeMap<SpriteType, String> {
     let mut pictures = BTreeMap::new();
     // The images of the enclosing lines, by depth.
@@ -233,7 +235,7 @@ fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize
     looks.get(key.index()).filter(|look| look.glyph == Glyph::Key).map(|look| usize::from(look.variant))
 }
 
-/// Returns the colour for the nth type with the same glyph, for types without a colour of their own. The hue
+/// Returns the colour of the nth type with the same glyph, for types without a colour of their own. The hue
 /// stays the same.
 fn shifted(colour: Colour, nth: usize) -> Colour {
     match nth % 3 {

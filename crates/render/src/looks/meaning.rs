@@ -8,7 +8,7 @@ use engine::analysis::{
 };
 use engine::{Analysis, Direction, SpriteType};
 
-/// The note for a type that does nothing to the avatar.
+/// The note on a type that does nothing to the avatar.
 const HARMLESS: &str = "harmless";
 
 /// Returns the types that a type's sprites open, and the types that use up the resource that the type is or
@@ -35,8 +35,8 @@ fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     opened.chain(uses(analysis, stype)).chain(changes_speed(analysis, stype)).collect()
 }
 
-/// Returns a description of how a certain number of the type's sprites ends the game, if this is possible: `2
-/// win`, `one, and you lose`. If one number wins and another loses, both are told.
+/// Describes how a certain number of the type's sprites ends the game, if it can: `2 win`, `one, and you
+/// lose`. If one number wins and another loses, both are stated.
 fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut endings: Vec<(bool, String)> = Vec::new();
     for (at, goal) in analysis.goals().iter().enumerate() {
@@ -79,14 +79,14 @@ fn given(analysis: &Analysis, stype: SpriteType) -> Option<&str> {
     Some(analysis.game().name(resource))
 }
 
-/// Returns a description of what the avatar turns into when it touches a type.
+/// Describes what the avatar turns into when it touches a type.
 fn becomes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let becomes = touches.find_map(|touch| touch.becomes)?;
     Some(format!("makes you {}", analysis.game().name(becomes)))
 }
 
-/// Returns a description for a type whose touch gives the avatar health, or `None`.
+/// Describes a type whose touch gives the avatar health. Returns `None` for any other type.
 fn health(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let heals = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by > 0);
     let mut avatars = analysis.avatars().iter();
@@ -97,8 +97,8 @@ fn health(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     is_healed.then(|| "heals you".to_owned())
 }
 
-/// Returns a description of the change of a sprite that the avatar touches: `becomes gap when touched`, or
-/// `may become gap when touched` if the change depends on something.
+/// Describes the change in a sprite that the avatar touches: `becomes gap when touched`, or `may become gap
+/// when touched` if the change is conditional.
 fn changes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let to = touches.find_map(|touch| touch.changes)?;
@@ -113,14 +113,14 @@ fn changes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     Some(format!("{verb} {} when touched", analysis.game().name(to)))
 }
 
-/// Returns a description of the sprites that appear when the avatar touches a type.
+/// Describes the sprites that appear when the avatar touches a type.
 fn makes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let made: Vec<SpriteType> = touches.flat_map(|touch| touch.makes.iter().copied()).collect();
     Some(format!("makes {} when touched", remarks::names(analysis, &made)?))
 }
 
-/// Returns a description of the effect on the avatar of an item that no rule requires.
+/// Describes the effect on the avatar of an item that no rule requires.
 fn gain(analysis: &Analysis, stype: SpriteType) -> String {
     let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let points = || {
@@ -154,8 +154,8 @@ fn is_resource(analysis: &Analysis, stype: SpriteType) -> bool {
 }
 
 /// Returns the types whose contact with any sprite removes or changes all sprites of `stype`. Avatars are
-/// excluded, because an avatar moves to the contact itself. Types that turn into `stype` by themselves and
-/// back again are excluded, too.
+/// excluded, because an avatar brings about the contact itself. Types that turn into `stype` and back by
+/// themselves are excluded, too.
 fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let is_place = |written: SpriteType| analysis.role(written) == Role::Floor;
     let thing = |encounter: &Encounter| match is_avatar(analysis, encounter.first) {
@@ -182,7 +182,7 @@ fn changes_all(encounter: &Encounter, stype: SpriteType) -> bool {
     })
 }
 
-/// Returns `opened` if every change of all sprites of a type lets the avatar pass, and otherwise `changed`.
+/// Returns `opened` if every change to all sprites of a type lets the avatar pass, and `changed` otherwise.
 fn opening_verb(analysis: &Analysis, stype: SpriteType) -> &'static str {
     let bars = |effect: &EffectSummary| match effect {
         EffectSummary::BecomeAll(from, to) => *from == stype && !remarks::is_passable(analysis, *to),
@@ -192,7 +192,7 @@ fn opening_verb(analysis: &Analysis, stype: SpriteType) -> &'static str {
     if bars { "changed" } else { "opened" }
 }
 
-/// Returns `true` if a rule that the passing of time triggers names the type or one of its groups.
+/// Returns `true` if a rule triggered by the passing of time involves the type or one of its groups.
 fn is_timed(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let concerns = |text: &str| {
@@ -210,13 +210,12 @@ fn is_timed(analysis: &Analysis, stype: SpriteType) -> bool {
     })
 }
 
-/// Returns `true` if a switch turns into the type that it opens, like a portal that is closed for some
-/// ticks.
+/// Returns `true` if a switch turns into the type that it opens, like a portal that is closed for some ticks.
 fn alternates(analysis: &Analysis, switch: SpriteType, stype: SpriteType) -> bool {
     analysis.turns(switch).iter().any(|(becomes, _)| *becomes == stype)
 }
 
-/// Returns `true` if some encounter turns all sprites of a type into another type together.
+/// Returns `true` if some encounter turns all sprites of a type into a different type at once.
 fn changes_as_a_whole(analysis: &Analysis, stype: SpriteType) -> bool {
     let changes =
         |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
@@ -237,9 +236,9 @@ fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     analysis.encounters().iter().filter_map(change).find(|&from| possible(from) && !is_placed)
 }
 
-/// Returns a description of how a motionless type affects other sprites that reach it. The type removes
-/// sprites that must disappear for the win, or changes all sprites of a type. Rules about sprites that
-/// neither move nor are shot are omitted, because such sprites cannot reach the type.
+/// Describes how a motionless type affects other sprites that reach it: it removes sprites that must
+/// disappear for the win, or changes all sprites of a type. Rules about sprites that neither move nor are
+/// shot are omitted, because such sprites cannot reach the type.
 fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let game = analysis.game();
     let brought = |taken: &&SpriteType| {
@@ -303,7 +302,7 @@ fn target(analysis: &Analysis, of: SpriteType) -> String {
     }
 }
 
-/// Returns a description of how sprites of a type move, or an empty text for motionless types.
+/// Describes how sprites of a type move. Returns an empty text for motionless types.
 fn motion(analysis: &Analysis, stype: SpriteType) -> String {
     match analysis.facts(stype).motion {
         Motion::Chasing(other) => format!("chases {}", targets(analysis, stype, other)),
@@ -320,7 +319,7 @@ fn blocks(analysis: &Analysis, stype: SpriteType) -> bool {
     !avatars.is_empty() && avatars.iter().all(|avatar| analysis.touch(avatar.stype, stype).blocks)
 }
 
-/// Returns a lock's requirement: `needs 3 shell`, `opened by bell`, `only as laden`.
+/// Describes a lock's requirement: `needs 3 shell`, `opened by bell`, `only as laden`.
 fn requirement(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let game = analysis.game();
     let lock = analysis.locks().iter().find(|lock| lock.stype == stype)?;
@@ -348,7 +347,8 @@ fn opening_things(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     openers(analysis, stype).into_iter().filter(|&opener| analysis.role(opener) != Role::Floor).collect()
 }
 
-/// Returns the meaning of a solid type: the type of which it is a state, or the means to open or remove it.
+/// Returns the meaning of a solid type: the type of which it is a state, or the means of opening or removing
+/// it.
 fn solid(analysis: &Analysis, stype: SpriteType) -> String {
     let own = opened(analysis, stype);
     if let Some(names) = remarks::names(analysis, &own) {
@@ -408,7 +408,7 @@ fn goal(analysis: &Analysis, stype: SpriteType, meaning: &str) -> String {
     format!("{meaning}{only}{}", terms.note(analysis))
 }
 
-/// Returns the meaning of a type that looks like a goal, but to which no known way of winning leads.
+/// Returns the meaning of a type that looks like a goal although no known way of winning involves it.
 fn unwon(analysis: &Analysis, stype: SpriteType) -> String {
     if wins::is_to_go(analysis, stype) {
         return Glyph::Target.meaning().to_owned();
@@ -445,7 +445,7 @@ fn spoilers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
 /// Returns the meaning of a type whose loss loses the game.
 fn ward(analysis: &Analysis, stype: SpriteType) -> String {
     let protected = wins::is_to_keep(analysis, stype);
-    // A type that is a state of a different type is counted together with that type.
+    // If a type is a state of a different type, the two are counted together.
     if let Some(from) = earlier(analysis, stype).filter(|from| !analysis.aims().protect.contains(from)) {
         return format!("was {}", analysis.game().name(from));
     }
@@ -480,7 +480,7 @@ fn held(analysis: &Analysis, stype: SpriteType, meaning: &str) -> String {
         .unwrap_or_else(|| gain(analysis, stype))
 }
 
-/// Returns the meaning of a motionless type without another role.
+/// Returns the meaning of a motionless type that has no other role.
 fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
     let state = || Some(format!("was {}", analysis.game().name(earlier(analysis, stype)?)));
     let changed = || {
@@ -518,8 +518,8 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
         .unwrap_or_else(|| HARMLESS.to_owned())
 }
 
-/// Returns a description of the harm, other than by touch, that a moving type does: to things that matter, or
-/// with the sprites that it makes. An enemy may also take things whose use is not known.
+/// Describes the harm that a moving type does other than by touch: to things that matter, or with the sprites
+/// that it makes. An enemy may also take things whose use is unknown.
 fn mischief(analysis: &Analysis, stype: SpriteType, is_enemy: bool) -> Option<String> {
     let spoilt = remarks::spoilt_by(analysis, stype);
     let matters = |other: &SpriteType| {
@@ -578,7 +578,7 @@ fn mover(analysis: &Analysis, stype: SpriteType, glyph: Glyph, motion: &str) -> 
     [Some(format!("{motion}, {harm}")), win].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
-/// Returns the meaning of a type that makes others.
+/// Returns the meaning of a type that makes other sprites.
 fn maker(analysis: &Analysis, stype: SpriteType) -> String {
     let Some(made) = remarks::names(analysis, &analysis.facts(stype).makes) else {
         return unwon(analysis, stype);
@@ -593,7 +593,7 @@ fn maker(analysis: &Analysis, stype: SpriteType) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the meaning of something that the avatar puts on the board, and that stays in its cell.
+/// Returns the meaning of a type that the avatar places on the board, and that stays in its cell.
 fn laid(analysis: &Analysis, stype: SpriteType, plain: &str) -> String {
     let made = remarks::names(analysis, &analysis.facts(stype).makes);
     let strikes = !remarks::spoilt_by(analysis, stype).is_empty();
@@ -604,7 +604,7 @@ fn laid(analysis: &Analysis, stype: SpriteType, plain: &str) -> String {
     }
 }
 
-/// Returns the meaning of a type that shots meet.
+/// Returns the meaning of a type that can be hit by shots.
 fn cover(analysis: &Analysis, stype: SpriteType) -> String {
     let stops = |shot: &SpriteType| {
         let dies = |side: Side| move |effect: &EffectSummary| *effect == EffectSummary::Kill(side);
@@ -623,7 +623,7 @@ fn cover(analysis: &Analysis, stype: SpriteType) -> String {
     }
 }
 
-/// Returns a type's meaning in legends: its glyph's meaning, and the effects of the rules.
+/// Returns a type's meaning in legends: the meaning of its glyph, and the effects of its rules.
 pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> String {
     let glyph = Glyph::of(analysis, stype);
     let own = own_meaning(analysis, stype, form, glyph);
@@ -698,7 +698,7 @@ fn own_meaning(analysis: &Analysis, stype: SpriteType, form: Form, glyph: Glyph)
         Glyph::Crate => remarks::destinations(analysis, stype).unwrap_or_else(plain),
         Glyph::Exit | Glyph::Treasure => goal(analysis, stype, glyph.meaning()),
         Glyph::Gate => match requirement(analysis, stype) {
-            // The description of the harm includes the protection against it.
+            // The description of the harm already includes the protection against it.
             Some(_) if is_guarded(analysis, stype) => remarks::harm(analysis, stype).unwrap_or_else(plain),
             Some(requirement) => requirement,
             None => plain(),
@@ -717,12 +717,12 @@ fn own_meaning(analysis: &Analysis, stype: SpriteType, form: Form, glyph: Glyph)
     }
 }
 
-/// Returns `true` if sprites of the type fall, so that they can crush what is below.
+/// Returns `true` if sprites of the type fall, so that they can crush sprites below them.
 fn falls(analysis: &Analysis, stype: SpriteType) -> bool {
     matches!(analysis.facts(stype).motion, Motion::Straight(direction) if direction == Direction::DOWN)
 }
 
-/// Returns `true` if no interaction and no termination concerns the type.
+/// Returns `true` if no interaction and no termination involves the type.
 fn is_inert(analysis: &Analysis, stype: SpriteType) -> bool {
     let meets = analysis.encounters().iter().any(|encounter| {
         analysis.applies(encounter.first, stype)

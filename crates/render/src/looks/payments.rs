@@ -1,4 +1,4 @@
-//! The uses of resources: what they open, what they protect from, and what they are spent on.
+//! The uses of resources: what they open, what they protect against, and what they are spent on.
 
 use super::glyph::is_avatar;
 use super::remarks;
@@ -6,7 +6,7 @@ use super::wins::{self, Terms, counted};
 use engine::analysis::{EffectSummary, Encounter, Harm, Key, Lock, Motion, Precondition, Side};
 use engine::{Analysis, SpriteType};
 
-/// The outcome of a payment that removes the sprite at which it happens.
+/// The outcome of a payment that removes the sprite where it is made.
 const REMOVES: &str = "removes it";
 
 /// The maximum number of uses in a note.
@@ -25,7 +25,7 @@ fn own_locks(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = &Lo
     analysis.locks().iter().filter(move |lock| lock.givers.iter().any(|(giver, _)| *giver == stype))
 }
 
-/// Returns `true` if something other than the lock's key also opens the locked type.
+/// Returns `true` if the locked type can also be opened by something other than its key.
 fn has_other_means(analysis: &Analysis, lock: &Lock) -> bool {
     let all = |effect: &EffectSummary| match effect {
         EffectSummary::KillAll(of) | EffectSummary::BecomeAll(of, _) => *of == lock.stype,
@@ -47,16 +47,16 @@ fn has_other_means(analysis: &Analysis, lock: &Lock) -> bool {
     at_large || touched || has_several || !remarks::clearers(analysis, lock.stype).is_empty()
 }
 
-/// Returns `true` if a win can need that the lock is opened: the lock itself must be opened for the win, or
-/// it bars the way.
+/// Returns `true` if a win may require opening the lock: either the lock itself must be opened for the win,
+/// or it bars the way.
 fn can_matter(analysis: &Analysis, lock: &Lock) -> bool {
     let is_goal = wins::able(analysis, lock.stype).is_some();
     let is_lost = wins::is_to_keep(analysis, lock.stype) && lock.vanishes;
     (is_goal || lock.guards) && !is_lost
 }
 
-/// Returns the types for which a type that gives their key is the only means: a goal that it opens, or
-/// something that bars the way.
+/// Returns the types for which a key-giving type is the only means: a goal that it opens, or something that
+/// bars the way.
 pub(super) fn needed_for(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let needed = |lock: &&Lock| {
         (lock.vanishes || matches!(lock.key, Key::Avatar(_)))
@@ -101,7 +101,7 @@ fn asks(encounter: &Encounter, own: Side, resource: SpriteType) -> Option<i32> {
     }
 }
 
-/// Returns a description of the consequences of an encounter: `makes leopard`, `makes you laden`.
+/// Describes the consequences of an encounter: `makes leopard`, `makes you laden`.
 fn outcome(analysis: &Analysis, encounter: &Encounter, own: Side) -> Option<String> {
     let name = |stype: &SpriteType| analysis.game().name(*stype);
     encounter.effects.iter().find_map(|effect| match effect {
@@ -119,7 +119,7 @@ fn outcome(analysis: &Analysis, encounter: &Encounter, own: Side) -> Option<Stri
     })
 }
 
-/// Returns the encounters of avatars with a type.
+/// Returns the encounters between avatars and a type.
 fn meetings(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encounter, Side)> {
     let avatars = analysis.avatars().iter();
     avatars.flat_map(move |avatar| wins::met(analysis, avatar.stype, stype))
@@ -154,7 +154,7 @@ fn uses(analysis: &Analysis, resource: SpriteType, known: &[SpriteType]) -> Vec<
     analysis.game().sprite_types().filter_map(found).collect()
 }
 
-/// Returns descriptions of where an avatar dies that holds enough of a resource: `2 are deadly at lake`.
+/// Describes where an avatar dies if it holds enough of a resource: `2 are deadly at lake`.
 fn burdens(analysis: &Analysis, resource: SpriteType) -> Option<String> {
     let found = |at: SpriteType| {
         let mut deadly = meetings(analysis, at).filter(|(encounter, own)| kills(encounter, *own));
@@ -172,7 +172,7 @@ fn is_barrier(analysis: &Analysis, stype: SpriteType) -> bool {
     blocks && analysis.facts(stype).motion == Motion::Still
 }
 
-/// Returns a description of the uses: `spent at gong: makes leopard`, `used at bakeHouse, gate`.
+/// Describes the uses: `spent at gong: makes leopard`, `used at bakeHouse, gate`.
 fn told(analysis: &Analysis, uses: &[Use]) -> Option<String> {
     let verb = if uses.iter().all(|used| used.spent) { "spent at" } else { "used at" };
     let places: Vec<SpriteType> = uses.iter().map(|used| used.at).collect();
@@ -188,8 +188,8 @@ fn told(analysis: &Analysis, uses: &[Use]) -> Option<String> {
     })
 }
 
-/// Returns descriptions of what a type that the avatar collects is good for: `needed for door`, `ammunition
-/// for dart`, `spent at gong: makes leopard`.
+/// Describes what a type that the avatar collects is good for: `needed for door`, `ammunition for dart`,
+/// `spent at gong: makes leopard`.
 pub(super) fn purposes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let needed = needed_for(analysis, stype);
     let opened: Vec<SpriteType> = own_locks(analysis, stype)
@@ -223,7 +223,7 @@ pub(super) fn purposes(analysis: &Analysis, stype: SpriteType) -> Option<String>
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// Returns a description of what a resource does at a type: `key here makes leopard`, `takes your coin`.
+/// Describes what a resource does at a type: `key here makes leopard`, `takes your coin`.
 pub(super) fn paid_here(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let effect = |(encounter, own): (&Encounter, Side)| {
         let Precondition::Holds(side, resource, amount) = encounter.precondition else { return None };
@@ -235,14 +235,14 @@ pub(super) fn paid_here(analysis: &Analysis, stype: SpriteType) -> Option<String
     meetings(analysis, stype).find_map(effect).or_else(|| theft(analysis, stype))
 }
 
-/// Returns a description of the resource that a type takes from the avatar.
+/// Describes the resource that a type takes from the avatar.
 pub(super) fn theft(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut resources = analysis.resources().iter();
     let taken = resources.find(|resource| resource.takers.iter().any(|(taker, _)| *taker == stype))?;
     Some(format!("takes your {}", analysis.game().name(taken.stype)))
 }
 
-/// Returns the resources, with amounts, of which the avatar must hold one to remove sprites of a type.
+/// Returns the resources, each with an amount, any one of which lets the avatar remove sprites of a type.
 pub(super) fn keys(analysis: &Analysis, stype: SpriteType) -> Vec<(SpriteType, i32)> {
     let mut keys = Vec::new();
     for (encounter, own) in meetings(analysis, stype) {
@@ -266,8 +266,8 @@ pub(super) fn is_deadly(analysis: &Analysis, encounter: &Encounter, own: Side) -
     })
 }
 
-/// Returns the resources on which all harm by contact with a type depends, as the condition of the harm. The
-/// result is `None` if the harm also depends on something else.
+/// Returns the resources on which all harm by contact with a type depends, as the condition of the harm.
+/// Returns `None` if the harm also depends on something else.
 pub(super) fn deadly_terms(analysis: &Analysis, avatar: SpriteType, stype: SpriteType) -> Option<Terms> {
     let wounds = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by < 0);
     let is_deadly =

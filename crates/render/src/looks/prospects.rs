@@ -1,18 +1,18 @@
-//! Facts that players may know from the rules: the remaining time, the remaining requirements for a win, and
+//! Facts that players may know from the rules: the time left, the remaining requirements for a win, and
 //! countdowns.
 
 use super::wins;
 use engine::analysis::{Condition, Goal};
 use engine::{Analysis, Countdown, Event, Game, SpriteClass, SpriteType, State};
 
-/// The facts about a game for display in captions.
+/// The facts about a game that captions display.
 #[derive(Clone, Debug)]
 pub(crate) struct Prospects {
-    /// The tick at which the game ends, and `true` if the game is won at that tick.
+    /// The tick at which the game ends, with `true` if the game is won at that tick.
     deadline: Option<(i32, bool)>,
     /// The sprite counts that win, with the names that the terminations use.
     goals: Vec<(String, Goal)>,
-    /// The resources required in amounts above 1, with the required amounts.
+    /// The resources required in amounts above 1, each with the required amount.
     needed: Vec<(SpriteType, i32)>,
     counts_down: bool,
 }
@@ -51,7 +51,7 @@ impl Prospects {
         self.needed.iter().copied()
     }
 
-    /// Returns a short description of the remaining time: `89 left`, or `survive 40`.
+    /// Describes the time left: `89 left`, or `survive 40`.
     pub(crate) fn time(&self, state: &State) -> Option<String> {
         let (limit, wins) = self.deadline?;
         let left = limit.saturating_sub(state.tick()).max(0);
@@ -62,7 +62,7 @@ impl Prospects {
         !self.goals.is_empty()
     }
 
-    /// Returns a description of the remaining requirements for a win: `friend 1 of 3`, `exit 1 to go`.
+    /// Describes the remaining requirements for a win: `friend 1 of 3`, `exit 1 to go`.
     pub(crate) fn goals(&self, state: &State) -> String {
         let part = |(names, goal): &(String, Goal)| {
             let count = |stype| i32::try_from(state.alive(stype)).unwrap_or(i32::MAX);
@@ -80,7 +80,7 @@ impl Prospects {
         self.counts_down
     }
 
-    /// Returns the next event for each type with a countdown, if the event occurs before the time limit:
+    /// Describes, for each type with a countdown, its next event if the event occurs before the time limit:
     /// `molehill acts in 4 (2 left)`, `fire ends in 3`.
     pub(crate) fn countdowns(&self, game: &Game, state: &State) -> String {
         let mut next: Vec<Countdown> = Vec::new();
@@ -108,7 +108,7 @@ impl Prospects {
     }
 }
 
-/// Returns `true` if a type's line specifies a probability and no total.
+/// Returns `true` if a type's line specifies a probability but no total.
 fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
     let lines = game.description().sprite_lines();
     let line = lines.iter().find(|(_, line)| line.name.text == game.name(stype));
@@ -116,7 +116,7 @@ fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
     has("prob") && !has("total")
 }
 
-/// Returns the names of the types counted by a termination, as written in the termination.
+/// Returns the names of the types that a termination counts, as written in the termination.
 fn names(game: &Game, goal: &Goal) -> String {
     let line = &game.description().terminations[goal.line];
     let given = line.params.iter().filter(|param| param.key.text.starts_with("stype"));

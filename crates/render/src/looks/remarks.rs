@@ -1,4 +1,4 @@
-//! Notes for legends: a type's harm, what removes its sprites, and what its sprites are needed for.
+//! Notes for legends: a type's harm, what removes its sprites, and what they are needed for.
 
 use super::glyph::is_avatar;
 use super::payments;
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 /// The maximum number of names in a note.
 const NAMED: usize = 3;
 
-/// The maximum number of win methods in a note.
+/// The maximum number of ways to win in a note.
 const WAYS: usize = 2;
 
 /// Returns the names of types in alphabetical order, or `None` for an empty list.
@@ -31,7 +31,7 @@ fn harm_terms(analysis: &Analysis, stype: SpriteType) -> Option<Terms> {
     found.all(|terms| terms.as_ref() == Some(&first)).then_some(first)
 }
 
-/// Returns `true` if contact with the type only costs health points, so far as it does harm.
+/// Returns `true` if contact with the type costs health points but is never deadly.
 fn only_wounds(analysis: &Analysis, stype: SpriteType) -> bool {
     let costs = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by < 0);
     let met = || analysis.avatars().iter().flat_map(|avatar| wins::met(analysis, avatar.stype, stype));
@@ -39,8 +39,8 @@ fn only_wounds(analysis: &Analysis, stype: SpriteType) -> bool {
         && !met().any(|(encounter, own)| payments::is_deadly(analysis, encounter, own))
 }
 
-/// Returns the harm to a player who touches a type, including any protection against the harm: `deadly unless
-/// you are masked`.
+/// Describes the harm to a player who touches a type, including any protection against it: `deadly unless you
+/// are masked`.
 pub(super) fn harm(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let word = match analysis.harm(stype) {
         Harm::None => return None,
@@ -108,8 +108,8 @@ fn appearing(analysis: &Analysis) -> BTreeSet<SpriteType> {
     found
 }
 
-/// Returns the types from [`removers`] that can come to a sprite of `stype`, or to which that sprite can come.
-/// Such sprites move, are pushed or shot, or appear during play.
+/// Returns the types from [`removers`] whose sprites can come into contact with a sprite of `stype`: sprites
+/// on at least one side move, are pushed or shot, or appear during play.
 pub(super) fn reachable_removers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let appearing = appearing(analysis);
     let comes = |stype: SpriteType| {
@@ -125,8 +125,8 @@ pub(super) fn is_passable(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.avatars().iter().all(|avatar| analysis.touch(avatar.stype, stype).lets_pass())
 }
 
-/// Returns the types that clear sprites of `stype` out of the avatar's way on contact: they remove the sprite,
-/// or turn it into something that the avatar can pass.
+/// Returns the types that clear sprites of `stype` out of the avatar's way on contact, by removing them or
+/// turning them into something that the avatar can pass.
 pub(super) fn clearers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let clears = |encounter: &Encounter, own: Side| {
         encounter.does(|effect| match effect {
@@ -143,7 +143,7 @@ pub(super) fn clearers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType
     reachable_removers(analysis, stype).into_iter().filter(is_clearer).collect()
 }
 
-/// Returns the moving or pushed types that are removed by contact with `stype`.
+/// Returns the moving or pushed types that contact with `stype` removes.
 pub(super) fn swallowed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let falls = |other: &SpriteType| {
         let goes = |side: Side| move |effect: &EffectSummary| *effect == EffectSummary::Kill(side);
@@ -154,7 +154,7 @@ pub(super) fn swallowed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteTyp
     game.sprite_types().filter(|&other| moves(analysis, other)).filter(falls).collect()
 }
 
-/// Returns the types that are removed or changed by contact with `stype`, except avatars.
+/// Returns the types, except avatars, that contact with `stype` removes or changes.
 pub(super) fn spoilt_by(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let spoils = |other: SpriteType| {
         let first = analysis.between(other, stype).any(|encounter| encounter.ends(Side::First));
@@ -165,7 +165,7 @@ pub(super) fn spoilt_by(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteTyp
     things.filter(|&other| !is_avatar(analysis, other) && spoils(other)).collect()
 }
 
-/// Returns `true` if sprites of the type, which is not an avatar, move by themselves or are pushed.
+/// Returns `true` if the type is not an avatar, and its sprites move by themselves or are pushed.
 pub(super) fn moves(analysis: &Analysis, stype: SpriteType) -> bool {
     let facts = analysis.facts(stype);
     facts.possible
@@ -174,7 +174,7 @@ pub(super) fn moves(analysis: &Analysis, stype: SpriteType) -> bool {
         && (facts.motion != Motion::Still || analysis.role(stype) == Role::Pushable)
 }
 
-/// Returns the types whose touch by the avatar removes or changes all sprites of `stype`.
+/// Returns the types that remove or change all sprites of `stype` when the avatar touches them.
 fn switches(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let opens = |other: &SpriteType| {
         let mut avatars = analysis.avatars().iter();
@@ -193,8 +193,8 @@ fn switches(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     if kept { Vec::new() } else { analysis.game().sprite_types().filter(opens).collect() }
 }
 
-/// Returns a description of how the player can remove a type that must disappear for the win: `catch it to
-/// win`, `lead it to nest to win`.
+/// Describes how the player can remove a type that must disappear for the win: `catch it to win`, `lead it to
+/// nest to win`.
 pub(super) fn win_by_removing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     if !wins::is_to_go(analysis, stype) {
         return None;
@@ -274,8 +274,8 @@ fn is_lost(analysis: &Analysis, stype: SpriteType, sink: &Sink) -> bool {
     !wins && (is_spoilt || is_gone || is_useless || is_in_vain(analysis, sink.partner, stype))
 }
 
-/// Returns a description of the motionless types that a pushed sprite changes, fills or opens, or that merely
-/// use it up: `push it onto drain`, `can be pushed, lost at hole`.
+/// Describes the motionless types that a pushed sprite changes, fills or opens, or that merely use it up:
+/// `push it onto drain`, `can be pushed, lost at hole`.
 pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let (lost, good): (Vec<&Sink>, Vec<&Sink>) =
         sinks(analysis, stype).partition(|sink| is_lost(analysis, stype, sink));
@@ -289,8 +289,8 @@ pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Option<Str
     }
 }
 
-/// Returns a description of where to push sprites that change or fill a type, and whether the push brings a
-/// win closer.
+/// Describes where to push sprites that change or fill a type, and states whether the push brings a win
+/// closer.
 pub(super) fn socket(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     if analysis.facts(stype).fleeting {
         return Some("soon gone".to_owned());

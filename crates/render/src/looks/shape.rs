@@ -1,23 +1,23 @@
 //! The vector shapes of tiles: the common input of both back-ends.
 //!
-//! A tile is a unit square with x to the right and y down, both from 0 to 1. Nothing is transparent, so that
-//! an image needs few colours and looks the same in any layering.
+//! A tile is a unit square with x to the right and y down, both from 0 to 1. Nothing is transparent, so an
+//! image needs few colours and looks the same in any layering.
 
 use super::colour::Colour;
 
 /// A point in the unit square.
 pub type Point = [f32; 2];
 
-/// The distance of the control points for a cubic arc that represents a quarter circle. The arc is the usual
-/// approximation, with an error of at most 0.03%.
+/// The distance of the control points at which a cubic Bézier curve approximates a quarter circle. This is
+/// the usual approximation, with an error of at most 0.03%.
 const QUARTER: f32 = 0.552_284_8;
 
-/// One step of an outline.
+/// A step of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Segment {
-    /// The start of a new part at this point.
+    /// The start of a new part at the given point.
     Move(Point),
-    /// A straight line to this point.
+    /// A straight line to the given point.
     Line(Point),
     /// A cubic Bézier curve, given by two control points and the end.
     Cubic(Point, Point, Point),
@@ -34,7 +34,7 @@ pub struct Outline(pub Vec<Segment>);
 pub enum Paint {
     /// The outline is filled (non-zero winding rule).
     Fill,
-    /// The outline is drawn as a line of this width, in tiles, with round ends and corners.
+    /// The outline is drawn as a line of the given width, in tiles, with round ends and corners.
     Stroke(f32),
 }
 
@@ -51,7 +51,7 @@ pub struct Shape {
 
 impl Outline {
     /// Parses the outline in one of this crate's own SVG paths, such as `M.1,.2 L.3,.4 C.5,.6,.7,.8,.9,1 Z`,
-    /// with absolute coordinates and with spaces only between commands.
+    /// with absolute coordinates, and with spaces only between commands.
     pub(crate) fn path(path: &str) -> Outline {
         let segment = |command: &str| {
             let numbers = command[1..].split(',').filter_map(|number| number.parse().ok());
@@ -66,7 +66,7 @@ impl Outline {
         Outline(path.split(' ').map(segment).collect())
     }
 
-    /// Returns a line through these points.
+    /// Returns an open line through the given points.
     pub(crate) fn line(points: &[Point]) -> Outline {
         let step = |(at, &point): (usize, &Point)| match at {
             0 => Segment::Move(point),
@@ -75,7 +75,7 @@ impl Outline {
         Outline(points.iter().enumerate().map(step).collect())
     }
 
-    /// Returns a closed line through these points.
+    /// Returns a closed line through the given points.
     pub(crate) fn polygon(points: &[Point]) -> Outline {
         let mut outline = Outline::line(points);
         outline.0.push(Segment::Close);
@@ -86,7 +86,7 @@ impl Outline {
         Outline::polygon(&[[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
     }
 
-    /// Returns a rectangle with round corners of radius `r`.
+    /// Returns a rectangle with rounded corners of radius `r`.
     pub(crate) fn rounded(x: f32, y: f32, w: f32, h: f32, r: f32) -> Outline {
         let (k, right, bottom) = (r * (1.0 - QUARTER), x + w, y + h);
         Outline(vec![
@@ -144,7 +144,8 @@ impl Outline {
         self
     }
 
-    /// Returns the outline rotated around the middle of the tile, such that right becomes the unit vector `direction`.
+    /// Returns the outline rotated around the middle of the tile, so that right becomes the unit vector
+    /// `direction`.
     pub(crate) fn turned(self, [cos, sin]: Point) -> Outline {
         self.mapped(|[x, y]| {
             let (x, y) = (x - 0.5, y - 0.5);
@@ -152,7 +153,7 @@ impl Outline {
         })
     }
 
-    /// Returns the mirror image, where x becomes `1 - x`.
+    /// Returns the mirror image, in which x becomes `1 - x`.
     pub(crate) fn mirrored(self) -> Outline {
         self.mapped(|[x, y]| [1.0 - x, y])
     }

@@ -1,5 +1,5 @@
-//! The parts of the rules that win or lose: terminations that can win, and meetings that lead to a win. Only
-//! the first [`MAX_GOALS`] terminations count, which bounds the cost.
+//! The parts of the rules that decide wins and losses: terminations that can win, and meetings that lead to a
+//! win. Only the first [`MAX_GOALS`] terminations count, which bounds the cost.
 
 use super::glyph::is_avatar;
 use engine::analysis::{
@@ -12,7 +12,7 @@ use engine::{Analysis, SpriteType};
 pub(super) enum Terms {
     /// The touch always counts.
     Always,
-    /// The avatar must hold this amount of the resource.
+    /// The avatar must hold at least this amount of the resource.
     Holds(SpriteType, i32),
     /// The avatar must hold one of these amounts.
     HoldsOneOf(Vec<(SpriteType, i32)>),
@@ -43,8 +43,8 @@ impl Terms {
         }
     }
 
-    /// Returns the condition as the end of a note: `, needs 3 gem`, `, once no vine is left`. The text is
-    /// empty if there is no condition.
+    /// Returns the condition as the end of a note: `, needs 3 gem`, `, once no vine is left`. Empty if there
+    /// is no condition.
     pub(super) fn note(&self, analysis: &Analysis) -> String {
         let name = |stype: &SpriteType| analysis.game().name(*stype);
         match self {
@@ -62,20 +62,20 @@ impl Terms {
     }
 }
 
-/// Returns the type's name, after the amount if it is not 1.
+/// Returns the type's name, preceded by the amount if it is not 1.
 pub(super) fn counted(analysis: &Analysis, stype: SpriteType, amount: i32) -> String {
     let name = analysis.game().name(stype);
     if amount == 1 { name.to_owned() } else { format!("{amount} {name}") }
 }
 
-/// Returns the amounts of resources, separated by `or`.
+/// Returns the resources with their amounts, separated by `or`.
 pub(super) fn alternatives(analysis: &Analysis, list: &[(SpriteType, i32)]) -> String {
     let names: Vec<String> =
         list.iter().map(|(resource, amount)| counted(analysis, *resource, *amount)).collect();
     names.join(" or ")
 }
 
-/// Returns `true` if the goal wants few sprites of its types, and `false` if it wants many.
+/// Returns `true` if the goal requires few sprites of its types, and `false` if it requires many.
 fn wants_few(condition: &Condition) -> bool {
     matches!(condition, Condition::AtMost(..) | Condition::Exactly(_, ..=0))
 }
@@ -113,19 +113,19 @@ fn is_beaten(analysis: &Analysis, at: usize) -> bool {
     })
 }
 
-/// Returns `true` if the termination at index `at` wins whenever it holds, whatever the score, and no losing
-/// termination always holds before it.
+/// Returns `true` if the termination at index `at` wins whenever it holds, regardless of the score, and no
+/// losing termination always holds before it.
 pub(super) fn is_plain_win(analysis: &Analysis, at: usize) -> bool {
     let goal = &analysis.goals()[at];
     goal.win && !goal.is_open() && !is_beaten(analysis, at)
 }
 
-/// Returns `true` if playing can make the termination at index `at` win, whatever the score.
+/// Returns `true` if playing can make the termination at index `at` win, regardless of the score.
 pub(super) fn can_win(analysis: &Analysis, at: usize) -> bool {
     is_plain_win(analysis, at) && analysis.goals()[at].attainable == Attainable::InPlay
 }
 
-/// Returns the winning terminations that playing can fulfil and that count sprites of the type.
+/// Returns the winning terminations that count sprites of the type and can be fulfilled by playing.
 fn winning(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = &Goal> {
     let goals = analysis.goals().iter().enumerate().take(MAX_GOALS);
     let counted = goals.filter(move |(_, goal)| goal.condition.types().contains(&stype));
@@ -142,8 +142,8 @@ pub(super) fn is_to_come(analysis: &Analysis, stype: SpriteType) -> bool {
     winning(analysis, stype).any(|goal| !wants_few(&goal.condition))
 }
 
-/// Returns `true` if the type, or what its touch brings, counts towards a termination that wins, or may win,
-/// and that no loss always precedes.
+/// Returns `true` if the type, or what its touch brings, counts towards a termination that wins or may win.
+/// The termination must not always be preceded by a loss.
 pub(super) fn may_win(analysis: &Analysis, stype: SpriteType) -> bool {
     let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let brought: Vec<SpriteType> =
@@ -164,7 +164,7 @@ pub(super) fn is_open(analysis: &Analysis, stype: SpriteType) -> bool {
     })
 }
 
-/// Returns `true` if the loss of the type's sprites can lose the game.
+/// Returns `true` if losing the type's sprites can lose the game.
 pub(super) fn is_to_keep(analysis: &Analysis, stype: SpriteType) -> bool {
     let loses = |(at, goal): (usize, &Goal)| {
         !goal.win
@@ -176,8 +176,8 @@ pub(super) fn is_to_keep(analysis: &Analysis, stype: SpriteType) -> bool {
     !is_avatar(analysis, stype) && analysis.goals().iter().enumerate().take(MAX_GOALS).any(loses)
 }
 
-/// Returns `true` if the game is lost when no sprite of `stype` is left because all of them are removed, or
-/// turn into `to`.
+/// Returns `true` if the game is lost when no sprite of `stype` is left because all of them were removed, or
+/// turned into `to`.
 fn loses_without(analysis: &Analysis, stype: SpriteType, to: Option<SpriteType>) -> bool {
     let is_other = |other: &SpriteType| *other != stype && analysis.facts(*other).possible;
     let loses = |goal: &Goal| {
@@ -191,8 +191,8 @@ fn loses_without(analysis: &Analysis, stype: SpriteType, to: Option<SpriteType>)
     is_to_keep(analysis, stype) && analysis.goals().iter().any(loses)
 }
 
-/// Returns `true` if a sprite that turns from `stype` into `to` is no longer counted by some winning
-/// termination, and by no losing one.
+/// Returns `true` unless a win requires removing sprites of `to`, or their appearance loses the game. Turning
+/// other sprites into `to` then counts as removing them.
 pub(super) fn goes(analysis: &Analysis, to: SpriteType) -> bool {
     !analysis.aims().remove.contains(&to) && !analysis.aims().prevent.contains(&to)
 }
@@ -255,7 +255,7 @@ fn terms(analysis: &Analysis, encounter: &Encounter, avatar: Side) -> Terms {
     }
 }
 
-/// Returns the condition of a transformation that depends on a number of sprites.
+/// Returns the condition for a transformation that depends on a number of sprites.
 fn by_count(analysis: &Analysis, encounter: &Encounter) -> Option<Terms> {
     let game = analysis.game();
     let line = &game.description().interactions[encounter.line];
@@ -280,7 +280,7 @@ fn by_count(analysis: &Analysis, encounter: &Encounter) -> Option<Terms> {
     }
 }
 
-/// Returns `true` if a transformation that depends on a number of sprites loses the game only if the number
+/// Returns `true` if a transformation that depends on a number of sprites loses the game only if that number
 /// is wrong.
 fn is_safe_by_count(analysis: &Analysis, encounter: &Encounter) -> bool {
     let line = &analysis.game().description().interactions[encounter.line];
@@ -294,7 +294,7 @@ fn is_safe_by_count(analysis: &Analysis, encounter: &Encounter) -> bool {
 }
 
 /// Returns the condition under which the avatar's touch of a sprite contributes to a win, or `None` if no
-/// touch contributes.
+/// touch does.
 pub(super) fn by_touch(analysis: &Analysis, avatar: SpriteType, stype: SpriteType) -> Option<Terms> {
     if is_in_vain(analysis, stype, avatar) {
         return None;
@@ -333,8 +333,8 @@ pub(super) fn by_touch(analysis: &Analysis, avatar: SpriteType, stype: SpriteTyp
     (!terms.is_empty()).then(|| terms.swap_remove(best.unwrap_or(0)))
 }
 
-/// Returns the avatar types whose touch of a sprite contributes to a win, and the condition if it is the same
-/// for all of them.
+/// Returns the avatar types whose touch of a sprite contributes to a win, with the condition if it is the
+/// same for all of them.
 pub(super) fn able(analysis: &Analysis, stype: SpriteType) -> Option<(Vec<SpriteType>, Terms)> {
     let avatars = analysis.avatars().iter().map(|avatar| avatar.stype);
     let found: Vec<(SpriteType, Terms)> =

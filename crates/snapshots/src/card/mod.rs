@@ -1,4 +1,4 @@
-//! Summaries of a release's games.
+//! Summaries of the games in a release.
 
 pub mod rungs;
 
@@ -22,8 +22,8 @@ pub struct ReleaseCard {
     pub levels: u64,
     /// The number of games from generators.
     pub new_games: u64,
-    /// The requested and achieved figures. Difficulties are counted in levels, as measured during selection, and may
-    /// deviate by one level. Quotas are counted in games.
+    /// The requested and achieved figures. Difficulties are counted in levels, as measured during selection,
+    /// and may deviate by one level. Quotas are counted in games.
     pub planned: Vec<Bin>,
     /// The number of levels of each difficulty according to the cards' ladders, if difficulty was measured.
     pub difficulty: BTreeMap<String, u64>,
@@ -36,7 +36,7 @@ pub struct ReleaseCard {
     pub avatars: BTreeMap<String, u64>,
     /// The number of games from each generator, and from `corpus`.
     pub generators: BTreeMap<String, u64>,
-    /// The ladder players' results over all games; empty if no ladder was played.
+    /// The ladder players' results across all games; empty if no ladder was played.
     pub ladder: Vec<Rung>,
     /// The novelty of the games.
     pub novelty: Novelty,
@@ -44,7 +44,7 @@ pub struct ReleaseCard {
     pub patterns: BTreeMap<String, u64>,
     /// The number of rules per game.
     pub rules: Option<Quantiles>,
-    /// The ticks per witness.
+    /// The number of ticks per witness.
     pub witness_ticks: Option<Quantiles>,
     /// The number of candidates tried, and the rejections by reason.
     pub tally: Tally,
@@ -56,10 +56,10 @@ pub struct ReleaseCard {
 pub struct Rung {
     /// The player's win rate.
     pub rate: RungRate,
-    /// The smallest difference in win rate between two releases of this size that is detectable at the 5% level with
-    /// 80% power.
+    /// The smallest difference in win rate between two releases of this size that can be detected at the 5%
+    /// level with 80% power.
     pub detectable: Option<f64>,
-    /// The smallest detectable difference between two releases with `MONTH` such games.
+    /// The smallest detectable difference in win rate between two releases with `MONTH` such games.
     pub detectable_month: Option<f64>,
 }
 
@@ -81,8 +81,8 @@ pub struct Novelty {
     pub nearest: Option<Quantiles>,
     /// The distance from each new game to the nearest corpus game.
     pub nearest_corpus: Option<Quantiles>,
-    /// The distance from each new game to the nearest game in the previous releases. Selection ensures that no
-    /// distance is below [`NEAR`](validators::novelty::NEAR), and that no corpus item is repeated.
+    /// The distance from each new game to the nearest game in the previous releases. Selection ensures that
+    /// no such distance is below [`NEAR`](validators::novelty::NEAR), and that no corpus item is repeated.
     pub nearest_known: Option<Quantiles>,
 }
 
@@ -111,7 +111,7 @@ pub(crate) fn generator(card: &Card) -> String {
     }
 }
 
-/// A requested range and the achieved number.
+/// A requested range, and the number achieved.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bin {
@@ -125,13 +125,13 @@ pub struct Bin {
     pub there: i64,
 }
 
-/// Returns the distance of a number from a range.
+/// Returns how far a number lies outside a range.
 pub(crate) fn outside(there: i64, (least, most): (i64, i64)) -> i64 {
     (least - there).max(there - most).max(0)
 }
 
 impl Bin {
-    /// Returns the distance of the achieved number from the requested range.
+    /// Returns how far the achieved number lies outside the requested range.
     pub(crate) fn missed(&self) -> i64 {
         outside(self.there, (self.least, self.most))
     }
@@ -143,7 +143,8 @@ pub(crate) fn is_new(card: &Card) -> bool {
 }
 
 impl ReleaseCard {
-    /// Formats the card as Markdown for human readers: planned and achieved figures, and the ladder's results.
+    /// Formats the card as Markdown for human readers, with planned and achieved figures and the ladder's
+    /// results.
     pub(crate) fn in_words(&self) -> String {
         let mut text = String::new();
         if !self.planned.is_empty() {

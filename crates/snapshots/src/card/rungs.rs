@@ -1,4 +1,4 @@
-//! The win rates of the ladder's players over a whole release, and their differences between two releases.
+//! The win rates of the ladder's players over a whole release, and how they differ between two releases.
 //!
 //! A level's rate is the fraction of its episodes that were won, and all levels have the same weight. Levels of the
 //! same game are correlated, so the intervals use games as the sampling unit ([`statistics::share_over_games`]). The
@@ -25,7 +25,7 @@ pub struct RungRate {
     pub looks_ahead: bool,
     /// `true` if the player is used only for acceptance and never in a search.
     pub held_out: bool,
-    /// The number of games with a level played by the player.
+    /// The number of games in which the player played at least one level.
     pub games: u64,
     /// The number of levels played by the player.
     pub levels: u64,
@@ -37,8 +37,8 @@ pub struct RungRate {
     pub mean: f64,
     /// The 95% interval of the mean, clustered by game.
     pub interval: [f64; 2],
-    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as is the case for
-    /// a single game.
+    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as a single
+    /// game always does.
     pub error: Option<f64>,
 }
 
@@ -46,7 +46,7 @@ impl RungRate {
     /// Returns the smallest difference in win rate between two releases with `games` such games that a two-sided test
     /// at the 5% level detects with 80% power; `None` if there are no games, or if their variance is unknown.
     ///
-    /// The estimate assumes that both releases have the same variance and the same number of levels per game as the
+    /// The estimate assumes that both releases have the same variance and number of levels per game as the
     /// release measured here.
     pub fn detectable(&self, games: u64) -> Option<f64> {
         let error = self.error.filter(|_| games > 0)?;
@@ -89,13 +89,14 @@ pub struct Clustered {
     pub mean: f64,
     /// The 95% interval of the mean, clustered by game.
     pub interval: [f64; 2],
-    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as is the case for
-    /// a single game.
+    /// The standard error of the mean, clustered by game; `None` if all games have the same rate, as a single
+    /// game always does.
     pub error: Option<f64>,
 }
 
 impl Clustered {
-    /// Computes the rate over all levels, each given by its wins and episodes. At least one level is required.
+    /// Computes the rate over all levels, each given as its number of wins and number of episodes. At least
+    /// one level is required.
     pub(crate) fn of(games: &[Vec<(u64, u64)>]) -> Clustered {
         let share = |&(wins, plays): &(u64, u64)| wins as f64 / plays as f64;
         let sum = |levels: &Vec<(u64, u64)>| (levels.iter().map(share).sum::<f64>(), levels.len() as f64);
@@ -103,7 +104,7 @@ impl Clustered {
         let all = || games.iter().flatten();
         let won: f64 = sums.iter().map(|game| game.0).sum();
         let mean = (won / all().count() as f64).clamp(0.0, 1.0);
-        // A single game says nothing about the variance between games.
+        // A single game reveals nothing about the variance between games.
         let found = share_over_games(&sums, 0.95);
         let interval = found.map_or(Interval { low: 0.0, high: 1.0 }, |found| found.interval);
         Clustered {
@@ -116,14 +117,15 @@ impl Clustered {
         }
     }
 
-    /// Returns the mean of `self` minus the mean of `other`, with the interval of the difference. Treats the two sets
-    /// of games as independent samples.
+    /// Returns the mean of `self` minus the mean of `other`, with the interval of the difference. The two
+    /// sets of games are treated as independent samples.
     pub(crate) fn minus(&self, other: &Clustered) -> (f64, [f64; 2]) {
         difference((self.mean, self.interval), (other.mean, other.interval))
     }
 }
 
-/// Returns the difference between two rates and the interval of the difference. Each rate is given with its interval.
+/// Returns the difference between two rates, each given with its interval, and the interval of the
+/// difference.
 fn difference((ours, own): (f64, [f64; 2]), (theirs, other): (f64, [f64; 2])) -> (f64, [f64; 2]) {
     let below = apart(ours - own[0], other[1] - theirs);
     let above = apart(own[1] - ours, theirs - other[0]);
@@ -158,7 +160,7 @@ pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     players.into_iter().filter_map(rate).collect()
 }
 
-/// Returns a player's results on the levels that the player played in a game.
+/// Returns a player's results on the levels of a game that it played.
 fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a PlayerResult> {
     let ladders = card.levels.iter().filter_map(|level| level.ladder.as_ref());
     let find = ladders.filter_map(|ladder| {
@@ -186,7 +188,7 @@ pub struct RungDifference {
 }
 
 impl RungDifference {
-    /// Returns `true` if the interval contains 0. The player may then be equally good in both releases.
+    /// Returns `true` if the interval contains 0, so that the player may be equally good in both releases.
     pub fn includes_zero(&self) -> bool {
         self.interval[0] <= 0.0 && self.interval[1] >= 0.0
     }
@@ -229,8 +231,8 @@ pub(crate) mod tests {
         PlayerResult { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: None }
     }
 
-    /// Returns a game card. On each level, `random` and the held-out `olets:9` win the given numbers out of ten
-    /// episodes.
+    /// Returns a game card on which `random` and the held-out `olets:9` win the given numbers out of ten
+    /// episodes on each level.
     pub(crate) fn card(id: &str, wins: &[[u64; 2]]) -> Card {
         let level = |[random, olets]: &[u64; 2]| LevelCard {
             file: "lvl0.txt".to_owned(),
@@ -327,8 +329,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// The interval's width should match the normal approximation of ±1.96 √2 standard errors. With fewer than a
-    /// hundred games, the interval is wider.
+    /// The interval's width should match the normal approximation of ±1.96 √2 standard errors. With fewer
+    /// than a hundred games, it is wider.
     #[test]
     fn differences_are_as_wide_as_theory_says() {
         let half: Vec<Card> =
@@ -341,7 +343,7 @@ pub(crate) mod tests {
             assert!((found - expect).abs() < 0.03, "{random:?}, not {expect}");
         }
         assert!((random.detectable.unwrap() - 2.8015 * error).abs() < 1e-4, "{random:?}");
-        // The player always wins on one side and never on the other, so 40 games per side suffice for certainty.
+        // The player always wins on one side and never on the other, so 40 games per side leave no doubt.
         let olets = &found[1];
         assert_eq!((olets.difference, olets.detectable), (-1.0, None));
         assert!(olets.interval[0] == -1.0 && olets.interval[1] < -0.8 && !olets.includes_zero());

@@ -17,8 +17,8 @@ use forge::games::slug;
 use generators::kernels::Wording;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum size of a `card.json`, in bytes: 1 MiB. The card for a game with twenty levels takes a tenth of that
-/// size.
+/// The maximum size of a `card.json`, in bytes: 1 MiB. The card of a game with twenty levels needs a tenth of
+/// that.
 const CARD_LIMIT: u64 = 1 << 20;
 /// The maximum number of patterns on a card. Generated games have about ten patterns, plus edits.
 const MAX_PATTERNS: usize = 1024;
@@ -33,7 +33,7 @@ pub(super) struct GameCheck {
     pub(super) levels: usize,
     /// The number of witnesses that replayed to a win.
     pub(super) replayed: usize,
-    /// The paths of the game's withheld witnesses in a sealed release.
+    /// The paths of the withheld witnesses of a game in a sealed release.
     pub(super) held: Vec<String>,
     /// The card, if it is valid.
     pub(super) card: Option<Card>,
@@ -42,15 +42,15 @@ pub(super) struct GameCheck {
 }
 
 impl Checking<'_> {
-    /// Checks folders whose names end with the same digest, in order. If two folders contain the same game, the
-    /// second folder is reported as a problem, and its witnesses are not replayed.
+    /// Checks, in order, the folders whose names end with the same digest. If two folders contain the same
+    /// game, the second folder is reported as a problem, and its witnesses are not replayed.
     pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
         let mut seen = BTreeMap::new();
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
     }
 
-    /// Returns the problems with those texts and facts on a card that must follow from the rules. Only texts in
-    /// this version's wording can be compared.
+    /// Returns the problems with the texts and facts on a card that must follow from the rules. Texts can be
+    /// compared only if they are in this version's wording.
     fn of_the_rules(&self, card: &Card, game: &Game) -> Vec<String> {
         let version = (self.manifest.generation, self.manifest.semantics);
         if version != (generators::GENERATION, engine::SEMANTICS) {
@@ -93,8 +93,8 @@ impl Checking<'_> {
         let GameCheck { levels, replayed, held, problems, .. } = &mut check;
         let canary = &self.manifest.canary;
         let path = |file: &str| format!("games/{folder}/{file}");
-        // The digests match, so every listed file can be read as text of its size, although its content may still
-        // be wrong.
+        // The digests match, so every listed file can be read with its stated size, although its content may
+        // still be wrong.
         let read = |file: &str| -> Result<Option<String>, SnapshotError> {
             match files.contains(file) {
                 true => Ok(String::from_utf8(self.contents.read(&path(file))?).ok()),
@@ -212,7 +212,8 @@ impl Checking<'_> {
                             format!("the ticks and score differ from those of the episode that wins {file}");
                         wrong("card.json", what);
                     }
-                    // Duplicates and mismatches have already been reported, so they are not replayed.
+                    // Duplicates and mismatches have already been reported, so their witnesses are not
+                    // replayed.
                     let meter = self.meter.filter(|_| fits && !is_again);
                     match meter.map(|meter| replay(&episode, &game, &level, meter)) {
                         Some(Replayed::Won) => *replayed += 1,
@@ -222,7 +223,7 @@ impl Checking<'_> {
                     won = Some(episode);
                 }
                 Some(Err(error)) => wrong(&witness_file, format!("not a valid witness: {error}")),
-                // The completeness of withheld files has been checked already.
+                // That no withheld file is missing has been checked already.
                 None if is_sealed => {}
                 None => wrong(&witness_file, "missing or not a text file".to_owned()),
             }
@@ -244,7 +245,7 @@ impl Checking<'_> {
             *replayed += found.replayed;
         }
         seen.entry(game.digest()).or_insert_with(|| folder.to_owned());
-        // Drops the texts, because the cards of all games are kept until they are counted.
+        // The texts are dropped, because the cards of all games are kept until they are counted.
         for text in [&mut card.title, &mut card.description, &mut card.goal, &mut card.rules] {
             *text = String::new();
         }

@@ -43,7 +43,7 @@ pub enum Witnesses {
     Held,
     /// The release was minted under different engine semantics.
     NotReplayed {
-        /// The semantics that the witnesses need.
+        /// The semantics under which the witnesses must be replayed.
         semantics: u32,
     },
 }
@@ -55,7 +55,7 @@ pub struct Verification {
     pub name: String,
     /// The root digest stated in the release.
     pub root: Digest,
-    /// The number of files, without the manifest.
+    /// The number of files, excluding the manifest.
     pub files: usize,
     /// The number of games.
     pub games: usize,
@@ -65,10 +65,10 @@ pub struct Verification {
     pub witnesses: Witnesses,
     /// `true` if the release is sealed and its secret has not been revealed.
     pub is_secret: bool,
-    /// The replays' work, in the units of [`Bounds`]; never above the bound.
+    /// The work of the replays, in the units of [`Bounds`]; never above the bound.
     pub work: u64,
-    /// The bound, if the replays together exceed it. In that case no witness was judged, and the excess is reported
-    /// as a problem.
+    /// The bound, if all replays together exceed it. In that case, no witness was judged, and the excess is
+    /// reported as a problem.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exceeded: Option<u64>,
     /// The number of papers stored with the release, which the root does not cover.
@@ -84,9 +84,9 @@ pub struct Verification {
 
 /// Verifies the release at `root`, a folder or an [archive](crate::contents::archive).
 ///
-/// The paths, links, sizes, digests and the root are checked first. If they are correct, the games, levels and cards
-/// must be well-formed and consistent. Under the same engine semantics, every witness is then replayed to its win,
-/// within the bounds for all releases ([`Bounds::RELEASE`]).
+/// Paths, links, sizes, digests and the root are checked first. If they are correct, games, levels and cards
+/// must be well-formed and consistent. If the release has the current engine semantics, every witness is then
+/// replayed to its win, within the bounds for all releases ([`Bounds::RELEASE`]).
 ///
 /// Cost: one pass over the files and a replay of every witness, on all threads of the current rayon pool.
 ///
@@ -142,7 +142,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         exceeded = meter.exceeded();
         work = exceeded.unwrap_or(meter.spent());
         match exceeded {
-            // Which replays finished depends on the threads, so no results of replays are reported.
+            // Which replays finished depends on the threads, so no replay results are reported.
             Some(limit) => problems.push(format!(
                 "games: replaying the witnesses takes more than {limit} units of work, the limit for {} levels",
                 declared_levels(&manifest)
@@ -153,7 +153,8 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         check_known(&manifest, &mut problems);
         check_held(&manifest, &games, &mut problems);
         let cards: Option<Vec<&Card>> = games.iter().map(|game| game.card.as_ref()).collect();
-        // Compared only if no game is missing, because missing games have already been reported.
+        // The cards are compared only if no game is missing, because missing games have already been
+        // reported.
         if let Some(cards) = cards {
             problems.extend(readme_and_card::problems(&contents, &manifest, &cards)?);
             for section in SECTIONS {
@@ -192,7 +193,7 @@ fn declared_levels(manifest: &Manifest) -> usize {
     manifest.items.iter().filter(|item| is_level(&item.path) && item.path.ends_with(".txt")).count()
 }
 
-/// Groups folders whose names end alike. Folders of the same game have the same name ending.
+/// Groups folders by the ending of their names. Folders of the same game have the same ending.
 fn namesakes(folders: BTreeMap<String, Files>) -> Vec<Vec<(String, Files)>> {
     let mut by_end: BTreeMap<String, Vec<(String, Files)>> = BTreeMap::new();
     for (folder, files) in folders {
@@ -237,8 +238,8 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Checks that `known` in the recipe is plausible for a release with this parent, or without a parent. Only the
-/// parent can show whether `known` is correct: see [`chain`](crate::lineage::chain).
+/// Checks that the recipe's `known` is plausible for a release with this parent, or without a parent. Only
+/// the parent can show whether `known` is correct: see [`chain`](crate::lineage::chain).
 fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     if manifest.generation < CARD_AND_CANARY_SINCE {
         return;
@@ -262,7 +263,8 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Checks that a sealed release commits to its secret and to a witness of every level, and to no other withheld file.
+/// Checks that a sealed release commits to its secret, to a witness of every level, and to no other withheld
+/// file.
 fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<String>) {
     if manifest.kind != ReleaseKind::Sealed {
         return;

@@ -1,19 +1,19 @@
-//! Plausibility checks for the numbers on a card.
+//! Plausibility checks of the numbers on a card.
 //!
-//! The checks do not replay anything, so a plausible number may still differ from the judges' result.
-//! `regenerate` detects such differences.
+//! The checks replay nothing, so a plausible number may still differ from the judges' result. `regenerate`
+//! detects such differences.
 
 use engine::{Level, MAX_TICKS};
 use forge::card::LevelCard;
 use statistics::{Z95, wilson};
 use validators::{Difficulty, Ladder, PlayerResult, Rate};
 
-/// The maximum absolute value of scores and mean scores. An episode's effects cannot add up to more.
+/// The maximum absolute value of scores and mean scores. The effects of an episode cannot add up to more.
 const MAX_SCORE: f64 = 1e15;
 /// The maximum number of episodes of one player on one level.
 const MAX_PLAYS: u64 = 1_000_000;
-/// The tolerance between an interval and the interval computed from its counts: other versions may round
-/// differently.
+/// The tolerance between an interval and the same interval computed from its counts, because other versions
+/// may round differently.
 const ROUNDING: f64 = 1e-9;
 
 /// Returns the problems with the numbers on a level's card.

@@ -12,7 +12,7 @@ use generators::GENERATION;
 use report::Quantiles;
 use serde_json::Value;
 
-/// Returns the problems with both files, given the cards of the games.
+/// Returns the problems with both files, given the games' cards.
 pub(super) fn problems(
     contents: &Contents,
     manifest: &Manifest,
@@ -37,8 +37,8 @@ pub(super) fn problems(
     Ok(problems)
 }
 
-/// Returns the problems with a release's card. Only cards of the current generation have a known layout. For other
-/// generations, only the counts common to all generations are compared.
+/// Returns the problems with a release's card. The layout is known only for cards of the current generation.
+/// For other generations, only the counts common to all generations are compared.
 fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     let value: Value = match serde_json::from_slice(text) {
         Ok(value @ Value::Object(_)) => value,

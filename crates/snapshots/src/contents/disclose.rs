@@ -1,10 +1,10 @@
 //! The lists of a sealed release's withheld files, and the commitments to these lists.
 //!
-//! A sealed release publishes neither the paths, nor the sizes, nor the plain digests of its withheld files, because
-//! anyone could check a guessed text against its digest. Instead, its manifest contains the digests of two lists,
-//! which are also withheld. A list begins with a salt derived from the secret, so nobody can guess the list. A list
-//! contains the path, size and digest of every file in its part, so the list's digest commits to all of these files.
-//! The lists' digests are leaves of the tree.
+//! A sealed release publishes neither the paths, nor the sizes, nor the plain digests of its withheld files,
+//! because anyone could check a guessed text against its digest. Instead, its manifest contains the digests
+//! of two lists, which are also withheld. A list begins with a salt derived from the secret, so nobody can
+//! guess it. It contains the path, size and digest of every file in its part, so its digest commits to all of
+//! these files. The lists' digests are leaves of the tree.
 
 use crate::error::SnapshotError;
 use crate::format::layout::HELD;
@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 /// The maximum size of a list, in bytes.
 pub(crate) const LIST_LIMIT: u64 = MANIFEST_LIMIT;
 
-/// The list for one part's files.
+/// The list of the files in one part.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct HeldList {
@@ -30,8 +30,8 @@ struct HeldList {
     items: Vec<Item>,
 }
 
-/// Moves the items below [`HELD`] from a manifest into two lists, commits to the lists, and returns their paths and
-/// contents. The caller must recompute the manifest's root.
+/// Moves the items below [`HELD`] from a manifest into two lists, commits to the lists, and returns their
+/// paths and contents. The caller must recompute the manifest's root.
 ///
 /// # Errors
 /// Returns an error if a list is larger than a manifest's size limit.
@@ -59,7 +59,7 @@ pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String,
     Ok(lists)
 }
 
-/// Adds the files in a part's list to the known withheld files in a manifest.
+/// Adds the files in a part's list to the withheld files that a manifest knows.
 ///
 /// # Errors
 /// Returns an error if the list differs from the committed one, or contains a file that it must not contain.
@@ -84,7 +84,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     withheld.disclosed.push(Item::of(part.list(), bytes));
     withheld.disclosed.extend(list.items);
     withheld.disclosed.sort_by(|a, b| a.path.cmp(&b.path));
-    // Checked together with all other files, because their paths might conflict.
+    // The files are checked together with all others, because their paths might conflict.
     if let Err(error) = manifest.check_files() {
         manifest.withheld.as_mut().expect("the manifest withholds files").disclosed = before;
         return Err(Flaw::NotAList(error.to_string()));
@@ -92,7 +92,8 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     Ok(())
 }
 
-/// Returns a sentence about the problem with a part's list, given the secret; `None` if the list is correct.
+/// Returns a sentence about the problem with a part's list, checked against the secret; `None` if the list is
+/// correct.
 pub(crate) fn salt_flaw(part: HeldPart, bytes: &[u8], secret: &Secret) -> Option<String> {
     let list = serde_json::from_slice::<HeldList>(bytes).ok()?;
     (list.salt != secret.salt(part))

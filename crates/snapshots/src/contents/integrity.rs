@@ -34,7 +34,7 @@ impl Integrity {
         self.problems.is_empty()
     }
 
-    /// Returns an error for a release at `path` if it has problems.
+    /// Returns an error about the release at `path` if it has problems.
     pub(crate) fn require_sound(&self, path: &Path) -> Result<(), SnapshotError> {
         let Some((first, more)) = self.problems.split_first() else { return Ok(()) };
         let (path, first) = (path.to_path_buf(), first.to_string());
@@ -42,8 +42,9 @@ impl Integrity {
     }
 }
 
-/// Compares the folder `root` with its `MANIFEST.json` and reports every difference. The folder is not trusted: links
-/// are not followed, and files that exceed a snapshot's limits or differ from their stated size are not read.
+/// Compares the folder `root` with its `MANIFEST.json` and reports every difference. The folder is not
+/// trusted: links are not followed, and files are not read if they exceed a snapshot's limits or differ from
+/// their stated size.
 ///
 /// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
@@ -95,8 +96,8 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
-/// Reads the existing lists of withheld files, and returns their problems. The list of published coin wins may exist
-/// without the list of all other files, but not vice versa.
+/// Reads those lists of withheld files that exist, and returns their problems. The list of published coin
+/// wins may exist without the list of all other files, but not vice versa.
 fn list_problems(
     root: &Path,
     manifest: &mut Manifest,
@@ -135,7 +136,7 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
     if !listing.complete {
         return Ok(problems);
     }
-    // Entries that exist but are not plain files have already been reported, and are not missing.
+    // Entries that exist but are not plain files have already been reported, so they do not count as missing.
     let named: BTreeSet<String> = problems.iter().map(|problem| problem.path.clone()).collect();
     let mut awaited: BTreeMap<&str, _> = manifest.files().map(|item| (item.path.as_str(), item)).collect();
     // The lists of withheld files have already been judged.
@@ -157,8 +158,8 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
         };
         problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
     }
-    // Before the reveal, a sealed release withholds either all of its witnesses or none of them. If coins have chosen
-    // between wins, the published wins may already exist. No hidden file is expected.
+    // Before the reveal, a sealed release withholds either all of its witnesses or none. If coins have chosen
+    // between wins, the published wins may already be present. No hidden file is expected.
     let is_listed = manifest.kind == ReleaseKind::Sealed && manifest.withheld.is_none();
     let is_held = |path: &str| is_listed && path.starts_with(HELD);
     let stays = |path: &str| is_held(path) && !is_solution(path);
@@ -257,7 +258,7 @@ mod tests {
         assert!(check_integrity(&release.root).expect("readable").is_sound());
     }
 
-    /// A flipped bit anywhere in the manifest is reported as damage, and never as a sound release, a different
+    /// A flipped bit anywhere in the manifest is reported as damage, never as a sound release, a different
     /// format, or a fault in a single file.
     #[test]
     fn every_byte_of_the_manifest_counts() {
@@ -337,7 +338,7 @@ mod tests {
             ["papers/LICENSE"]
         );
         assert_eq!(beside.ignored, [".DS_Store", ".git"]);
-        // The root does not protect papers, even if a manifest lists them.
+        // The root does not protect papers, even if the manifest lists them.
         let mut files = FILES.to_vec();
         files.push(("papers/LICENSE", b"MIT"));
         let text = example(&files).to_bytes().expect("sound");
@@ -382,7 +383,8 @@ mod tests {
         assert!(matches!(check_integrity(&release.root), Err(SnapshotError::Link(_))));
     }
 
-    /// A manifest adjusted to an altered file needs a new root. With the old root, the root is reported as wrong.
+    /// A manifest adjusted to an altered file needs a new root. If it keeps the old root, the root is
+    /// reported as wrong.
     #[test]
     fn a_forged_manifest_has_another_root() {
         let release = release();

@@ -24,7 +24,8 @@ pub(crate) enum Contents {
     Archive(Box<Archive>),
 }
 
-/// Checks the integrity of the release at `place`, a folder or an archive. Does not keep the files in memory.
+/// Checks the integrity of the release at `place`, a folder or an archive, without keeping its files in
+/// memory.
 ///
 /// # Errors
 /// See [`check_integrity`] and [`Archive::check`].

@@ -1,6 +1,7 @@
-//! Inclusion proofs, which show without the rest of the release that a released file or game is under a root.
+//! Inclusion proofs, which show that a released file or game is under a root without needing the rest of the
+//! release.
 //!
-//! A proof is a small file in canonical JSON. A proof contains no secrets and need not be trusted: the verifier
+//! A proof is a small file in canonical JSON. It contains no secrets and need not be trusted: the verifier
 //! trusts only a root from a different source.
 
 use serde::{Deserialize, Serialize};
@@ -22,7 +23,7 @@ const PROOF_FORMAT: u32 = 1;
 /// The maximum height of a tree with at most 2⁶⁴ leaves.
 const MAX_HEIGHT: usize = 64;
 
-/// A reason why a proof cannot be created or read. The reason concerns the request and not the item.
+/// A reason why a proof cannot be created or read. It concerns the request, not the item.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProofError {
@@ -65,14 +66,14 @@ pub enum ProofError {
 pub struct ItemProof {
     /// The version of this layout: 1.
     pub format: u32,
-    /// The release's name: a label that proves nothing.
+    /// The release's name, which is a label that proves nothing.
     pub release: String,
-    /// The root of the proof. Compare it with a root from a different source.
+    /// The proof's root. Compare it with a root from a different source.
     pub root: Digest,
     /// The item: a path in the release such as `games/x/lvl0.txt`, or the name of a folder in `games/`.
     pub item: String,
-    /// The files, sorted by the bytes of their paths. For a path, this is a single file; for a game, all of the
-    /// game's listed files.
+    /// The files, sorted by the bytes of their paths: a single file for a path, or all of the game's listed
+    /// files for a game.
     pub files: Vec<FileProof>,
 }
 
@@ -120,7 +121,7 @@ impl ItemProof {
         Ok(ItemProof { format: PROOF_FORMAT, release, root, item: id.into(), files })
     }
 
-    /// Serialises the proof as canonical JSON, which [`ItemProof::parse`] reads back.
+    /// Serialises the proof as canonical JSON that [`ItemProof::parse`] can read.
     ///
     /// # Errors
     /// Returns an error if the proof is larger than [`MAX_PROOF`].
@@ -164,8 +165,8 @@ impl ItemProof {
                     "`{path}` is the reserved name of the manifest, not a file of a release"
                 ));
             }
-            // The manifest's header is also a leaf, so the number of leaves is at most the number of files that a
-            // release can have, including the manifest.
+            // The manifest's header is also a leaf, so there are at most as many leaves as a release can have
+            // files, including the manifest.
             let (index, size) = (file.proof.index, file.proof.size);
             if index >= size || size > Limits::SNAPSHOT.files {
                 return unsound(format!("`{path}` is leaf {index} of {size}, which no release has"));
@@ -222,7 +223,7 @@ impl ItemProof {
         if self.root != *root {
             problems.push(format!("the proof leads to the root {}, not to {root}", self.root));
         }
-        // The remaining checks would only repeat this problem for every file.
+        // The remaining checks would only repeat the problem for every file.
         if !problems.is_empty() {
             return Ok(problems);
         }

@@ -1,11 +1,11 @@
-//! Replays of witnesses within bounds, to limit the cost of an untrusted release.
+//! Replays of witnesses within bounds, which limit the cost of an untrusted release.
 
 use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The bound on the work of a release's replays, in units of the engine's limit on one tick
-/// ([`MAX_WORK`](engine::MAX_WORK)). Visiting a sprite or a cell is one unit. One core does about 50 to 200 million
-/// units per second.
+/// ([`MAX_WORK`](engine::MAX_WORK)). Visiting a sprite or a cell costs one unit. One core does about 50 to
+/// 200 million units per second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
     /// The number of units allowed for every release.
@@ -24,7 +24,7 @@ impl Bounds {
     }
 }
 
-/// A counter for the work of all replays of a release, shared by several threads.
+/// A counter of the work of all replays of a release, shared between threads.
 ///
 /// The result does not depend on the number of threads: the limit applies to the total work of all replays.
 pub(crate) struct Meter {
@@ -48,12 +48,13 @@ impl Meter {
     }
 
     fn spend(&self, units: u64) {
-        // Relaxed suffices. One addition per episode cannot overflow, because 2^64 units take a thousand years.
+        // Relaxed ordering suffices. The sum cannot overflow, because 2^64 units would take a thousand years.
         self.spent.fetch_add(units, Ordering::Relaxed);
     }
 }
 
-/// The minimum number of units counted per tick. The slowest ticks with almost no counted work take 50 microseconds.
+/// The minimum number of units counted per tick. The slowest ticks with almost no counted work take 50
+/// microseconds.
 const TICK: u64 = 4096;
 
 /// The result of [`replay`].
@@ -62,12 +63,12 @@ pub(crate) enum Replayed {
     Won,
     /// The episode is invalid.
     Wrong(String),
-    /// The limit was exceeded, by the replays in total.
+    /// The replays' total work exceeded the limit.
     OutOfWork,
 }
 
-/// Replays a witness like [`Episode::replay`], as long as the meter permits. Episodes that cannot be witnesses are
-/// rejected before the first tick.
+/// Replays a witness like [`Episode::replay`], as far as the meter permits. Episodes that cannot be witnesses
+/// are rejected before the first tick.
 pub(crate) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Meter) -> Replayed {
     let wrong = |divergence: Divergence| Replayed::Wrong(divergence.to_string());
     if episode.game != game.digest() {
@@ -125,7 +126,7 @@ pub(crate) fn problem(episode: &Episode, game: &Game, level: &Level) -> Option<S
     }
 }
 
-/// A watch that records the work of one tick.
+/// A watch that records the work of a single tick.
 struct Work(u64);
 
 impl Watch for Work {

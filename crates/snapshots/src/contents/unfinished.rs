@@ -3,14 +3,14 @@
 use crate::error::SnapshotError;
 use std::path::Path;
 
-/// Rejects `.partial` folders and everything inside them: even a complete release does not count before
-/// publication.
+/// Rejects `.partial` folders and everything inside them, because even a complete release does not count
+/// before its publication.
 pub(crate) fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
     let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot(root.to_path_buf()),
         _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
     })?;
-    // The name alone is weak evidence for distant ancestors, so a draft is required.
+    // For distant ancestors, the name alone is weak evidence, so a draft is required.
     let is_draft = |folder: &Path| folder.join(".lock").exists() && folder.join("tree").exists();
     let unfinished = real.ancestors().enumerate().any(|(above, folder)| {
         folder.extension().is_some_and(|end| end == "partial") && (above < 2 || is_draft(folder))

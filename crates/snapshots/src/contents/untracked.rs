@@ -38,7 +38,7 @@ pub struct Untracked {
     pub ignored: Vec<String>,
 }
 
-/// Lists the files in the release folder `root` that its manifest must list, and all other files.
+/// Lists the files in the release folder `root`: those that its manifest must list, and all others.
 ///
 /// # Errors
 /// Returns an error if a folder cannot be read.
@@ -98,7 +98,8 @@ mod tests {
             ],
             (&["README.md"], &["papers/LICENSE", "papers/talk/slides.pdf"], &[".DS_Store", ".git"], &[]),
         );
-        // Below the top level, no entry is skipped, and the papers folder does not hide unsafe entries.
+        // Below the top level, no entry is skipped, and unsafe entries in the papers folder are reported,
+        // too.
         check(
             &[("games/x/.DS_Store", 1), ("games/.git/HEAD", 1), ("games/papers/x", 1), ("papers", 1)],
             (&["games/.git/HEAD", "games/papers/x", "games/x/.DS_Store", "papers"], &[], &[], &[]),

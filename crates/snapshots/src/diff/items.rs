@@ -1,4 +1,4 @@
-//! The new, kept, changed and removed games and items.
+//! The games and items that are new, kept, changed or removed.
 
 use super::Compared;
 use crate::released::ReleasedGame;
@@ -29,8 +29,8 @@ pub enum Status {
 pub struct Change {
     /// The status of the game or item.
     pub status: Status,
-    /// The path in the later release: `<game>` or `<game>/lvl<n>`. If the status is [`Gone`](Status::Gone), the path
-    /// in the earlier release.
+    /// The path in the later release, `<game>` or `<game>/lvl<n>`; for the status [`Gone`](Status::Gone), the
+    /// path in the earlier release.
     pub id: String,
     /// The path in the earlier release, if the game or item is kept or changed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,7 +57,7 @@ pub struct Changes {
     pub each: Vec<Change>,
 }
 
-/// A game or an item: its path, the digest of its text, and a digest that is invariant under retheming.
+/// A game or an item: its path, the digest of its text, and a digest that ignores the theme.
 struct Entry {
     id: String,
     exact: Digest,
@@ -66,8 +66,8 @@ struct Entry {
 }
 
 impl Changes {
-    /// Pairs the entries of two releases: first entries with equal texts, then entries with equal forms. Each entry
-    /// is paired with the first unpaired candidate.
+    /// Pairs the entries of two releases: first entries with equal texts, then entries with equal forms. Each
+    /// entry is paired with its first unpaired candidate.
     fn of(before: &[Entry], after: &[Entry]) -> Changes {
         let mut was: Vec<Option<(Status, usize)>> = vec![None; after.len()];
         let mut taken = vec![false; before.len()];
@@ -144,8 +144,9 @@ pub(super) fn items(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes 
     Changes::of(&before, &after)
 }
 
-/// Returns a digest for each level of a game. Levels of games with equal forms share a digest if they place the same
-/// types in the same cells up to a board symmetry. Only interchangeable types can hide such equality.
+/// Returns a digest for each level of a game. Levels of games with equal forms have the same digest if they
+/// place the same types in the same cells, up to a symmetry of the board. The equality can be missed only if
+/// types are interchangeable.
 ///
 /// Cost: one [`GameForm`](validators::GameForm), plus O(cells).
 pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
@@ -166,7 +167,7 @@ pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
     released.levels.iter().map(|level| level_form(&level.level, &placed)).collect()
 }
 
-/// Returns the smallest of the eight symmetric images of a board.
+/// Returns the smallest of a board's eight symmetric images.
 fn level_form(level: &Level, placed: &[Vec<u32>]) -> Digest {
     let (columns, rows) = (level.columns(), level.rows());
     let image = |symmetry: usize| {

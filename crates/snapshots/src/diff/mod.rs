@@ -1,5 +1,5 @@
-//! A comparison of two releases: new, kept, changed and removed games, differences in distributions, and distances
-//! between games ([the meaning of each figure](../../../../docs/how-to/diff.md)).
+//! A comparison of two releases: new, kept, changed and removed games, differences in distributions, and
+//! distances between games ([the meaning of each figure](../../../../docs/how-to/diff.md)).
 
 mod items;
 mod neighbours;
@@ -36,9 +36,9 @@ pub struct Side {
     pub generated: usize,
     /// The number of levels.
     pub levels: usize,
-    /// The version of the engine semantics used to mint the release.
+    /// The version of the engine semantics under which the release was minted.
     pub semantics: u32,
-    /// The generation of the generators used to mint the release.
+    /// The generation of the generators with which the release was minted.
     pub generation: u32,
 }
 
@@ -47,7 +47,7 @@ pub struct Side {
 pub struct Diff {
     /// The comparison in one sentence, covering difficulty, returning levels and nearest games.
     pub verdict: String,
-    /// The order of the two releases according to the chain stated in them.
+    /// The order of the two releases according to the chain that they state.
     pub order: Order,
     /// The earlier release.
     pub before: Side,
@@ -57,26 +57,27 @@ pub struct Diff {
     pub games: Changes,
     /// The changes in the items. An item is a level with its game's rules.
     pub items: Changes,
-    /// The distributions of labels, with one or more labels for each game or level.
+    /// The distributions of labels. Each game or level has one or more labels.
     pub shifts: Vec<Shift>,
     /// The distributions of numbers.
     pub numbers: Vec<NumberShift>,
     /// The change in each ladder player's results: later minus earlier.
     pub rungs: Vec<RungDifference>,
-    /// The change in each reference result present in both releases; empty if the recipes do not request reference
-    /// results.
+    /// The change in each reference result that both releases contain; empty if the recipes request no
+    /// reference results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<MarkDifference>,
     /// The distances from the later games to the earlier games.
     pub neighbours: Neighbours,
 }
 
-/// A game with the data for comparison.
+/// A game, with the data needed for the comparison.
 struct Compared<'a> {
     released: &'a ReleasedGame,
     form: GameForm,
     kind: GameKind,
-    /// One digest per level, equal for levels that are the same up to names, characters and symmetry.
+    /// One digest per level. Digests are equal for levels that are the same up to names, characters and
+    /// symmetry.
     levels: Vec<Digest>,
 }
 
@@ -96,7 +97,7 @@ impl<'a> Compared<'a> {
 }
 
 impl Diff {
-    /// Compares two releases, and lists the nearest pairs of games (`closest` of them).
+    /// Compares two releases, and lists the nearest `closest` pairs of games.
     ///
     /// Cost: an analysis of each game, its distance to all others, and about a thousand resamples of the games for
     /// each figure. With hundreds of games, a comparison takes seconds.

@@ -1,4 +1,4 @@
-//! Distances between the rules of games in two releases.
+//! Distances between the rules of the games in two releases.
 
 use super::Compared;
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ pub struct Neighbours {
     pub near: usize,
     /// The number of pairs nearer than [`NEAR`] in which both games are generated.
     pub near_generated: usize,
-    /// The nearest pairs, nearest first.
+    /// The nearest pairs, in order of increasing distance.
     pub closest: Vec<Pair>,
 }
 

@@ -1,9 +1,9 @@
 //! The differences between the distributions of two releases, and permutation tests of their significance.
 //!
-//! Levels of the same game are correlated, so tests permute games rather than levels. A test deals the games to the
-//! two releases at random, [`DEALS`] times. The p-value is the fraction of deals, including the observed deal, whose
-//! difference is at least as large as the observed difference (B. Phipson and G. K. Smyth, "Permutation p-values
-//! should never be zero", 2010).
+//! Levels of the same game are correlated, so tests permute games rather than levels. A test deals the games
+//! to the two releases at random, [`DEALS`] times. The p-value is the fraction of deals, including the
+//! observed one, whose difference is at least as large as observed (B. Phipson and G. K. Smyth, "Permutation
+//! p-values should never be zero", 2010).
 
 use super::Compared;
 use base::Seed;
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 /// The number of deals in a permutation test, not counting the observed deal.
 pub const DEALS: usize = 999;
 
-/// A value of a distribution, with its counts.
+/// A value in a distribution, with its counts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Share {
     /// The value.
@@ -35,9 +35,9 @@ pub struct Shift {
     /// The total variation distance, from 0 for equal fractions to 1 for nothing in common; `None` if either release
     /// has no values.
     pub distance: Option<f64>,
-    /// The p-value: the fraction of random deals whose distance is at least as large.
+    /// The p-value: the fraction of random deals whose distance is at least as large as the observed one.
     pub p: Option<f64>,
-    /// The number of levels without a value because they were not measured.
+    /// The number of levels that have no value because they were not measured.
     #[serde(skip_serializing_if = "Unmeasured::is_none")]
     pub unmeasured: Unmeasured,
 }
@@ -79,9 +79,9 @@ pub struct NumberShift {
     /// The Kolmogorov–Smirnov distance: the maximum difference between the cumulative fractions; `None` if either
     /// release has no values.
     pub distance: Option<f64>,
-    /// The p-value: the fraction of random deals whose distance is at least as large.
+    /// The p-value: the fraction of random deals whose distance is at least as large as the observed one.
     pub p: Option<f64>,
-    /// The number of levels without a number because they were not measured.
+    /// The number of levels that have no number because they were not measured.
     #[serde(skip_serializing_if = "Unmeasured::is_none")]
     pub unmeasured: Unmeasured,
 }
@@ -159,7 +159,7 @@ pub(super) fn numbers(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Nu
 }
 
 impl Shift {
-    /// Computes the shift between the game values in the two releases.
+    /// Computes the shift between the values of the games in the two releases.
     pub(super) fn of(name: &'static str, before: &[Vec<String>], after: &[Vec<String>]) -> Shift {
         let mut counts: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
         for (side, games) in [before, after].into_iter().enumerate() {
@@ -187,7 +187,7 @@ impl Shift {
 }
 
 impl NumberShift {
-    /// Computes the shift between the game numbers in the two releases.
+    /// Computes the shift between the numbers of the games in the two releases.
     pub(super) fn of(name: &'static str, before: &[Vec<f64>], after: &[Vec<f64>]) -> NumberShift {
         let games = before.iter().chain(after).enumerate();
         let mut numbers: Vec<(f64, usize)> =
@@ -202,7 +202,7 @@ impl NumberShift {
             let (mut below, mut most) = ([0_u32; 2], 0.0_f64);
             for (at, (number, game)) in numbers.iter().enumerate() {
                 below[usize::from(sides[*game])] += 1;
-                // If several numbers are equal, only the last is compared, because its count includes all of them.
+                // Among equal numbers, only the last is compared, because its count includes all of them.
                 if numbers.get(at + 1).is_none_or(|(next, _)| next != number) {
                     let [one, other] = [0, 1].map(|side| f64::from(below[side]) / f64::from(all[side]));
                     most = most.max((one - other).abs());
@@ -226,7 +226,8 @@ fn variation(counts: &[[u32; 2]]) -> Option<f64> {
     (!all.contains(&0)).then(|| counts.iter().map(apart).sum::<f64>() / 2.0)
 }
 
-/// Computes a distance and its p-value. Calls `distance` with one side label per game, earlier games first.
+/// Computes a distance and its p-value. `distance` is called with one side label per game, earlier games
+/// first.
 fn test(
     name: &str,
     (before, after): (usize, usize),
@@ -239,7 +240,8 @@ fn test(
     let mut as_far = 1;
     for _ in 0..DEALS {
         sampler.shuffle(&mut sides);
-        // The tolerance allows for rounding. A deal that leaves a side without values counts as maximally far apart.
+        // The tolerance allows for rounding. A deal that leaves one side without values counts as maximally
+        // far apart.
         as_far += usize::from(distance(&sides).is_none_or(|apart| apart >= found - 1e-12));
     }
     (Some(found), Some(as_far as f64 / (DEALS + 1) as f64))

@@ -1,4 +1,4 @@
-//! Tests on releases of a few games whose differences are known.
+//! Tests on small releases whose differences are known.
 
 use super::*;
 use crate::card::rungs::tests::card;
@@ -41,7 +41,8 @@ const OTHER: &str = "wwwww\nwAg w\nw  fw\nwwwww\n";
 #[test]
 fn equal_items_are_found_under_any_theme() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");
-    // The same game renamed, with a different character, and with the board rotated by a quarter turn and mirrored.
+    // The same game with different names, a different character, and a board that is rotated by a quarter
+    // turn and mirrored.
     let dressed = source(["orb", "elf", "e"], "RandomNPC");
     let turned = "wwww\nwA w\nw ew\nwg w\nwwww\n";
     let before = release(vec![
@@ -72,7 +73,7 @@ fn equal_items_are_found_under_any_theme() {
     assert_eq!(diff.games.returned_generated, 0, "the one that returned is of the corpus now");
     let nearest = &diff.neighbours.closest[0];
     assert_eq!((nearest.after.as_str(), nearest.before.as_str(), nearest.distance), ("c", "a", 0.0));
-    // One changed class does not make a new game: `d` is near `b`, and both are generated.
+    // Changing one class does not make a new game: `d` is near `b`, and both are generated.
     assert_eq!((diff.neighbours.near, diff.neighbours.near_generated), (2, 1));
     assert!(diff.neighbours.across_generated.unwrap().min > 0.0);
 }
@@ -80,7 +81,7 @@ fn equal_items_are_found_under_any_theme() {
 #[test]
 fn a_release_is_the_same_as_itself() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");
-    // The second level occurs twice, and each copy has its own partner.
+    // The second level occurs twice, and each copy is paired separately.
     let release = release(vec![game("a", &plain, &[LEVEL, OTHER, OTHER], true)]);
     let diff = Diff::of(&release, &release, 9);
     assert_eq!((diff.games.kept, diff.games.each.len()), (1, 1));
@@ -93,7 +94,7 @@ fn a_release_is_the_same_as_itself() {
     assert_eq!(diff.neighbours.within, None, "there is no other game");
 }
 
-/// An unmeasured value has no distance or p-value, and the verdict states so.
+/// An unmeasured value has neither a distance nor a p-value, and the verdict states so.
 #[test]
 fn unmeasured_difficulty_is_not_equal_difficulty() {
     let plain = source(["gem", "imp", "f"], "RandomNPC");

@@ -5,16 +5,16 @@ use super::shifts::{DIFFICULTY, Shift};
 use crate::format::manifest::Manifest;
 use serde::Serialize;
 
-/// The minimum p-value at which a difference is considered random.
+/// The p-value from which a difference is attributed to chance.
 const CHANCE: f64 = 0.05;
 
-/// The order of two releases according to the chain stated in them.
+/// The order of two releases according to the chain that they state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Order {
     /// The later release follows the earlier release.
     Follows,
-    /// The releases are in reverse order: the release passed as the earlier one is the later one.
+    /// The releases are reversed: the one passed as the earlier release is the later one.
     Reversed,
     /// Neither release follows the other.
     Unrelated,
@@ -38,7 +38,7 @@ fn follows(later: &Manifest, earlier: &Manifest) -> bool {
     later.parent == Some(earlier.root) || is_listed
 }
 
-/// Sums up the comparison in one sentence.
+/// Summarises the comparison in one sentence.
 pub(super) fn verdict(diff: &Diff) -> String {
     if diff.before.root == diff.after.root {
         return "Both releases have the same root, so they are the same release".to_owned();

@@ -9,11 +9,11 @@ use super::remove_tree;
 use crate::error::SnapshotError;
 use disk::Lock;
 
-/// A draft that no process is working on. While this value exists, no process can take over the draft.
+/// A draft on which no process is working. While this value exists, no process can take over the draft.
 #[derive(Debug)]
 pub struct Abandoned {
     partial: PathBuf,
-    /// The number of an interrupted mint's finished jobs, which `--resume` can reuse.
+    /// The number of finished jobs of an interrupted mint, which `--resume` can reuse.
     pub finished_jobs: usize,
     /// The lock, which is released on drop.
     _lock: Lock,
@@ -45,7 +45,7 @@ impl Abandoned {
         Ok(Some(Abandoned { partial: partial.to_path_buf(), finished_jobs, _lock: lock }))
     }
 
-    /// Removes the draft with all its content.
+    /// Removes the draft and all its content.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails. The lock then remains, so the rest can be removed later.
@@ -60,8 +60,8 @@ impl Abandoned {
     }
 }
 
-/// Returns `true` if the folder is not a link, and contains a draft's lock and otherwise only draft files. Runs
-/// killed while starting or ending leave only a lock.
+/// Returns `true` if the folder is not a link, and contains a draft's lock and otherwise only draft files. A
+/// run killed while starting or ending leaves only a lock.
 fn holds_work(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() || !fs::symlink_metadata(partial.join(LOCK))?.is_file() {
         return Ok(false);
@@ -88,7 +88,7 @@ mod tests {
     use super::super::tests::{home, names};
     use super::*;
 
-    /// Leaves a draft behind as a killed run does.
+    /// Leaves a draft behind, as a killed run does.
     fn killed(out: &Path) -> PathBuf {
         let draft = Draft::create(out).expect("vacant");
         draft.write("games/a", b"one").expect("written");
@@ -105,7 +105,7 @@ mod tests {
         let partial = killed(&out);
         let abandoned = Abandoned::at(&partial).expect("examined").expect("abandoned");
         assert_eq!(abandoned.finished_jobs, 0);
-        // No other draft can take the folder over in the meantime.
+        // Meanwhile, no other draft can take over the folder.
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Busy(_))));
         abandoned.remove().expect("removed");
         assert!(names(home.path()).is_empty());

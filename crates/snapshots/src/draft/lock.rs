@@ -7,7 +7,8 @@ use std::path::Path;
 use crate::error::SnapshotError;
 use disk::Lock;
 
-/// The lock file, which exists as long as [`TREE`] does. Its content, [`MARK`], identifies the folder as a draft's.
+/// The lock file, which exists as long as [`TREE`] does. Its content, [`MARK`], identifies the folder as
+/// belonging to a draft.
 pub(super) const LOCK: &str = ".lock";
 /// The content of [`LOCK`]. A file with the same name but different content does not belong to a draft.
 pub(super) const MARK: &str =
@@ -17,18 +18,18 @@ pub(super) const TREE: &str = "tree";
 /// The folder whose content is kept if the work is interrupted.
 pub(super) const JOBS: &str = "jobs";
 
-/// Creates or takes over `partial`, locks it, and marks it as a draft's.
+/// Creates or takes over `partial`, locks it, and marks it as belonging to a draft.
 pub(super) fn acquire(partial: &Path) -> Result<Lock, SnapshotError> {
     let mut lock = take(partial)?;
     mark(lock.file()).map_err(SnapshotError::io("lock", &partial.join(LOCK)))?;
     Ok(lock)
 }
 
-/// Creates or takes over `partial`, and locks it. An existing lock file stays unchanged.
+/// Creates or takes over `partial`, and locks it. An existing lock file is left unchanged.
 pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     let busy = || SnapshotError::Busy(partial.to_path_buf());
     let lock_path = partial.join(LOCK);
-    // A process that finishes in the meantime removes the folder. The attempt then starts over.
+    // If a process that finishes in the meantime removes the folder, the attempt starts over.
     for _ in 0..16 {
         match fs::create_dir(partial) {
             Err(source) if source.kind() != ErrorKind::AlreadyExists => {
@@ -52,7 +53,8 @@ pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     Err(busy())
 }
 
-/// Writes [`MARK`], and waits until the mark is on disk. The mark identifies everything written later as a draft's.
+/// Writes [`MARK`], and waits until the mark is on disk. The mark shows that everything written later belongs
+/// to a draft.
 fn mark(lock: &mut File) -> io::Result<()> {
     if disk::start(&*lock, MARK.len() as u64 + 1)? == MARK.as_bytes() {
         return Ok(());
@@ -63,9 +65,9 @@ fn mark(lock: &mut File) -> io::Result<()> {
     lock.sync_all()
 }
 
-/// Returns `true` if the folder belongs to a draft. Such a folder contains only draft files, and has a lock with
-/// [`MARK`] unless there is nothing to lose. A user's own `results.partial` must not be deleted because of
-/// `--out results`.
+/// Returns `true` if the folder belongs to a draft. Such a folder contains only draft files, and has a lock
+/// with [`MARK`] unless there is nothing to lose. For example, `--out results` must not delete a user's own
+/// `results.partial`.
 pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
         return Ok(false);
@@ -84,14 +86,16 @@ pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     }
     Ok(match lock {
         Some(lock) if lock == MARK.as_bytes() => true,
-        // A run that was killed before writing the mark, or is about to write it, has made nothing else yet.
+        // A run that was killed before writing the mark, or is about to write it, has written nothing else
+        // yet.
         Some(lock) => MARK.as_bytes().starts_with(&lock) && !work,
         None => !work,
     })
 }
 
-/// Reads the start of a lock file, up to one byte more than the length of [`MARK`]. On Windows, a file locked by a
-/// different process cannot be read. Returns [`MARK`] in that case, because the next step attempts to lock the file.
+/// Reads the start of a lock file, up to one byte more than the length of [`MARK`]. Returns [`MARK`] if the
+/// file cannot be read because a different process has locked it (on Windows), because the next step attempts
+/// to lock it anyway.
 fn content(lock: &Path) -> io::Result<Vec<u8>> {
     match disk::read_start(lock, MARK.len() as u64 + 1) {
         Err(_) if cfg!(windows) => Ok(MARK.as_bytes().to_vec()),
@@ -141,8 +145,8 @@ mod tests {
         }
     }
 
-    /// If a run is killed before or while writing the mark, nothing else exists, and the next run takes over the
-    /// folder.
+    /// If a run is killed before or while writing the mark, nothing else exists yet, and the next run takes
+    /// over the folder.
     #[test]
     fn unmarked_locks_are_taken_over() {
         for written in [0, 7, MARK.len()] {
@@ -170,8 +174,8 @@ mod tests {
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied(_))));
     }
 
-    /// Many threads race for one folder: each thread either acquires the folder exclusively or receives the reason
-    /// for failure.
+    /// Many threads race for one folder. Each thread either acquires the folder exclusively or receives the
+    /// reason why it failed.
     #[test]
     fn a_race_has_one_winner_at_a_time() {
         let (home, out) = home();

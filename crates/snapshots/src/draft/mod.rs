@@ -1,4 +1,4 @@
-//! Atomic writes of release folders: a release is complete or absent, even after a crash.
+//! Atomic writes of release folders. A release is either complete or absent, even after a crash.
 //!
 //! Unfinished work is stored next to its destination, and published by a single `rename` within the file system:
 //!
@@ -8,9 +8,10 @@
 //! releases/2026-12.partial/jobs/    finished jobs, kept after an interruption for `Draft::resume`
 //! ```
 //!
-//! The lock is an operating system lock ([`Lock`]) and is released when its process ends. A `.partial` folder with a
-//! free lock was therefore left by a killed run and is replaced. The tree is one level below the lock because the
-//! lock must outlive the rename: inside the tree, the lock would be published or released too early.
+//! The lock is an operating system lock ([`Lock`]), which is released when its process ends. A `.partial`
+//! folder with a free lock was therefore left by a killed run, and is replaced. The tree is one level below
+//! the lock, because the lock must outlive the rename. Inside the tree, the lock would be published or
+//! released too early.
 
 mod abandoned;
 mod lock;
@@ -29,7 +30,7 @@ use disk::Lock;
 use lock::{JOBS, LOCK, TREE};
 use sync::{sync_folder, sync_folders};
 
-/// The file name inside the tree, for a draft that is published as a single file.
+/// The file name inside the tree for a draft that is published as a single file.
 const SINGLE: &str = "file";
 
 pub use abandoned::Abandoned;
@@ -79,7 +80,7 @@ impl Draft {
 
         let lock = lock::acquire(&partial)?;
         let draft = Draft { out: out.to_path_buf(), partial, is_secret: false, _lock: lock };
-        // The previous holder of the lock may have published in the meantime.
+        // Meanwhile, the previous holder of the lock may have published its release.
         check_vacant(out)?;
         let tree = draft.tree();
         remove_tree(&tree).map_err(SnapshotError::io("remove", &tree))?;
@@ -90,8 +91,9 @@ impl Draft {
     /// Writes the file at `relative`, creates its parents, and waits until the content is on disk.
     ///
     /// # Errors
-    /// Returns an error if the path is unsafe, the file is larger than readers accept, the file was already written
-    /// (also in different case, on a case-insensitive file system), or a file system operation fails.
+    /// Returns an error if the path is unsafe, the file is larger than readers accept, the file was already
+    /// written (on a case-insensitive file system, also under a name that differs only in case), or a file
+    /// system operation fails.
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), SnapshotError> {
         let limit = Limits::SNAPSHOT.file_bytes;
         if bytes.len() as u64 > limit {
@@ -128,8 +130,9 @@ impl Draft {
     /// written, so only the folders are synced now.
     ///
     /// # Errors
-    /// Returns an error if `out` is no longer absent or empty, or if a file system operation fails. The draft is then
-    /// dropped. If only the parent folder's sync fails, `out` nevertheless exists and is complete.
+    /// Returns an error if `out` is no longer absent or empty, or if a file system operation fails. The draft
+    /// is then dropped. If only the sync of the parent folder fails, `out` exists and is complete
+    /// nevertheless.
     pub fn commit(self) -> Result<(), SnapshotError> {
         let tree = self.tree();
         sync_folders(&tree)?;
@@ -146,12 +149,12 @@ impl Draft {
         }
         fs::rename(&tree, &self.out).map_err(occupied)?;
         sync_folder(parent_of(&self.out))?;
-        // Leftovers affect only the next draft, which reports them.
+        // Leftovers matter only to the next draft, which reports them.
         drop(remove_tree(&self.jobs()));
         Ok(())
     }
 
-    /// Ends the draft without a result, and removes its [`jobs`](Draft::jobs) too.
+    /// Ends the draft without a result, and also removes its [`jobs`](Draft::jobs).
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -160,7 +163,8 @@ impl Draft {
         remove_tree(&jobs).map_err(SnapshotError::io("remove", &jobs))
     }
 
-    /// Creates the file for a draft that is published as a single file. Returns the file and its path, for messages.
+    /// Creates the file for a draft that is published as a single file. Returns the file, and its path for
+    /// messages.
     ///
     /// # Errors
     /// Returns an error if the file was already created, or if a file system operation fails.
@@ -182,15 +186,16 @@ impl Draft {
         match fs::hard_link(&path, &self.out) {
             Ok(()) => {}
             Err(source) if source.kind() == ErrorKind::AlreadyExists => return Err(taken()),
-            // Not every file system has links. A rename replaces a file created after this check.
+            // Not every file system has links. On those without, the rename would replace a file created
+            // after this check.
             Err(_) if fs::symlink_metadata(&self.out).is_ok() => return Err(taken()),
             Err(_) => fs::rename(&path, &self.out).map_err(SnapshotError::io("create", &self.out))?,
         }
         sync_folder(parent_of(&self.out))
     }
 
-    /// Restricts the unfinished work to its owner, as sealed releases require. Withheld files stay restricted after
-    /// publication.
+    /// Restricts the unfinished work to its owner, as sealed releases require. Withheld files stay restricted
+    /// after publication.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -203,8 +208,8 @@ impl Draft {
         Ok(())
     }
 
-    /// Restricts all content to its owner, before and after publication, as required for shards of sealed releases.
-    /// Must be called before the first file is written.
+    /// Restricts all content to its owner, before and after publication, as shards of sealed releases
+    /// require. Must be called before the first file is written.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -224,8 +229,8 @@ impl Draft {
         Some(partial_of(out)?.join(JOBS))
     }
 
-    /// Returns the path of a folder next to the draft, without creating it. The folder's content outlives a dropped
-    /// or killed draft, and is removed when the draft is committed.
+    /// Returns the path of a folder next to the draft, without creating it. The folder outlives a draft that
+    /// is dropped or killed, and is removed when the draft is committed.
     pub fn jobs(&self) -> PathBuf {
         self.partial.join(JOBS)
     }
@@ -236,12 +241,12 @@ impl Draft {
 }
 
 impl Drop for Draft {
-    /// Removes the draft. After a commit, only the lock remains to be removed. The lock is removed last, because it
-    /// marks the folder as a draft's.
+    /// Removes the draft. After a commit, only the lock remains to be removed. The lock is removed last,
+    /// because it marks the folder as belonging to a draft.
     fn drop(&mut self) {
         let removed = remove_tree(&self.tree());
-        // An empty folder holds no work. A folder with content stays, and so does the lock, which marks it as a
-        // draft's.
+        // An empty folder holds no work. A folder with content stays, and so does the lock that marks it as
+        // belonging to a draft.
         if fs::remove_dir(self.jobs()).is_err_and(|refused| refused.kind() != ErrorKind::NotFound) {
             return;
         }
@@ -472,14 +477,15 @@ pub(crate) mod tests {
         );
     }
 
-    /// The process killed by [`a_killed_run`]. When run on its own, this test finds no orders in its folder and
-    /// returns.
+    /// The process that [`a_killed_run`] kills. When run on its own, this test finds no instructions in its
+    /// folder and returns.
     #[test]
     fn victim() {
         if fs::read("orders").ok().as_deref() != Some(b"write until killed") {
             return;
         }
-        // If the other test ends without killing this process, its input ends too, and it must not keep running.
+        // If the other test ends without killing this process, the input ends too, and the process must not
+        // keep running.
         thread::spawn(|| {
             io::copy(&mut io::stdin(), &mut io::sink()).expect("readable");
             std::process::exit(1);

@@ -1,5 +1,5 @@
-//! Waits until names are on disk. A rename or a new folder is durable only after a sync of the folder that contains
-//! the name.
+//! Waits until names are on disk. A rename or a new folder is durable only after the folder that contains its
+//! name has been synced.
 
 use std::fs;
 use std::path::Path;
@@ -25,7 +25,7 @@ pub(super) fn sync_folder(folder: &Path) -> Result<(), SnapshotError> {
     Ok(())
 }
 
-/// A record of the folders synced by this thread.
+/// A record of the folders that this thread has synced.
 #[cfg(test)]
 mod record {
     use std::cell::RefCell;
@@ -47,7 +47,8 @@ mod tests {
     use super::super::tests::home;
     use super::record::synced;
 
-    /// A published release is synced from the deepest folder up to the folder that contains the release's name.
+    /// A published release is synced from the deepest folder up to the folder that contains the release's
+    /// name.
     #[test]
     fn new_names_are_synced() {
         let (home, _) = home();

@@ -1,5 +1,5 @@
-//! The columns of an export: their names, their types and the sources of their values. All formats, the dataset card
-//! and the documentation page (`docs/how-to/export.md`) follow this table.
+//! The columns of an export: their names, their types and the sources of their values. All formats, the
+//! dataset card and the documentation page (`docs/how-to/export.md`) are based on this table.
 
 use super::item::Item;
 use forge::card::{LevelCard, Origin};
@@ -25,7 +25,8 @@ pub enum ColumnKind {
     Flag,
     /// A list of texts, possibly empty.
     Texts,
-    /// A list of records, possibly empty. The value lists the fields and their types. Fields cannot be lists.
+    /// A list of records, possibly empty. The value lists the records' fields and their types. Fields cannot
+    /// be lists.
     Records(&'static [(&'static str, ColumnKind)]),
 }
 
@@ -62,7 +63,7 @@ impl ColumnKind {
 /// A column of an export.
 #[derive(Clone, Copy)]
 pub struct Column {
-    /// The values' type.
+    /// The column's name.
     pub name: &'static str,
     /// The type of its values.
     pub kind: ColumnKind,
@@ -74,7 +75,7 @@ impl Column {
         Column { name, kind, of }
     }
 
-    /// The columns that every export contains.
+    /// Returns the column's value for an item.
     pub(super) fn value(&self, item: &Item<'_>) -> Value {
         (self.of)(item)
     }
@@ -92,7 +93,7 @@ const LADDER: &[(&str, ColumnKind)] = &[
     ("reward", ColumnKind::MaybeNumber),
 ];
 
-/// The columns of every export.
+/// The columns that every export contains.
 const PLAIN: &[Column] = &[
     Column::new("item_id", ColumnKind::Text, |item| text(item.id())),
     Column::new("release", ColumnKind::Text, |item| text(&item.manifest.name)),
@@ -156,7 +157,7 @@ const PLAIN: &[Column] = &[
     Column::new("canary", ColumnKind::Text, |item| text(&item.manifest.canary)),
 ];
 
-/// The additional columns of exports with solutions, placed after the plain columns.
+/// The additional columns of exports with solutions, which follow the plain columns.
 const SOLUTIONS: &[Column] = &[
     Column::new("solution", ColumnKind::Texts, |item| {
         let actions = item.exported_level().witness.iter().flat_map(|episode| &episode.actions);

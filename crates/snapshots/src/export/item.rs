@@ -1,4 +1,4 @@
-//! The source of one row of an export: a level with its game, in the game's theme or as a twin.
+//! The source of an export's row: a level with its game, either in the game's own theme or as a twin.
 
 use crate::format::manifest::Manifest;
 use crate::released::{ReleasedGame, ReleasedLevel};
@@ -9,7 +9,7 @@ use forge::card::{Card, LevelCard};
 use std::borrow::Cow;
 use validators::{GameForm, GameKind};
 
-/// A game as exported: in its own theme or as a twin.
+/// A game as it is exported: in its own theme or as a twin.
 pub(super) struct ExportedGame<'a> {
     pub(super) title: String,
     pub(super) description: String,
@@ -22,7 +22,7 @@ pub(super) struct ExportedGame<'a> {
     /// The names of the types placed by each character, sorted by character.
     pub(super) legend: Vec<(char, String)>,
     pub(super) kind: GameKind,
-    /// The digest of the rules, independent of names and order.
+    /// The digest of the rules, which does not depend on names or order.
     pub(super) form: Digest,
 }
 

@@ -1,7 +1,7 @@
 //! Exports a release for other tools, as a dataset or as plain game folders. A dataset has one row per level, as
 //! JSON Lines or Parquet, and a dataset card for dataset hubs.
 //!
-//! The same release produces the same bytes. Solutions are excluded by default.
+//! The same release produces identical bytes. Solutions are excluded by default.
 
 mod columns;
 mod item;
@@ -31,7 +31,7 @@ pub struct Exported {
     pub games: usize,
     /// The number of exported levels.
     pub levels: usize,
-    /// The folders of games without such a twin, with the reasons.
+    /// The folders of games that have no twin of the requested kind, with the reasons.
     pub left_out: Vec<(String, TwinError)>,
 }
 
@@ -111,7 +111,8 @@ pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportEr
     Ok(Exported { files, games, levels, left_out })
 }
 
-/// Returns a game's rules and levels as files in their own folder: the form read by players and other tools.
+/// Returns a game's rules and levels as files in a folder of their own, the form that players and other tools
+/// read.
 fn folder(card: &Card, exported: &ExportedGame<'_>) -> Vec<(String, Vec<u8>)> {
     let file = |name: String, text: &str| (format!("{}/{name}", card.id), text.as_bytes().to_vec());
     let levels = exported.levels.iter().enumerate();

@@ -3,9 +3,9 @@
 use crate::twin::Twin;
 use std::fmt;
 
-/// The name of the only split. The whole release is for evaluation, but without a named split, tools treat
-/// everything as training data. To divide a release, for example by origin or difficulty, filter by a
-/// column.
+/// The name of the only split. The whole release is meant for evaluation, but without a named split, tools
+/// would treat everything as training data. To divide a release, for example by origin or difficulty, filter
+/// by a column.
 pub const SPLIT: &str = "test";
 
 /// The export format.
@@ -21,7 +21,7 @@ pub enum Format {
 }
 
 impl fmt::Display for Format {
-    /// Writes the format's name on the command line.
+    /// Writes the format's name as on the command line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Format::JsonLines => "jsonl",

@@ -1,5 +1,5 @@
-//! The `README.md` of an export: a dataset card in the form read by dataset hubs: YAML between two `---` lines,
-//! followed by Markdown.
+//! The `README.md` of an export: a dataset card in the form that dataset hubs read, with YAML between two
+//! `---` lines followed by Markdown.
 
 use super::columns::{Column, ColumnKind};
 use super::item::ExportedGame;
@@ -9,14 +9,14 @@ use crate::released::Released;
 use forge::card::{Card, Origin};
 use std::fmt::Write;
 
-/// The rows described by a card.
+/// The rows that a card describes.
 pub(super) struct Rows<'a> {
     /// The path of the file with the rows.
     pub(super) file: &'a str,
     /// The size of the file in bytes.
     pub(super) bytes: usize,
     pub(super) games: &'a [(&'a Card, ExportedGame<'a>)],
-    /// The number of levels: one per row.
+    /// The number of levels, which is also the number of rows.
     pub(super) levels: usize,
 }
 
@@ -27,7 +27,7 @@ pub(super) fn page(released: &Released, export: &Export, columns: &[Column], row
     text
 }
 
-/// Quotes a text for YAML, using JSON's quoting, which is valid in YAML.
+/// Quotes a text for YAML in the style of JSON, which is valid in YAML.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

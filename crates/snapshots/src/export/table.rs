@@ -1,7 +1,8 @@
 //! The Parquet format: the same rows, stored by column.
 //!
-//! The file uses plain format 1.0 without compression, with one row group and without a time or machine name in the
-//! footer, so the same rows produce the same bytes. Dictionary encoding makes repeated texts cheap.
+//! The file uses plain format 1.0 without compression, with one row group and without a time or machine name
+//! in the footer. The same rows therefore produce identical bytes. Dictionary encoding makes repeated texts
+//! cheap.
 
 use super::columns::{Column, ColumnKind};
 use parquet::basic::Compression;
@@ -131,7 +132,7 @@ impl<'a> Leaf<'a> {
     }
 }
 
-/// Returns a column's leaves: a single leaf, or one per field of its records.
+/// Returns a column's leaves: one for a plain column, or one per field of its records.
 fn leaves<'a>(kind: ColumnKind, rows: &[&'a Value]) -> Vec<Leaf<'a>> {
     let fields: Vec<ColumnKind> = match kind {
         ColumnKind::Records(fields) => fields.iter().map(|(_, kind)| *kind).collect(),
@@ -208,7 +209,7 @@ mod tests {
         vec![full.clone(), nothing, full]
     }
 
-    /// After reading back, lists begin and end at the same positions, and nulls are preserved.
+    /// Reading a file back gives lists that begin and end at the same positions, and the same nulls.
     #[test]
     fn rows_are_read_back() {
         let bytes = write(&columns(), &rows(), "the canary").unwrap();

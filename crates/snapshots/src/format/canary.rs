@@ -3,13 +3,13 @@
 
 use base::Digest;
 
-/// The key derivation context. The context belongs to format 1: changing it changes every canary.
+/// The key derivation context. It belongs to format 1: changing it changes every canary.
 const CONTEXT: &str = "infinite-arcade 1 canary";
 
 /// Derives the canary of a sealed release from its commitment, or of an open release from its recipe's digest.
 ///
-/// The canary is the first 16 bytes of BLAKE3's `derive_key(CONTEXT, of)` as an RFC 9562 version 8 GUID in lower
-/// case. The canary reveals nothing about the content behind `of`.
+/// The canary is the first 16 bytes of BLAKE3's `derive_key(CONTEXT, of)` as an RFC 9562 version 8 GUID in
+/// lower case. It reveals nothing about the content behind `of`.
 pub fn canary(of: &Digest) -> String {
     let key = blake3::derive_key(CONTEXT, of.as_bytes());
     let mut text = String::with_capacity(36);

@@ -1,9 +1,9 @@
 //! Reads an untrusted release folder. Links are not followed, only regular files are opened, and every size is
 //! bounded before any content is read.
 //!
-//! The folder specified by the user may itself be reached through a link, but nothing inside the folder may. The only
-//! defence against a folder that changes *while* being read is that, on Unix, an opened file is compared with the
-//! examined file.
+//! The folder specified by the user may itself be reached through a link, but nothing inside it may. The only
+//! defence against a folder that changes *while* it is being read is that, on Unix, an opened file is
+//! compared with the file that was examined.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, Metadata};
@@ -43,20 +43,21 @@ pub struct Entry {
 /// The content of a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Listing {
-    /// The regular files allowed in a release, sorted by the bytes of their paths.
+    /// The regular files that are allowed in a release, sorted by the bytes of their paths.
     pub entries: Vec<Entry>,
     /// The problems with all other entries, sorted.
     pub problems: Vec<Problem>,
     /// The skipped top-level names, sorted.
     pub passed_over: Vec<String>,
-    /// `true` if the whole folder was listed, and `false` after [`Flaw::TooMany`]. After [`Flaw::TooMany`], there are
-    /// no entries.
+    /// `true` if the whole folder was listed, or `false` after [`Flaw::TooMany`], in which case there are no
+    /// entries.
     pub complete: bool,
 }
 
 /// Walks the folder `root`. The result does not depend on the system's listing order.
 ///
-/// Links, special files, unsafe names, empty folders and exceeded limits are problems, not errors.
+/// Links, special files, unsafe names, empty folders and exceeded limits are reported as problems, not
+/// errors.
 ///
 /// Costs one examination per name, for at most twice `limits.files` names. Files are not opened.
 ///
@@ -66,7 +67,7 @@ pub fn list(root: &Path, limits: &Limits) -> Result<Listing, SnapshotError> {
     list_but(root, limits, &[])
 }
 
-/// Lists a folder like [`list`], but skips top-level entries with one of the given names.
+/// Lists a folder like [`list`], but skips top-level entries that have one of the given names.
 pub(crate) fn list_but(root: &Path, limits: &Limits, names: &[&str]) -> Result<Listing, SnapshotError> {
     let (mut entries, mut problems, mut passed_over) = (Vec::new(), Vec::new(), Vec::new());
     let (mut files, mut folders, mut total) = (0, 0, 0_u64);
@@ -149,7 +150,7 @@ pub(crate) fn digest(root: &Path, relative: &str, limit: u64) -> Result<(u64, Di
     Ok((hasher.count(), Digest::from_bytes(*hasher.finalize().as_bytes())))
 }
 
-/// Opens the regular file at `relative` below `root` without passing through a link.
+/// Opens the regular file at `relative` below `root` without following any link.
 pub(crate) fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
     check_path(relative).map_err(|problem| SnapshotError::Path { path: relative.into(), problem })?;
     let mut path = root.to_path_buf();
@@ -183,7 +184,7 @@ pub(crate) fn open(root: &Path, relative: &str) -> Result<File, SnapshotError> {
     }
 }
 
-/// Returns the path of `name` in `folder`, and the result of checking this path. A name that is not Unicode is shown
+/// Returns the path of `name` in `folder`, and the result of checking that path. A non-Unicode name is shown
 /// approximately.
 fn relative(folder: &str, name: &OsStr) -> (String, Result<(), PathProblem>) {
     let separator = if folder.is_empty() { "" } else { "/" };
@@ -334,7 +335,7 @@ mod tests {
             for path in ["file", "folder/b", "dangling", "self/a", "self/self/a"] {
                 assert!(matches!(read(&root, path, 9), Err(SnapshotError::Link(_))), "{path}");
             }
-            // The folder that the user specifies may be a link.
+            // The folder specified by the user may itself be a link.
             symlink("in", home.path().join("alias")).expect("linked");
             assert_eq!(read(&home.path().join("alias"), "a", 9).expect("readable"), b"x");
         }

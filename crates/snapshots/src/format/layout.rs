@@ -10,10 +10,10 @@ pub const RELEASE_CARD_FILE: &str = "CARD.json";
 
 /// The withheld file that contains a sealed release's secret.
 pub const SECRET_FILE: &str = "held/secret.json";
-/// The folder for a sealed release's files that are withheld until the reveal.
+/// The folder of a sealed release's files that are withheld until the reveal.
 pub const HELD: &str = "held/";
 
-/// Returns the path of a level's witness in a release. `game` is the game's folder in `games`.
+/// Returns the path of a level's witness in a release. `game` is the name of the game's folder in `games`.
 pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> String {
     match kind {
         ReleaseKind::Open => format!("games/{game}/witness/lvl{level}.json"),
@@ -24,7 +24,8 @@ pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> Strin
 /// The folder for withheld siblings.
 pub(crate) const SIBLINGS: &str = "held/siblings/";
 
-/// Returns a file path in a game's withheld sibling. `game` is the game's folder in `games`.
+/// Returns the path of a file in a game's withheld sibling. `game` is the name of the game's folder in
+/// `games`.
 pub(crate) fn sibling_path(game: &str, file: &str) -> String {
     format!("{SIBLINGS}{game}/{file}")
 }

@@ -1,4 +1,4 @@
-//! A Merkle tree over a release's files. One file can be proved without the rest.
+//! A Merkle tree over a release's files, with which one file can be proved without the others.
 //!
 //! The shape follows RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n). The hash is
 //! BLAKE3. Leaves and nodes are domain-separated, so that neither can pass for the other:
@@ -9,7 +9,7 @@
 //! empty = BLAKE3("")
 //! ```
 //!
-//! Leaves are ordered by the bytes of their paths. This layout is fixed for format 1.
+//! Leaves are ordered by the bytes of their paths. Format 1 fixes this layout.
 //!
 //! A proof shows that a leaf, including its path, is in the tree. As in RFC 6962, a proof does not bind the *number*
 //! of leaves. `size` only determines the shape to follow, and a different size can describe the same path to the
@@ -23,14 +23,14 @@ use base::Digest;
 /// A file in the tree.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Leaf {
-    /// The relative path, `/`-separated. The tree hashes the path's bytes without checking them: see
-    /// [`check_path`](crate::check_path).
+    /// The relative path, `/`-separated. The tree hashes the path's bytes without checking the path (see
+    /// [`check_path`](crate::check_path)).
     pub path: String,
     /// The digest of the file's content.
     pub digest: Digest,
 }
 
-/// Two leaves have the same path, which makes the tree ambiguous.
+/// The error for two leaves with the same path, which would make the tree ambiguous.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{}` is listed twice: list each file once", path.escape_debug())]
 pub struct DuplicatePath {
@@ -49,7 +49,8 @@ pub fn root(leaves: &[Leaf]) -> Result<Digest, DuplicatePath> {
 
 /// Returns the proof for the leaf at `path` in the tree over `leaves`, which may be in any order. Cost: O(n log n).
 ///
-/// Returns `None` if no leaf has that path, or if any two leaves share a path, in which case no tree exists.
+/// Returns `None` if no leaf has that path, or if any two leaves have the same path, in which case no tree
+/// exists.
 pub fn prove(leaves: &[Leaf], path: &str) -> Option<Proof> {
     let leaves = sorted(leaves).ok()?;
     let index = leaves.binary_search_by(|leaf| leaf.path.as_str().cmp(path)).ok()?;
@@ -59,7 +60,7 @@ pub fn prove(leaves: &[Leaf], path: &str) -> Option<Proof> {
     Some(Proof { index: index as u64, size: hashes.len() as u64, siblings })
 }
 
-/// The hashes on the way from a leaf to the root: the audit path of RFC 6962 §2.1.1.
+/// The hashes on the path from a leaf to the root: the audit path of RFC 6962 §2.1.1.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Proof {
@@ -67,19 +68,19 @@ pub struct Proof {
     pub index: u64,
     /// The number of leaves in the tree.
     pub size: u64,
-    /// The sibling subtrees' roots, from the leaf's sibling to the root's child.
+    /// The roots of the sibling subtrees, from the leaf's sibling to the root's child.
     pub siblings: Vec<Digest>,
 }
 
 impl Proof {
-    /// Returns `true` if `leaf` is in the tree with the given root; `false` also for a malformed proof. Cost: at
-    /// most 64 hashes.
+    /// Returns `true` if `leaf` is in the tree with the given root, and `false` if it is not or the proof is
+    /// malformed. Cost: at most 64 hashes.
     pub fn verify(&self, leaf: &Leaf, root: &Digest) -> bool {
         if self.index >= self.size {
             return false;
         }
-        // RFC 9162 §2.1.3.2: the bits of `position` give our side of each sibling. `last` is the position of the
-        // rightmost node on the same level, which has no sibling if the tree is ragged.
+        // RFC 9162 §2.1.3.2: the bits of `position` state on which side of us each sibling is. `last` is the
+        // position of the rightmost node on the same level, which has no sibling if the tree is ragged.
         let (mut position, mut last) = (self.index, self.size - 1);
         let mut hash = leaf_hash(leaf);
         for sibling in &self.siblings {
@@ -153,7 +154,7 @@ fn collect_siblings(hashes: &[Digest], index: usize, siblings: &mut Vec<Digest>)
     }
 }
 
-/// Returns the largest power of two smaller than `count`. `count` must be at least 2.
+/// Returns the largest power of two smaller than `count`, which must be at least 2.
 fn split(count: usize) -> usize {
     count.next_power_of_two() / 2
 }
@@ -174,8 +175,8 @@ mod tests {
         Digest::from_bytes(bytes)
     }
 
-    /// The roots were computed by an independent implementation (Python, BLAKE3 from its paper) from the module's
-    /// formulas.
+    /// The roots were computed from the module's formulas by an independent implementation (Python, with
+    /// BLAKE3 according to its paper).
     #[test]
     fn golden_roots() {
         for (count, expected) in [
@@ -211,7 +212,8 @@ mod tests {
         assert_eq!(prove(&[], "f0"), None);
     }
 
-    /// Moving a byte between a path and its neighbour, or passing a node as a leaf, must not give the same hash.
+    /// Moving a byte between a path and its neighbour, or passing off a node as a leaf, must not give the
+    /// same hash.
     #[test]
     fn leaves_are_unambiguous() {
         let digest = Digest::of(b"x");
@@ -261,8 +263,8 @@ mod tests {
         }
     }
 
-    /// The rightmost leaf is rightmost in a tree of any size, so the siblings must be used up exactly for the stated
-    /// size.
+    /// The rightmost leaf is rightmost in a tree of any size, so the siblings must be used up exactly at the
+    /// stated size.
     #[test]
     fn a_size_that_ends_too_early_fails() {
         let leaves = leaves(8);

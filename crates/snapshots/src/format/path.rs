@@ -6,7 +6,7 @@ pub const MAX_PATH: usize = 255;
 /// The maximum number of components in a path: its folders and its file. Releases use up to four components.
 pub const MAX_COMPONENTS: usize = 16;
 
-/// A reason why a path is not allowed in a release.
+/// A reason why a release must not contain a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathProblem {

@@ -1,4 +1,4 @@
-//! The plausibility of the versions stated in a manifest.
+//! Checks of whether the versions stated in a manifest are plausible.
 
 use crate::format::version::{CURRENT, MintedBy, VERSIONS, Version};
 
@@ -6,8 +6,8 @@ use crate::format::version::{CURRENT, MintedBy, VERSIONS, Version};
 /// the previous releases' content in the recipe.
 pub(crate) const CARD_AND_CANARY_SINCE: u32 = 7;
 
-/// Returns the reason why no version of `arcade` can have minted a release with the given numbers; `None` if a
-/// version, possibly a later one, can have minted the release.
+/// Returns the reason why no version of `arcade` can have minted a release with the given numbers; `None` if
+/// some version, possibly a later one, can have minted it.
 pub(crate) fn impossible(minted_by: &MintedBy) -> Option<String> {
     let &MintedBy { ref version, generation, semantics } = minted_by;
     let never = format!("GENERATION {generation} never had SEMANTICS {semantics}");

@@ -1,18 +1,18 @@
-//! The problems that can be found in an untrusted release folder. Problems are data rather than errors, so that all
-//! can be reported together.
+//! The problems that can be found in an untrusted release folder. They are data rather than errors, so that
+//! all of them can be reported together.
 
 use crate::format::path::PathProblem;
 use base::Digest;
 
-/// A problem with a release folder. Problems are ordered by the bytes of the path, then by flaw.
+/// A problem with a release folder. Problems are sorted by the bytes of the path, then by flaw.
 ///
 /// `Display` writes the path and the flaw, escaped for printing:
 /// `games/x/lvl0.txt: altered (digest 12ab34cd…, the manifest says 56ef7890…)`.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[error("{}: {flaw}", path.escape_debug())]
 pub struct Problem {
-    /// The path, relative to the release folder and `/`-separated, or `.` for the folder itself. A name that is not
-    /// Unicode is shown approximately.
+    /// The path, relative to the release folder and `/`-separated, or `.` for the folder itself. A
+    /// non-Unicode name is shown approximately.
     pub path: String,
     /// The flaw at the path.
     pub flaw: Flaw,
@@ -31,7 +31,7 @@ pub enum Flaw {
     /// An empty folder, which a manifest cannot list.
     #[error("extra (an empty folder)")]
     EmptyFolder,
-    /// The size differs from the stated size, so the content was not read.
+    /// The size differs from the stated one, so the content was not read.
     #[error("wrong size ({found} bytes, but the manifest states {stated})")]
     Size {
         /// The size in the folder, in bytes.
@@ -39,7 +39,7 @@ pub enum Flaw {
         /// The stated size, in bytes.
         stated: u64,
     },
-    /// The content differs from the stated digest.
+    /// The content does not match the stated digest.
     #[error("altered (the digest is {}, but the manifest states {})", short(found), short(stated))]
     Altered {
         /// The digest of the file in the folder.
@@ -53,7 +53,7 @@ pub enum Flaw {
     /// A pipe, socket or device, which was not opened.
     #[error("neither a file nor a folder")]
     Special,
-    /// A name not allowed in a release. A folder with such a name was not entered.
+    /// A name that a release must not contain. A folder with such a name was not entered.
     #[error("unsafe name ({0})")]
     Name(PathProblem),
     /// A file larger than the limit for one file.
@@ -64,7 +64,7 @@ pub enum Flaw {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// The number of files or folders exceeds the limit. The remaining entries were not examined, and no other
+    /// The folder contains too many files or folders. The remaining entries were not examined, and no other
     /// problem with the folder's content is reported.
     #[error("more than {limit} files or folders")]
     TooMany {
@@ -79,14 +79,14 @@ pub enum Flaw {
         /// The limit, in bytes.
         limit: u64,
     },
-    /// The manifest is not in this format's canonical form (whitespace, order, line endings, a missing or duplicate
-    /// field). Its meaning is intact, but its bytes differ from the minted bytes.
+    /// The manifest is not in this format's canonical form (whitespace, order, line endings, a missing or
+    /// duplicate field). Its meaning is intact, but its bytes differ from the minted ones.
     #[error("not in canonical form (the text differs from the minted form)")]
     NotCanonical,
     /// A file is not a list of withheld files, although its digest matches the commitment.
     #[error("not a list of withheld files ({0})")]
     NotAList(String),
-    /// An archive entry, or the archive itself, differs from its packed form.
+    /// An archive entry, or the archive itself, is not in the form in which archives are packed.
     #[error("different from the packed form ({0})")]
     NotAsPacked(String),
     /// The stated checksum differs from the checksum computed from the stated root, lock file and sizes.
@@ -102,7 +102,7 @@ pub enum Flaw {
     },
 }
 
-/// Returns a prefix that identifies a digest. A [`Problem`] itself contains the whole digest.
+/// Returns a prefix that identifies a digest. The [`Problem`] itself contains the whole digest.
 fn short(digest: &Digest) -> String {
     let text = digest.to_string();
     format!("{}…", &text[..8])

@@ -1,8 +1,8 @@
-//! The versions of the suite, and the generation minted by each version.
+//! The versions of the suite, and the generation that each of them mints.
 //!
-//! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row in [`VERSIONS`], a
-//! new workspace version and a new changelog section. Tests check that all three agree. A fix that does not change
-//! any minted byte raises the workspace's `p` and does not add a row.
+//! Version `0.G.p` mints `GENERATION` G. Raising `GENERATION` or `SEMANTICS` requires a new row in
+//! [`VERSIONS`], a new workspace version and a new changelog section. Tests check that all three agree. A fix
+//! that changes no minted byte raises the workspace's `p` without adding a row.
 
 use std::fmt;
 
@@ -19,7 +19,8 @@ pub struct Version {
     pub commit: Option<&'static str>,
 }
 
-/// Every version that minted different bytes, from oldest to newest. The last entry is the current version.
+/// Every version that mints different bytes from its predecessor, from oldest to newest. The last entry is
+/// the current version.
 pub const VERSIONS: &[Version] = &[
     superseded("0.1.0", 1, 1, "73214b9b5e56768a2dc20881f6d9dab5ceeba5fe"),
     superseded("0.2.0", 2, 2, "2bd65cebcea99b65f4bc1dea74290f2a24b95701"),
@@ -59,7 +60,7 @@ impl Version {
         VERSIONS.iter().find(|version| (version.generation, version.semantics) == (generation, semantics))
     }
 
-    /// Returns the commands that install the version, to be run in a repository clone.
+    /// Returns the commands that install the version, to be run in a clone of the repository.
     pub fn install_command(&self) -> String {
         let revision = match self.commit {
             Some(commit) => commit[..12].to_owned(),
@@ -76,10 +77,10 @@ impl fmt::Display for Version {
     }
 }
 
-/// The first generation whose binary is in `crates/cli`. The binaries of earlier generations are in `cli`.
+/// The first generation whose binary is in `crates/cli`. Earlier generations have it in `cli`.
 const IN_CRATES: u32 = 14;
 
-/// Returns the commands that install `revision`, to be run in a repository clone.
+/// Returns the commands that install `revision`, to be run in a clone of the repository.
 fn install_command(revision: &str, folder: &str) -> String {
     format!("git fetch --tags && git checkout {revision} && cargo install --locked --path {folder}")
 }
@@ -97,8 +98,8 @@ pub struct MintedBy {
 }
 
 impl MintedBy {
-    /// Returns the commands that install the version; `None` if neither the manifest nor this binary states the
-    /// version.
+    /// Returns the commands that install the version; `None` if neither the manifest nor this binary states
+    /// it.
     pub fn install_command(&self) -> Option<String> {
         match (Version::that_mints(self.generation, self.semantics), &self.version) {
             (Some(known), _) => Some(known.install_command()),
@@ -119,8 +120,8 @@ impl fmt::Display for MintedBy {
     }
 }
 
-/// Returns `true` if a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and therefore safe in a
-/// suggested command.
+/// Returns `true` if a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and is therefore safe
+/// in a suggested command.
 pub(crate) fn is_version_number(text: &str) -> bool {
     let is_number = |part: &str| {
         (1..=9).contains(&part.len())

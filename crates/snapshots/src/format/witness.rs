@@ -1,4 +1,4 @@
-//! `witness/lvl<n>.json`: an episode that proves a level winnable.
+//! `witness/lvl<n>.json`, which contains an episode that proves a level winnable.
 
 use base::SeedStep;
 use engine::Episode;
@@ -12,9 +12,9 @@ pub struct Witness {
     pub canary: String,
     /// The episode, which replays to a win.
     pub episode: Episode,
-    /// The steps from the release's root seed to the episode's seed, with one [`Seed::child`](base::Seed::child) per
-    /// step. In sealed releases, the steps allow checking a revealed secret without minting. In open releases, the
-    /// list is empty.
+    /// The steps from the release's root seed to the episode's seed, with one
+    /// [`Seed::child`](base::Seed::child) per step. In sealed releases, the steps make it possible to check a
+    /// revealed secret without minting. In open releases, the list is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<SeedStep>,
 }

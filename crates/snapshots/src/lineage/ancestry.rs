@@ -1,4 +1,4 @@
-//! A release's ancestors: the games and levels that a new release must not repeat.
+//! A release's ancestors, whose games and levels a new release must not repeat.
 
 use crate::Digest;
 use crate::contents::Contents;
@@ -20,7 +20,7 @@ use validators::novelty::GameForm;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AncestryError {
-    /// The recipe states a different parent than the given release.
+    /// The recipe states a parent other than the given release.
     #[error("the recipe's parent is {asked}, but the root of `{name}` is {found}")]
     OtherParent {
         /// The root stated in the recipe.
@@ -33,7 +33,7 @@ pub enum AncestryError {
     /// The parent is damaged.
     #[error("the parent does not verify: {0}")]
     Damaged(String),
-    /// The parent's record of its own ancestors has a different version's format.
+    /// The parent's record of its own ancestors is in a different version's format.
     #[error("the parent's list of earlier releases cannot be read ({0}): use the arcade that minted it")]
     Unreadable(serde_json::Error),
     /// An ancestor has the same name.
@@ -44,7 +44,7 @@ pub enum AncestryError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// A release's games and levels that later releases must not repeat.
+/// The games and levels of a release that later releases must not repeat.
 #[derive(Debug, Default)]
 pub(crate) struct Holdings {
     /// The rules of the release's generated games, without names, in item order.
@@ -95,7 +95,7 @@ impl Holdings {
     }
 
     /// Returns the `known` field for a release that follows the release described by `manifest`. `self` must
-    /// contain the games and levels of that release.
+    /// contain the games and levels of the latter.
     ///
     /// # Errors
     /// Returns an error if the manifest's own `known` field has a different version's format.
@@ -115,8 +115,8 @@ impl Holdings {
     }
 }
 
-/// Makes a recipe follow the release at `parent`, a folder or an archive. The recipe then states the parent's root,
-/// and lists the games and levels of the parent and all its ancestors.
+/// Makes a recipe follow the release at `parent`, a folder or an archive. The recipe then states the parent's
+/// root, and lists the games and levels of the parent and of all its ancestors.
 ///
 /// Cost: one pass over the files, and a few milliseconds per game.
 ///

@@ -1,4 +1,4 @@
-//! The chain of releases. Each release states the root of its predecessor, so history cannot be changed without
+//! The chain of releases. Each release states its predecessor's root, so history cannot be changed without
 //! changing every later release.
 
 use base::MessagePath;
@@ -22,7 +22,7 @@ use base::Digest;
 use engine::SEMANTICS;
 use generators::GENERATION;
 
-/// The maximum number of releases, and also of other entries, in a folder being searched for releases.
+/// The maximum number of releases, and also of other entries, in a folder that is searched for releases.
 pub const MAX_RELEASES: usize = 10_000;
 
 /// The properties of a release that matter for the chain.
@@ -60,7 +60,7 @@ pub struct Chain {
     pub complete: bool,
     /// The number of other given releases, which are not part of the chain.
     pub others: usize,
-    /// The problems; empty if the chain is complete and does not compete with a second history.
+    /// The problems; empty if the chain is complete and has no competing history.
     pub problems: Vec<String>,
 }
 
@@ -106,7 +106,7 @@ pub fn follow(start: Link, folders: &[PathBuf]) -> Result<Chain, SnapshotError> 
     Ok(chain)
 }
 
-/// Checks the release at `place`, and returns a message if it is unsound.
+/// Checks the release at `place`, and returns a message if the release is unsound.
 fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     let wrong = |what: &dyn std::fmt::Display| Ok(Err(format!("{}: {what}", place.in_message())));
     match integrity_of(place) {
@@ -126,8 +126,8 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
 /// Checks that each release in a chain lists the content of its predecessors, and repeats no part of that content.
 /// The releases are passed newest first.
 ///
-/// `known` is compared as a whole if this version of arcade would write it in the same form. For a release of a
-/// different generation, only the names of its predecessors are compared.
+/// `known` is compared as a whole if this version of arcade would write it in the same form. For releases of
+/// a different generation, only the names of their predecessors are compared.
 pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
     let (mut forms, mut items) = (BTreeMap::new(), BTreeMap::new());
@@ -184,8 +184,8 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
     Ok(problems)
 }
 
-/// Returns the releases at `folder` or directly below it, sorted by name. Ignores all other content, and does not
-/// follow links.
+/// Returns the releases at `folder` or directly below it, sorted by name. Other content is ignored, and links
+/// are not followed.
 pub(crate) fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> {
     let is_release = |place: &Path| fs::symlink_metadata(place.join(MANIFEST_FILE)).is_ok();
     let found = fs::metadata(folder).map_err(|source| match source.kind() {
@@ -253,7 +253,7 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
     let mut names: BTreeMap<&str, &Link> = BTreeMap::new();
     let followers: BTreeMap<Digest, &Link> =
         releases.iter().filter_map(|link| Some((link.parent?, link))).collect();
-    // The chain's own releases come first, because the others are compared with them.
+    // The chain's own releases come first, because all others are compared with them.
     let others: Vec<&Link> = by_root.values().filter(|link| !passed.contains(&link.root)).collect();
     for link in releases.iter().chain(others.iter().copied()) {
         if let Some(other) = names.insert(&link.name, link) {
@@ -318,7 +318,7 @@ mod tests {
         let (one, two, three) = (link("1", "a", None), link("2", "b", Some("a")), link("3", "c", Some("b")));
         check(one.clone(), vec![], &["1"], true, &[]);
         check(three.clone(), vec![one.clone(), two.clone()], &["3", "2", "1"], true, &[]);
-        // The start is among the given releases, one release is given twice, and one is unrelated.
+        // The start is among the given releases, one release is given twice, and one release is unrelated.
         let given = vec![two.clone(), one.clone(), two.clone(), three.clone(), link("tiny", "t", None)];
         check(three.clone(), given.clone(), &["3", "2", "1"], true, &[]);
         assert_eq!(join(three.clone(), given, Vec::new()).others, 1);
@@ -363,8 +363,8 @@ mod tests {
         check(three, vec![homonym, two], &["3", "2", "3"], true, &["two releases are called `3`"]);
     }
 
-    /// Sound releases cannot form a cycle, because a root covers the parent's root, but the walk must end in any
-    /// case.
+    /// Sound releases cannot form a cycle, because a root covers the parent's root, but the walk must
+    /// terminate in any case.
     #[test]
     fn rings_end() {
         let (one, two) = (link("1", "a", Some("b")), link("2", "b", Some("a")));

@@ -1,7 +1,9 @@
-//! A release's available ancestors, and the claims that can be checked without having all ancestors.
+//! A release's available ancestors, and the claims that can be checked even if some ancestors are
+//! unavailable.
 //!
-//! [`chain::follow`](crate::lineage::chain::follow) requires every release in a chain and judges every given release.
-//! In contrast, this module ends the chain at the first unavailable release, and ignores releases outside the chain.
+//! [`chain::follow`](crate::lineage::chain::follow) requires every release in a chain and judges every given
+//! release. In contrast, this module ends the chain at the first unavailable release and ignores releases
+//! outside the chain.
 
 pub(crate) mod ancestry;
 pub mod chain;
@@ -23,12 +25,12 @@ pub struct Ancestor {
     pub root: Digest,
     /// The release; `None` if it was not found.
     pub link: Option<Link>,
-    /// The reasons why the found release does not have the stated root; empty if the root matches, or if no release
-    /// was found.
+    /// The reasons why the release found does not have the stated root; empty if the root matches, or if no
+    /// release was found.
     pub problems: Vec<String>,
 }
 
-/// A release's ancestors.
+/// The ancestors of a release.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lineage {
     /// The ancestors, from the parent back. Only the last ancestor can be absent or damaged.
@@ -37,14 +39,15 @@ pub struct Lineage {
     pub complete: bool,
     /// The folders and archives that could not be read, with the reasons.
     pub unread: Vec<String>,
-    /// The problems with the history as a whole: duplicate names, inconsistent lists of earlier content, and repeated
-    /// content.
+    /// The problems with the history as a whole: duplicate names, inconsistent lists of earlier content, and
+    /// repeated content.
     pub problems: Vec<String>,
 }
 
-/// Follows the roots from `start` back among the releases in `folders`. Each folder is a release (folder or archive)
-/// or contains releases. Only the ancestors' integrity is checked. `heard` is called with each ancestor after its
-/// check, and can end the search by returning `false`. `start` must have been verified.
+/// Follows the roots from `start` back among the releases in `folders`. Each folder is a release (folder or
+/// archive) or contains releases. Only the ancestors' integrity is checked. `heard` is called with each
+/// ancestor after it has been checked, and can end the search by returning `false`. `start` must have been
+/// verified already.
 ///
 /// Cost: reading the manifests in the folders, two passes over the files of each ancestor, and one pass over each
 /// archive if a root is not found in any folder.
@@ -86,7 +89,7 @@ pub fn trace(
     Ok(Lineage { ancestors, complete, unread: candidates.unread, problems })
 }
 
-/// The releases in which to search for ancestors.
+/// The releases among which ancestors are searched for.
 struct Candidates {
     /// The release folders, with their stated roots.
     folders: Vec<(Digest, PathBuf)>,
@@ -129,8 +132,8 @@ impl Candidates {
         self.unread.push(format!("{error}{reason}"));
     }
 
-    /// Returns the release with the given root, preferring a sound one. If none is sound, returns the first release
-    /// that states this root, with its problems.
+    /// Returns the release with the given root, preferably a sound one. If none is sound, returns the first
+    /// release that states this root, with its problems.
     fn find(&mut self, root: Digest) -> Ancestor {
         let mut damaged = None;
         let places: Vec<PathBuf> = self

@@ -1,4 +1,4 @@
-//! A release's `CARD.json`: planned and achieved figures, ladder results, novelty, and composition.
+//! A release's `CARD.json`: planned and achieved figures, the ladder's results, novelty, and composition.
 
 use super::Plan;
 use super::select::{Contender, bins};

@@ -1,4 +1,4 @@
-//! The errors of minting.
+//! The errors that minting can return.
 
 use crate::error::SnapshotError;
 use crate::recipe::error::RecipeError;
@@ -8,7 +8,7 @@ use validators::CriteriaError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MintError {
-    /// The recipe is invalid, or is sealed and its secret is missing.
+    /// The recipe is invalid, or it is sealed and its secret is missing.
     #[error(transparent)]
     Recipe(#[from] RecipeError),
     /// The recipe requests more corpus games than the corpus contains.
@@ -50,7 +50,7 @@ pub enum MintError {
         /// The recommended next step.
         advice: String,
     },
-    /// The recipe requests more games than can be generated. Detected before anything is minted.
+    /// The recipe requests more games than can be generated. This is detected before anything is minted.
     #[error("`{part}.games` is {asked}, but the limit is {most}: {why}; {advice}")]
     Unfillable {
         /// The recipe section.
@@ -69,15 +69,15 @@ pub enum MintError {
     Uneven {
         /// The number of candidates.
         candidates: usize,
-        /// The requirements not met by the best selection.
+        /// The requirements that the best selection does not meet.
         missed: String,
         /// The recommended next step.
         advice: String,
     },
-    /// The drawn secret does not look random, which has a probability of one in a billion.
+    /// The drawn secret does not look random, which happens by chance only once in a billion.
     #[error("the drawn secret is unusable: {0}; draw again")]
     Unlucky(String),
-    /// A recipe section adds a part to games, and the part could not be created.
+    /// A recipe section adds a part to games, but the part could not be created.
     #[error("{section}: {message}")]
     Section {
         /// The section's name.

@@ -1,4 +1,4 @@
-//! Conversion of the selected games into files and a manifest.
+//! Converts the selected games into files and a manifest.
 
 use super::plan::Plan;
 use crate::Digest;
@@ -21,17 +21,19 @@ use forge::card::{Card, Origin};
 use forge::games::marked;
 use std::fmt::Write;
 
-/// A function called with the relative path and content of each release file as soon as the file is created.
+/// A function called with the relative path and the content of each release file as soon as the file has been
+/// created.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), SnapshotError> + 'a;
 
-/// A release that is being written. Its files are sent to a sink, and the data for the manifest is retained.
+/// A release that is being written. Its files are sent to a sink, and only the data for the manifest is
+/// retained.
 pub(super) struct Folder<'a, 'b> {
     sink: &'a mut Sink<'b>,
     recipe: &'a Recipe,
     canary: String,
     kind: ReleaseKind,
     items: Vec<Item>,
-    /// The written games, without texts or episodes.
+    /// The games written so far, without texts or episodes.
     games: Vec<FrozenGame>,
 }
 
@@ -75,7 +77,7 @@ impl<'a, 'b> Folder<'a, 'b> {
         let won = levels.into_iter().zip(std::mem::take(&mut game.witnesses)).zip(paths).enumerate();
         for (number, ((level, episode), path)) in won {
             self.file(format!("{folder}/lvl{number}.txt"), level.as_bytes())?;
-            // The seed of an open release is known, and all other seeds are derived from it.
+            // An open release's seed is known, and all other seeds are derived from it.
             let path = if self.kind == ReleaseKind::Sealed { path } else { Vec::new() };
             let witness = Witness { canary: self.canary.clone(), episode, path };
             self.file(witness_path(self.kind, &game.card.id, number), &json(&witness)?)?;
@@ -84,8 +86,8 @@ impl<'a, 'b> Folder<'a, 'b> {
         Ok(())
     }
 
-    /// Writes the files that describe the release as a whole, and returns its manifest, which the caller
-    /// must write.
+    /// Writes the files that describe the release as a whole, and returns its manifest. The caller must write
+    /// the manifest.
     pub(super) fn finish(
         mut self,
         secret: Option<&Secret>,

@@ -1,5 +1,5 @@
-//! Converts generated games to a job's games: adds published ladder results, tiers, and the paths to the witnesses'
-//! seeds.
+//! Converts generated games into a job's games: adds the ladder results to publish, tiers, and the paths to
+//! the witnesses' seeds.
 
 use crate::sections::frozen::FrozenGame;
 use base::SeedPath;
@@ -8,9 +8,9 @@ use forge::games::MadeGame;
 use validators::{Case, CheckedCriteria, Demand, shorter_win};
 
 impl FrozenGame {
-    /// Converts a generated game. `criteria` are its judges' criteria. If the criteria include a ladder, its players
-    /// play again with fresh seeds, because accepted levels were lucky in the episodes that led to acceptance. If
-    /// `measured` is set, the tier of every level without a tier is measured.
+    /// Converts a generated game. `criteria` are its judges' criteria. If the criteria include a ladder, its
+    /// players play again with fresh seeds, because the episodes that led to a level's acceptance are biased
+    /// by luck. If `measured` is set, the tier of every level without a tier is measured.
     pub(super) fn of(mut made: MadeGame, criteria: &CheckedCriteria, measured: bool) -> FrozenGame {
         let ladders = made.card.levels.iter().filter_map(|level| level.ladder.as_ref());
         let difficulties = ladders.map(|ladder| ladder.difficulty).collect();
@@ -48,7 +48,7 @@ fn measure(made: &mut MadeGame) {
     }
 }
 
-/// Replaces the ladders on a game card with new ladders from fresh seeds.
+/// Replaces the ladders on a game's card with new ladders, played with fresh seeds.
 fn climb_again(made: &mut MadeGame, seed: &SeedPath, criteria: &CheckedCriteria) {
     let players = criteria.players();
     let analysis = Analysis::of(&made.game);

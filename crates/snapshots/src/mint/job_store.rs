@@ -1,5 +1,5 @@
-//! Job stores: storage for finished jobs' results until all jobs are done, in memory or in a folder that
-//! outlives the process.
+//! Job stores, which keep the results of finished jobs until all jobs are done, either in memory or in a
+//! folder that outlives the process.
 
 use crate::Digest;
 use crate::error::SnapshotError;
@@ -15,7 +15,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// A store for finished jobs' results, by name. Can be used from several threads.
+/// A store for the results of finished jobs, by name. It can be used from several threads.
 pub trait JobStore: Sync {
     /// Returns a stored result; `None` if the result is missing or damaged.
     ///
@@ -55,12 +55,12 @@ pub struct JobFolder {
     plan: Digest,
     /// `true` once the folder contains a file that states the plan.
     is_marked: Mutex<bool>,
-    /// `true` if results are readable only by their owner.
+    /// `true` if the results are readable only by their owner.
     is_secret: bool,
 }
 
-/// The file that records which plan the results belong to, so that results from a different recipe are not
-/// discarded by mistake.
+/// The file that records the plan to which the results belong, so that results from a different recipe are
+/// not discarded by mistake.
 const WHOSE: &str = "plan.txt";
 
 /// The maximum size of a result file, in bytes: 64 MiB.
@@ -71,13 +71,14 @@ const JOB_LIMIT: u64 = 64 << 20;
 #[serde(deny_unknown_fields)]
 struct JobFile<T> {
     plan: Digest,
-    /// The digest of the result's canonical JSON. Truncated or changed files are ignored.
+    /// The digest of the result's canonical JSON, by which truncated or changed files are recognised and
+    /// ignored.
     digest: Digest,
     result: T,
 }
 
 impl JobFolder {
-    /// Opens the folder for this plan's results, and creates the folder if it is missing.
+    /// Opens the folder for a plan's results, and creates it if it is missing.
     ///
     /// # Errors
     /// Returns an error if the folder contains results from a different plan, or if a file system operation
@@ -109,8 +110,8 @@ impl JobFolder {
         Ok(())
     }
 
-    /// Returns, for each name, whether a folder contains a result with that name. The folder may be absent, and
-    /// is not changed.
+    /// Returns, for each name, `true` if a folder contains a result with that name. The folder may be absent,
+    /// and is not changed.
     ///
     /// # Errors
     /// Returns an error if the folder contains results from a different plan, or if a file system operation
@@ -133,7 +134,7 @@ impl JobFolder {
         Ok(())
     }
 
-    /// Writes a file atomically, so that it is either complete or absent.
+    /// Writes a file atomically: it is either complete or absent.
     fn write(&self, path: &Path, text: &str) -> Result<(), SnapshotError> {
         let access = if self.is_secret { Access::Private } else { Access::Shared };
         disk::write(path, text.as_bytes(), access).map_err(SnapshotError::io("write", path))
@@ -164,7 +165,8 @@ impl JobFolder {
         Ok(to_canonical_json(&JobFile { plan, digest, result: job })?)
     }
 
-    /// Parses the text of a result file; `None` if it is truncated, changed, or belongs to a different plan.
+    /// Parses the text of a result file; `None` if the text is truncated, changed, or belongs to a different
+    /// plan.
     pub(super) fn parse<T: Serialize + DeserializeOwned>(
         plan: Digest,
         bytes: &[u8],

@@ -1,9 +1,9 @@
 //! Minting: generating, judging and selecting candidates.
 //!
-//! A recipe is turned into a [`Plan`]: a list of independent jobs, each with its own seed. [`Plan::make`] runs a job,
-//! and the result is saved in a [`JobStore`]. After all jobs have finished, games are selected from the results
-//! according to the recipe's quotas and difficulty histogram, and written as files. Both steps depend only on the
-//! recipe, and not on threads, order, machines, time or interruptions.
+//! A recipe is turned into a [`Plan`]: a list of independent jobs, each with its own seed. [`Plan::make`]
+//! runs a job, and the result is saved in a [`JobStore`]. After all jobs have finished, games are selected
+//! from the results according to the recipe's quotas and difficulty histogram, and written as files. Both
+//! steps depend only on the recipe, not on threads, order, machines, time or interruptions.
 
 mod card;
 pub(crate) mod error;
@@ -43,11 +43,12 @@ pub struct Minted {
     pub card: ReleaseCard,
 }
 
-/// A warning about a request that can be minted nevertheless.
+/// A warning about a request that can nevertheless be minted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Remark {
-    /// Rules exist for at most the given number of new games, hardly more than the recipe requests.
+    /// There are rules for at most the given number of new games, which is hardly more than the recipe
+    /// requests.
     FewRules(usize),
     /// The shard has no jobs.
     EmptyShard,
@@ -66,13 +67,13 @@ impl fmt::Display for Remark {
     }
 }
 
-/// A mint observer, called from several threads. `()` ignores all events.
+/// An observer of a mint, called from several threads. `()` ignores all events.
 pub trait Progress: Sync {
     /// Called with each warning, before anything is written.
     fn remark(&self, _remark: &Remark) {}
-    /// Called with the remaining jobs, before they run. From this point, the mint can be resumed.
+    /// Called with the remaining jobs before they run. From this point on, the mint can be resumed.
     fn start(&self, _plan: &Plan<'_>, _left: &[Job]) {}
-    /// Called with the number of jobs, and the number of jobs already done.
+    /// Called with the total number of jobs, and the number of jobs already done.
     fn begin(&self, _jobs: usize, _made: usize) {}
     /// Called when a job has finished.
     fn made(&self, _name: &str, _games: &[FrozenGame]) {}
@@ -117,11 +118,11 @@ pub fn make_jobs(
         progress.made(&name, &result.games);
         Ok(())
     };
-    // Long jobs come first and are taken one by one: each thread takes the next job when it is free.
+    // Long jobs come first. Jobs are taken one by one, each by the next thread that is free.
     open.par_iter().with_max_len(1).try_for_each(make)
 }
 
-/// Selects the games of a release from the results of all jobs, and passes its files to the sink. Only the games'
+/// Selects a release's games from the results of all jobs, and passes its files to the sink. Only the games'
 /// metadata is kept in memory.
 ///
 /// # Errors
@@ -157,7 +158,8 @@ pub fn lay_out(
     let mut folder = folder::Folder::new(plan, sink);
     for &taken in &taken {
         let Contender { job: of, at, .. } = contenders[taken];
-        // Without the steps from the secret to its seed, no witness could be checked after the reveal.
+        // Without the steps from the secret to a witness's seed, the witness could not be checked after the
+        // reveal.
         let is_traced = |game: &FrozenGame| !plan.is_sealed() || game.is_traced();
         let game = job(of)?.games.into_iter().nth(at).filter(is_traced);
         folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.jobs()[of])))?)?;
@@ -232,7 +234,8 @@ mod tests {
         lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(()))
     }
 
-    /// Puzzles have the requested tiers, their cards state the tiers, and the witnesses' seeds can be traced.
+    /// Puzzles have the requested tiers, their cards state the tiers, and their witnesses' seeds can be
+    /// traced.
     #[test]
     fn puzzles_are_minted_to_tiers() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'tiers'\n[puzzles]\ngames = 1\nlevels = 2\n\
@@ -268,7 +271,7 @@ mod tests {
             .replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack")
             .replace("exit avatar > killSprite", "avatar exit > stepBack");
         let corpus = corpus(&[("fetch", FETCH), ("hopeless", &hopeless)]);
-        // Either game may be drawn first, and both orders occur.
+        // Either game may be drawn first, so both orders must occur.
         let mut first = Vec::new();
         for seed in ["a", "b", "c", "d", "e", "f"] {
             let recipe = recipe(seed);
@@ -280,7 +283,8 @@ mod tests {
         assert!(first.contains(&Job::Corpus(0)) && first.contains(&Job::Corpus(1)), "{first:?}");
     }
 
-    /// Without the seed path, a sealed release could not show that its witnesses were played under its secret.
+    /// Without the seed paths, a sealed release could not show that its witnesses were played under its
+    /// secret.
     #[test]
     fn games_leave_a_way_from_the_seed_to_the_witness() {
         let check = |root: Seed, game: &FrozenGame| {
@@ -300,7 +304,7 @@ mod tests {
             assert_eq!(games.len(), 1, "{job:?}");
             check(plan.seed, &games[0]);
         }
-        // If tiers are measured, shorter wins of stochastic levels replace the witnesses.
+        // If tiers are measured, shorter wins replace the witnesses of stochastic levels.
         let moths = FETCH
             .replace("avatar > MovingAvatar", "moth > RandomNPC color=GRAY\n        avatar > MovingAvatar")
             .replace("A > floor avatar", "m > floor moth\n        A > floor avatar")
@@ -341,7 +345,8 @@ mod tests {
             let plan = Plan::new(&recipe, None, &corpus).unwrap();
             let Forecast { median, tail } = plan.forecast(plan.jobs());
             let ratio = median / measured(name);
-            // The cost of few inventions depends on the seed, so only the forecast's own range applies.
+            // The cost of a few inventions depends strongly on the seed, so only the forecast's own range
+            // applies.
             let range = match recipe.invented {
                 None => 0.75..=1.25,
                 Some(_) => median / tail..=tail / median,
@@ -351,8 +356,8 @@ mod tests {
         }
     }
 
-    /// Five mints from a recipe without `[criteria]` took 19 to 99 core seconds. The forecast median is within this
-    /// range, and the forecast tail is beyond it.
+    /// Five mints from a recipe without `[criteria]` took 19 to 99 core seconds. The forecast's median lies
+    /// within this range, and its tail above it.
     #[test]
     fn a_forecast_covers_what_other_seeds_cost() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 6\n";
@@ -361,13 +366,14 @@ mod tests {
         let plan = Plan::new(&recipe, None, &corpus).unwrap();
         let Forecast { median, tail } = plan.forecast(plan.jobs());
         assert!((26.0..=52.0).contains(&median) && (80.0..=200.0).contains(&tail), "{median} {tail}");
-        // The remaining jobs are a part of a mint, and the relative uncertainty of a smaller sum is greater.
+        // The remaining jobs are only part of a mint, and a smaller sum has a greater relative uncertainty.
         let left = plan.forecast(&plan.jobs()[..2]);
         assert!(left.median < median / 3.0 && left.tail / left.median > tail / median, "{left:?}");
         assert_eq!(plan.forecast(&[]), Forecast { median: 0.0, tail: 0.0 });
     }
 
-    /// A committed recipe can no longer be changed, so an unfillable recipe is rejected before the commitment.
+    /// A recipe can no longer be changed after the commitment, so an unfillable recipe is rejected
+    /// beforehand.
     #[test]
     fn recipes_that_cannot_be_filled_are_refused() {
         let check = |generated: &str, expect: Option<&str>| {
@@ -436,7 +442,7 @@ mod tests {
         assert!(error.contains("--commit") && !error.contains("--resume"), "{error}");
     }
 
-    /// If no rules are left, additional jobs would not help.
+    /// If no rules are left, additional jobs would not help, so the advice is different.
     #[test]
     fn no_rules_left_is_told_with_another_advice_than_more_candidates() {
         let text = "name = 'one'\ndescription = 'one'\nseed = 'x'\n[generated]\ngames = 1\nlevels = 1\n";
@@ -455,7 +461,7 @@ mod tests {
         assert!(error.contains("lower `generated.games`") && !error.contains("raise"), "{error}");
     }
 
-    /// Stored results are not recomputed, and the output is byte-identical.
+    /// Stored results are not recomputed, and the output is byte-identical to that of an undisturbed mint.
     #[test]
     fn a_mint_goes_on_from_what_is_on_the_shelf() {
         struct Count(std::sync::Mutex<Vec<String>>);

@@ -1,8 +1,9 @@
-//! Selection: turns candidates into a release comparable with other months.
+//! Selection, which turns candidates into a release that is comparable with other months.
 //!
-//! Every candidate passed its judges, so any selection is sound. The selection meets the recipe's quotas and matches
-//! its difficulty histogram as closely as possible, by swapping games in and out from several random starts. It uses
-//! only integers and seeded draws, so the same candidates give the same selection on any machine.
+//! Every candidate has passed its judges, so any selection is sound. The selection meets the recipe's quotas
+//! and matches its difficulty histogram as closely as possible, by swapping games in and out from several
+//! random starts. It uses only integers and seeded draws, so the same candidates give the same selection on
+//! any machine.
 
 use super::plan::{Job, Plan};
 use crate::Digest;
@@ -24,7 +25,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use validators::measures::{AvatarKind, GameKind, GoalKind};
 use validators::{Difficulty, GameForm, Tier};
 
-/// The recipe part to which a game belongs. Each part has its own number of games.
+/// The part of the recipe to which a game belongs. Each part has its own number of games.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {
     /// New levels for corpus games.
@@ -77,13 +78,13 @@ impl Part {
 
 /// A game available for selection.
 pub(super) struct Contender {
-    /// The index of the game's job, and the game's index in the job's result.
+    /// The index of the game's job, and the index of the game in the job's result.
     pub(super) job: usize,
     pub(super) at: usize,
     part: Part,
     pub(super) is_new: bool,
-    /// The titles and casts of the game and of its sibling. Selection treats the game and its sibling identically,
-    /// so that the choice reveals nothing about the secret coin that decides which of them is published.
+    /// The titles and casts of the game and its sibling. Selection treats the two identically, so that its
+    /// choice reveals nothing about the secret coin that decides which of them is published.
     titles: Vec<String>,
     casts: Vec<Cast>,
     /// The difficulties of the game's levels.
@@ -101,8 +102,8 @@ pub(super) struct Contender {
 }
 
 impl Contender {
-    /// Creates the contender for a game; `None` if the game's rules or levels do not load. The game is identified by
-    /// its job's index and its index in the job's result.
+    /// Creates the contender for a game, identified by its job's index and its index in the job's result;
+    /// `None` if the game's rules or levels do not load.
     pub(super) fn of(part: Part, (job, at): (usize, usize), frozen: &FrozenGame) -> Option<Contender> {
         let game = Game::from_source(&frozen.text).ok()?;
         let analysis = Analysis::of(&game);
@@ -139,8 +140,8 @@ impl Contender {
         self.casts.iter().any(|cast| other.casts.iter().any(|known| cast.is_shared(known)))
     }
 
-    /// Returns `true` if a previous release contains a near-duplicate of this new game, or an item of this corpus
-    /// game.
+    /// Returns `true` if a previous release contains a near-duplicate of this new game, or an item of this
+    /// corpus game.
     fn is_known(&self, plan: &Plan<'_>) -> bool {
         match self.is_new {
             true => plan.before.iter().any(|form| self.form.is_near(form)),
@@ -177,11 +178,11 @@ fn tiers(recipe: &Recipe) -> Vec<(Tier, i64)> {
 /// The number of random starts of the local search.
 const STARTS: u64 = 24;
 
-/// The amounts by which a selection misses the quotas and the histogram, and the number of duplicate titles.
+/// The amounts by which a selection misses the quotas and the histogram, and its number of duplicate titles.
 type Miss = (i64, i64, i64);
 
-/// Recommends the next step: a small change to the recipe that preserves finished jobs, or a different change that
-/// does not. A commitment covers the recipe, so a sealed recipe cannot be changed at all.
+/// Recommends the next step: a small change to the recipe that preserves finished jobs, or a different change
+/// that does not. A sealed recipe cannot be changed at all, because the commitment covers it.
 fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     if recipe.commitment.is_some() {
         return format!(
@@ -191,8 +192,8 @@ fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     format!("{small} and continue with --resume, which keeps finished jobs; {other}, and start over")
 }
 
-/// Selects the requested number of contenders from each part, and returns their indices in order. The jobs' tallies
-/// are used to explain errors.
+/// Selects the requested number of contenders from each part, and returns their indices in order. The jobs'
+/// tallies serve to explain errors.
 ///
 /// # Errors
 /// Returns an error if there are too few contenders, or if no selection meets the quotas and, within one level per
@@ -233,7 +234,7 @@ pub(super) fn select(
         choice.improve();
         (choice.counts.miss(), start, choice.taken)
     };
-    // Take the best start. Among equally good starts, take the first one, regardless of which finishes first.
+    // The best start is taken, or the first among equally good starts, regardless of which finishes first.
     let best = (0..STARTS).into_par_iter().map(improved).min_by_key(|(miss, start, _)| (*miss, *start));
     let mut taken = best.map(|(_, _, taken)| taken).unwrap_or_default();
     taken.sort_unstable();
@@ -252,13 +253,13 @@ pub(super) fn select(
 struct Fit {
     /// The indices of the contenders that may be selected together.
     fit: Vec<usize>,
-    /// The counts of reasons why other contenders are excluded, by part.
+    /// For each part, the reasons why other contenders are excluded, with their counts.
     dropped: BTreeMap<Part, BTreeMap<String, u64>>,
 }
 
 impl Fit {
-    /// Excludes contenders that occur in a previous release or contain a duplicate level. Also excludes contenders
-    /// near an earlier new contender, or sharing the idea, the title or the cast with it.
+    /// Excludes contenders that occur in a previous release or contain a duplicate level. Also excludes
+    /// contenders that are near an earlier new contender, or share its idea, title or cast.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<Part, BTreeMap<String, u64>> = BTreeMap::new();
@@ -293,8 +294,8 @@ impl Fit {
     }
 }
 
-/// Returns the requirements for a selection with the achieved figures. Difficulties may deviate by one level, but
-/// quotas are exact.
+/// Returns the requirements for a selection, with the achieved figures. Difficulties may deviate by one
+/// level, but quotas are exact.
 pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -> Vec<Bin> {
     let counts = Counts::of(recipe, taken.iter().map(|&at| &contenders[at]));
     let mut bins = Vec::new();
@@ -334,7 +335,7 @@ struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    /// Creates the initial selection from the first contenders in an order.
+    /// Creates the initial selection from the first contenders in a given order.
     fn of(
         recipe: &'a Recipe,
         contenders: &'a [Contender],
@@ -356,8 +357,8 @@ impl<'a> Choice<'a> {
         Choice { contenders, taken, left, counts }
     }
 
-    /// Makes the best swap repeatedly, until no swap helps. Each swap reduces the miss, so the loop terminates. The
-    /// cost per swap is quadratic in the number of candidates.
+    /// Makes the best swap repeatedly until no swap helps. Each swap reduces the miss, so the loop
+    /// terminates. The cost per swap is quadratic in the number of candidates.
     fn improve(&mut self) {
         loop {
             let now = self.counts.miss();
@@ -387,7 +388,7 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// A selection's figures for every requirement.
+/// The figures of a selection for every requirement.
 #[derive(Default)]
 struct Counts<'a> {
     histogram: Vec<(Difficulty, i64)>,

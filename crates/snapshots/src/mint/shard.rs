@@ -1,4 +1,5 @@
-//! Shards: slices of a release's jobs that run on different machines or at different times and are merged afterwards.
+//! Shards: slices of a release's jobs that can run on different machines or at different times, and are
+//! merged afterwards.
 //!
 //! A shard is a folder that is either complete or absent, like a release:
 //!
@@ -38,8 +39,8 @@ pub const SHARD_FILE: &str = "SHARD.json";
 /// The version of the shard format.
 const SHARD_FORMAT: u32 = 1;
 
-/// A slice of the jobs: `2/4` is the second of four slices. Jobs are dealt in turn, so that all slices take similar
-/// time.
+/// A slice of the jobs: `2/4` is the second of four slices. Jobs are dealt in turn, so that all slices take
+/// about the same time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
@@ -94,12 +95,13 @@ impl Shard {
         plan.jobs().iter().copied().skip(self.number as usize - 1).step_by(self.of as usize).collect()
     }
 
-    /// Returns the shard in a folder, of any generation, and its recipe's name. Returns `None` unless the folder
-    /// contains exactly the files listed in its `SHARD.json`. Does not read the content of these files.
+    /// Returns the shard in a folder, whatever its generation, and its recipe's name. Returns `None` unless
+    /// the folder contains exactly the files listed in its `SHARD.json`. Does not read the content of these
+    /// files.
     pub fn at(folder: &Path) -> Option<(Shard, String)> {
         let bytes = folder::read(folder, SHARD_FILE, MANIFEST_LIMIT).ok()?;
-        // Any generation is accepted. Shards of an earlier generation can no longer be merged here, but they are
-        // shards.
+        // Any generation is accepted: shards of an earlier generation can no longer be merged here, but they
+        // are still shards.
         let file: ShardFile = serde_json::from_slice(&bytes).ok()?;
         let listing = folder::list(folder, &Limits::SNAPSHOT).ok()?;
         let mut listed: Vec<&str> = file.jobs.iter().map(|item| item.path.as_str()).collect();
@@ -128,7 +130,7 @@ impl Shard {
         Ok(is_mine && Shard::at(folder).is_some())
     }
 
-    /// Writes the shard's folder from a job store that contains all of the shard's results.
+    /// Writes the shard's folder from a job store that contains all its results.
     ///
     /// # Errors
     /// Returns an error if a job's result is missing, or if a file system operation fails.
@@ -185,13 +187,13 @@ pub enum MergeError {
         one: PathBuf,
         /// The second shard's folder.
         two: PathBuf,
-        /// The property in which the shards differ.
+        /// The property in which the two shards differ.
         what: &'static str,
     },
     /// Some shards of the release are missing.
     #[error("shards are missing: {0}")]
     Missing(String),
-    /// The jobs were not run from the recipe stated in the shards.
+    /// The jobs were not run from the recipe that the shards state.
     #[error("the shards were not made from the recipe that they state: mint the shards again")]
     OtherRecipe,
     /// The release cannot be minted from the jobs.
@@ -216,7 +218,7 @@ impl From<MintError> for MergeError {
 pub struct Shards {
     recipe: Recipe,
     plan: Digest,
-    /// Each shard with its folder and the paths of its job files.
+    /// Each shard, with its folder and the paths of its job files.
     shards: Vec<(PathBuf, Shard, BTreeSet<String>)>,
     /// The folder and the expected content of each job file, by path.
     jobs: BTreeMap<String, (PathBuf, Item)>,
@@ -270,9 +272,9 @@ impl Shards {
         Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, jobs })
     }
 
-    /// Runs the checks that are cheap compared with minting. Each shard must contain exactly the jobs that the plan
-    /// deals to it. Every game in the jobs must match its card, and its witnesses must replay to wins of its own
-    /// levels.
+    /// Makes all checks that are cheap compared with minting. Each shard must contain exactly the jobs that
+    /// the plan deals to it. Every game in the jobs must match its card, and its witnesses must replay to
+    /// wins on its own levels.
     ///
     /// Only minting again can show that the seed produces these games, and that the judges measured these figures.
     /// Costs a replay of every witness, on all threads of the current rayon pool.
@@ -316,7 +318,7 @@ impl Shards {
     }
 }
 
-/// Returns the first problem with a game in the result of a plan with the given root seed.
+/// Returns the first problem with a game in the results of a plan with the given root seed.
 fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
     let FrozenGame { text, card, difficulties, levels, witnesses, paths, .. } = frozen;
     let id = card.id.escape_debug();

@@ -1,4 +1,4 @@
-//! Operations on a whole release: minting into a folder, its papers, the reveal, and minting again.
+//! Operations on whole releases: minting into a folder, papers, the reveal, and minting again.
 
 pub(crate) mod order;
 pub(crate) mod papers;

@@ -1,5 +1,5 @@
-//! Minting into a folder: plans the mint, runs its jobs, resumes after an interruption, and publishes the result in
-//! one step.
+//! Minting into a folder: plans the mint, runs its jobs, resumes it after an interruption, and publishes the
+//! result in one step.
 
 use crate::contents::integrity::check_integrity;
 use crate::draft::Draft;
@@ -42,18 +42,19 @@ pub struct Order {
     pub out: PathBuf,
     /// The shard; `None` for the whole release.
     pub shard: Option<Shard>,
-    /// `true` to keep the finished jobs of an interrupted mint, and to accept an existing complete result.
+    /// `true` to keep the finished jobs of an interrupted mint, and to accept an existing result that is
+    /// complete.
     pub resume: bool,
 }
 
-/// An order with a mintable recipe.
+/// An order whose recipe can be minted.
 #[derive(Debug)]
 pub struct Prepared<'a> {
     /// The whole release's plan.
     pub plan: Plan<'a>,
-    /// The order's jobs.
+    /// The jobs that the order requires.
     pub jobs: Vec<Job>,
-    /// `true` if the folder already contains the requested result. Only a resuming order accepts an existing result.
+    /// `true` if the folder already contains the requested result, which only a resuming order accepts.
     pub is_complete: bool,
     order: &'a Order,
     tools: Tools<'a>,
@@ -98,7 +99,7 @@ impl Order {
         self.prepare(tools, progress)?.mint(progress)
     }
 
-    /// Returns `true` if the folder contains the result of this plan, or of the requested shard of the plan.
+    /// Returns `true` if the folder contains the result of this plan, or of the requested shard of it.
     fn is_complete(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         if let Some(shard) = self.shard {
             return shard.is_whole(plan, &self.out);
@@ -131,7 +132,7 @@ impl Prepared<'_> {
         if self.is_complete {
             return Ok(Outcome::Complete);
         }
-        // Created before minutes of minting, so that an occupied folder is reported at once.
+        // The draft is created before minutes of minting, so that an occupied folder is reported immediately.
         let mut draft = if order.resume { Draft::resume(&order.out) } else { Draft::create(&order.out) }?;
         match (plan.is_sealed(), order.shard) {
             (true, Some(_)) => draft.keep_secret()?,
@@ -178,8 +179,8 @@ impl Shards {
     }
 }
 
-/// Draws the secret for a recipe's commitment ([`Recipe::to_commit`]). The recipe is planned first, because the
-/// commitment covers the whole recipe.
+/// Draws the secret for a recipe's commitment ([`Recipe::to_commit`]). The recipe is planned first, because
+/// the commitment fixes all of it.
 ///
 /// # Errors
 /// Returns an error if the recipe cannot be minted with the given tools.
@@ -191,7 +192,7 @@ pub fn commit(
 ) -> Result<Secret, MintError> {
     let secret = Secret::draw(&recipe.name, recipe.committed(), random);
     secret.check().map_err(MintError::Unlucky)?;
-    // The beacon has no value yet, and the number of games that can be made hardly depends on it.
+    // The beacon has no value yet, but the number of games that can be made hardly depends on it.
     let minted = match &recipe.beacon {
         Some(_) => Recipe { seed: Some(secret.seed.clone()), beacon: None, ..recipe.clone() },
         None => Recipe { commitment: Some(secret.commitment()), ..recipe.clone() },
@@ -215,7 +216,7 @@ fn plan<'a>(
     Ok(plan)
 }
 
-/// Lays out a release with finished jobs, and publishes it. A sealed release becomes two folders.
+/// Lays out a release from finished jobs, and publishes it. A sealed release becomes two folders.
 fn publish(
     plan: &Plan<'_>,
     secret: Option<&Secret>,
@@ -235,8 +236,8 @@ fn publish(
 }
 
 impl Minted {
-    /// Completes a draft that contains the release files, by adding the manifest and the papers. `place` maps the
-    /// paths of the added files.
+    /// Completes a draft that contains the release files by adding the manifest and the papers. `place` maps
+    /// the paths of the added files.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.

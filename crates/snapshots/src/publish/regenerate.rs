@@ -1,4 +1,4 @@
-//! Mints a release again from the recipe in its manifest, and compares the result byte by byte.
+//! Mints a release again from the recipe in its manifest, and compares the results byte by byte.
 
 use crate::Digest;
 use crate::contents::integrity::check_integrity;
@@ -28,7 +28,7 @@ pub enum RegenerateError {
     /// The release was minted by a different version of the generators.
     #[error("this release was minted by {}; this is arcade {CURRENT}: {}", .0, next_move(.0))]
     OtherVersion(MintedBy),
-    /// The manifest cannot have been written by any version.
+    /// No version can have written the manifest.
     #[error(
         "{MANIFEST_FILE} is damaged or was changed: {0}; fetch the release again, and run `arcade verify` on it"
     )]
@@ -52,7 +52,7 @@ pub enum RegenerateError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// Returns the command that installs the version required for regeneration.
+/// Returns the command that installs the version that regeneration requires.
 fn next_move(minted_by: &MintedBy) -> String {
     match minted_by.install_command() {
         Some(command) => {
@@ -71,19 +71,20 @@ pub struct Regenerated {
     pub compared: Compared,
 }
 
-/// A comparison of a release with a new release from the same recipe.
+/// A comparison of a release with a new release minted from the same recipe.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// The differences, each with the file name; empty if all bytes are equal.
     pub differences: Vec<String>,
-    /// `false` if the folder contains only a manifest, so that nothing else was compared.
+    /// `false` if the folder contains only a manifest, so that nothing else could be compared.
     pub has_files: bool,
-    /// `true` if the release was minted with different dependencies (`Cargo.lock`). This alone does not count as a
-    /// difference.
+    /// `true` if the release was minted with different dependencies (`Cargo.lock`). This alone does not count
+    /// as a difference.
     pub other_lockfile: bool,
 }
 
-/// A release to be minted again. Its jobs run as for any other release ([`make_jobs`](crate::mint::make_jobs)).
+/// A release that is to be minted again. Its jobs run like those of any other release
+/// ([`make_jobs`](crate::mint::make_jobs)).
 #[derive(Debug)]
 pub struct Regeneration {
     root: PathBuf,
@@ -94,8 +95,8 @@ pub struct Regeneration {
 }
 
 impl Regeneration {
-    /// Reads the recipe of the release in the folder `root`, and its secret if the release was revealed. Opens every
-    /// file to be compared, so that an unreadable file is reported before the jobs run.
+    /// Reads the recipe of the release in the folder `root`, and its secret if the release was revealed. Also
+    /// opens every file to be compared, so that an unreadable file is reported before the jobs run.
     ///
     /// # Errors
     /// Returns an error if the folder is not a release, the release is damaged, or this binary cannot mint it.
@@ -130,13 +131,13 @@ impl Regeneration {
         let recipe: Recipe =
             serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
         recipe.check()?;
-        // Fails before minutes of minting if the folder or one of its files cannot be read.
+        // This fails before minutes of minting if the folder or one of its files cannot be read.
         Comparison::of(root)?.open_all()?;
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
 
-    /// Returns the maximum number of forward-model calls that the recipe allows per level, in win searches and in its
-    /// players' episodes.
+    /// Returns the maximum number of forward-model calls per level that the recipe allows, in win searches
+    /// and in its players' episodes.
     pub fn calls_per_level(&self) -> u64 {
         let of = |criteria: &Criteria| {
             let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
@@ -184,8 +185,9 @@ impl Regeneration {
         Ok(Regenerated { minted, compared })
     }
 
-    /// Compares the release with the release in the folder `out`, if `out` is complete and this version minted it from
-    /// the same recipe. Returns the manifest in `out` and the comparison. Does not mint anything.
+    /// Compares the release with the one in the folder `out`, if `out` is complete and was minted by this
+    /// version from the same recipe. Returns the manifest in `out` and the comparison. Does not mint
+    /// anything.
     ///
     /// # Errors
     /// Returns an error if `out` contains an unreadable manifest, or if a file system operation fails.
@@ -215,9 +217,9 @@ impl Regeneration {
 /// A comparison of the files in a folder with the minted files.
 struct Comparison<'a> {
     root: &'a Path,
-    /// The files not yet compared with a minted file.
+    /// The files that have not yet been compared with a minted file.
     there: BTreeSet<String>,
-    /// The paths with an individually reported problem.
+    /// The paths with a problem that was reported individually.
     named: BTreeSet<String>,
     differences: Vec<String>,
     /// `false` if the folder contains only a manifest.
@@ -238,7 +240,7 @@ impl Comparison<'_> {
         })
     }
 
-    /// Opens every file, to detect unreadable files.
+    /// Opens every file in order to detect unreadable files.
     fn open_all(&self) -> Result<(), SnapshotError> {
         self.there.iter().try_for_each(|path| folder::open(self.root, path).map(drop))
     }

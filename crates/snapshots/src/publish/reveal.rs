@@ -1,4 +1,4 @@
-//! The reveal of a sealed release, in which its two parts are joined.
+//! The reveal of a sealed release, which joins its two parts.
 
 use crate::contents::disclose::{LIST_LIMIT, disclose, salt_flaw};
 use crate::contents::integrity::check_integrity;
@@ -40,9 +40,9 @@ pub enum RevealError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// Merges the two parts of a sealed release, `public` and `held`, and the papers into a draft, and returns the
-/// manifest of the public part. The files must be exactly the files under the root of that manifest. The secret must
-/// match the commitment, and the witnesses must have been played under that secret.
+/// Merges the two parts of a sealed release, `public` and `held`, together with the papers into a draft, and
+/// returns the public part's manifest. The files must be exactly those under the root of that manifest. The
+/// secret must match the commitment, and the witnesses must have been played under that secret.
 ///
 /// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
@@ -120,7 +120,7 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
     Ok(manifest)
 }
 
-/// Returns `true` if a withheld file is revealed with the published coin wins.
+/// Returns `true` if a withheld file is revealed together with the published coin wins.
 fn is_early(path: &str) -> bool {
     is_solution(path) || path == HeldPart::Solutions.list()
 }

@@ -1,4 +1,4 @@
-//! Public randomness in the seed of a sealed release, which prevents its publisher from choosing among secrets.
+//! Public randomness in a sealed release's seed, which prevents the publisher from choosing among secrets.
 
 use crate::recipe::error::{RecipeError, wrong};
 use base::{Digest, Seed};
@@ -22,14 +22,14 @@ pub struct BeaconPart {
 }
 
 impl BeaconPart {
-    /// Mixes the value into the seed of a secret; `None` if the value is not yet known.
+    /// Mixes the beacon's value into the seed of a secret; `None` if the value is not yet known.
     pub(crate) fn mix(&self, seed: Seed) -> Option<Seed> {
         let value = self.value?;
         Some(seed.child(&format!("beacon {} {value}", self.source), self.round))
     }
 
-    /// Reads the beacon from a manifest's recipe; `None` if the recipe states no beacon, or if the beacon's
-    /// layout is unknown.
+    /// Reads the beacon in a manifest's recipe; `None` if the recipe states no beacon, or one with an unknown
+    /// layout.
     pub(crate) fn of(recipe: &Value) -> Option<BeaconPart> {
         recipe.get(BEACON).and_then(|part| serde_json::from_value(part.clone()).ok())
     }
@@ -94,7 +94,7 @@ mod tests {
         check(&format!("{sealed}{BEACON_TABLE}value = '{}'", Digest::of(b"")), "remove the value");
     }
 
-    /// The commitment covers the round but not its value, and the seed depends on both the round and its value.
+    /// The commitment covers the round but not its value. The seed depends on both the round and its value.
     #[test]
     fn the_seed_depends_on_the_value_and_the_commitment_does_not() {
         let recipe = Recipe::to_commit(&format!("{GOOD}{BEACON_TABLE}")).unwrap();

@@ -24,8 +24,8 @@ impl Recipe {
         Ok(recipe)
     }
 
-    /// Parses and checks a recipe for minting. If the recipe has neither a seed nor a commitment and a secret
-    /// is given, the error states the commitment that the recipe needs.
+    /// Parses and checks a recipe for minting. If a secret is given but the recipe has neither a seed nor a
+    /// commitment, the error states the commitment that the recipe needs.
     ///
     /// # Errors
     /// Returns the first problem, with its position or key.
@@ -55,7 +55,7 @@ impl Recipe {
         })
     }
 
-    /// Parses and checks a recipe for a commitment. Its `seed` and `commitment` are dropped.
+    /// Parses and checks a recipe for a commitment. Drops its `seed` and `commitment`.
     ///
     /// # Errors
     /// Returns the first problem, with its position or key.
@@ -174,7 +174,7 @@ impl Recipe {
         Ok(())
     }
 
-    /// Checks the values for invented games.
+    /// Checks the values that concern invented games.
     fn check_invented(&self) -> Result<(), RecipeError> {
         let Some(part) = &self.invented else { return Ok(()) };
         for (key, value, least, most) in [

@@ -23,8 +23,7 @@ impl<'a> Cited<'a> {
         }
     }
 
-    /// Returns the authors: the people if any, otherwise the publisher, otherwise the programs'
-    /// authors.
+    /// Returns the authors: the people if there are any, else the publisher, else the programs' authors.
     pub(crate) fn authors(&self) -> Vec<&str> {
         match (self.authors, self.publisher) {
             ([], Some(publisher)) => vec![publisher],
@@ -33,8 +32,7 @@ impl<'a> Cited<'a> {
         }
     }
 
-    /// Returns a sentence about the publisher and the authors; `None` if the recipe does not state
-    /// either.
+    /// Returns a sentence about the publisher and the authors; `None` if the recipe states neither.
     pub(crate) fn sentence(&self) -> Option<String> {
         match (self.publisher, self.authors) {
             (None, []) => None,

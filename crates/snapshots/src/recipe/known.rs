@@ -26,7 +26,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// Computes the forms of the games. Cost: about a millisecond per game.
+    /// Computes the games' forms. Cost: about a millisecond per game.
     ///
     /// # Errors
     /// Returns an error if an entry is not a game.
@@ -53,8 +53,8 @@ impl Known {
     }
 }
 
-/// Returns the canonical item (rules and level) for a game's level. Canonical items are equal for levels that differ
-/// only in names, rule order or a board symmetry.
+/// Returns the canonical item (rules and level) for a game's level. Levels that differ only in names, rule
+/// order or a board symmetry have equal canonical items.
 pub(crate) fn item(form: &GameForm, likeness: &LevelSimilarity, level: &engine::Level) -> Digest {
     Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }

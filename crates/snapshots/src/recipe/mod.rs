@@ -1,4 +1,4 @@
-//! Recipes, the TOML files in `seeds/` from which releases are minted.
+//! Recipes: the TOML files in `seeds/` from which releases are minted.
 
 pub(crate) mod apportion;
 pub(crate) mod beacon;
@@ -102,8 +102,8 @@ pub struct Recipe {
 }
 
 impl Recipe {
-    /// Returns the digest that a commitment covers. The digest excludes `seed`, `commitment`, `known` and the value
-    /// of the beacon. `known` follows from `parent`, and the beacon's value is not yet known.
+    /// Returns the digest that a commitment covers. The digest excludes `seed`, `commitment`, `known` and the
+    /// beacon's value: `known` follows from `parent`, and the beacon's value is not known yet.
     pub fn committed(&self) -> Digest {
         let recipe = serde_json::to_value(self).expect("a recipe is plain data");
         secret::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
@@ -132,7 +132,8 @@ impl Recipe {
         }
     }
 
-    /// Returns advice for a mismatch between `secret` and the recipe, most likely caused by the recipe's parent.
+    /// Returns advice on a mismatch between `secret` and the recipe, whose most likely cause is the recipe's
+    /// parent.
     fn mismatch_advice(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
@@ -146,8 +147,8 @@ impl Recipe {
         }
     }
 
-    /// Returns, as sentences, the guarantees that a release from this recipe lacks; empty if the recipe follows an
-    /// earlier release and requests gates and `skill`.
+    /// Returns, as sentences, the guarantees that a release from this recipe lacks. The list is empty if the
+    /// recipe follows an earlier release and requests gates and `skill`.
     pub fn caveats(&self) -> Vec<&'static str> {
         let mut caveats = Vec::new();
         if self.parent.is_none() && self.new_games() > 0 {
@@ -171,17 +172,17 @@ impl Recipe {
         caveats
     }
 
-    /// Returns the names for citing the release.
+    /// Returns the names under which the release is cited.
     pub(crate) fn cited(&self) -> Cited<'_> {
         Cited::of(&self.name, &self.authors, self.publisher.as_deref())
     }
 
-    /// Returns the minimum and maximum number of games with each goal.
+    /// Returns the minimum and maximum number of games for each goal.
     pub fn goal_quotas(&self) -> Vec<(GoalKind, (i64, i64))> {
         self.taxonomy.goals.iter().map(|(&goal, &share)| (goal, self.quota(share))).collect()
     }
 
-    /// Returns the minimum and maximum number of games with each avatar.
+    /// Returns the minimum and maximum number of games for each avatar.
     pub fn avatar_quotas(&self) -> Vec<(AvatarKind, (i64, i64))> {
         self.taxonomy.avatars.iter().map(|(&avatar, &share)| (avatar, self.quota(share))).collect()
     }
@@ -189,7 +190,7 @@ impl Recipe {
     /// Converts a range of fractions to the minimum and maximum number of games.
     pub(crate) fn quota(&self, (least, most): (f64, f64)) -> (i64, i64) {
         let games = f64::from(self.games());
-        // A small tolerance makes 0.2 of 10 games equal to 2.
+        // A small tolerance ensures that 0.2 of 10 games is 2.
         ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
     }
 
@@ -264,7 +265,7 @@ pub(crate) mod tests {
         let minting = Recipe { commitment: Some(secret.commitment()), ..recipe.clone() };
         minting.check().unwrap();
         assert_eq!(minting.root_seed(Some(&secret)).unwrap(), secret.root_seed());
-        // The commitment covers neither the `commitment` field itself nor data from the parent.
+        // The commitment does not cover the `commitment` field itself, nor data from the parent.
         assert_eq!(Recipe::to_commit(GOOD).unwrap().committed(), recipe.committed());
         let known = Known { games: vec!["x".to_owned()], ..Known::default() };
         assert_eq!(Recipe { known, ..minting.clone() }.committed(), recipe.committed());
@@ -377,7 +378,7 @@ pub(crate) mod tests {
         check(&format!("{GOOD}[criteria]\nask = ['winnable']"), "lacks `not-idle`");
         check(&format!("{GOOD}[criteria]\nask = ['winable']"), "did you mean `winnable`?");
         check(&format!("{GOOD}[board]\ncolumns = [9, 4]"), "`board.columns`");
-        // A line appended to a file belongs to the file's last table.
+        // A line appended to a file becomes part of the file's last table.
         check(
             &format!("{}commitment = '{}'\n", GOOD.replace("seed = 'x'\n", ""), Digest::of(b"")),
             "`commitment` is in the table [generated], but belongs to the recipe as a whole: move the \

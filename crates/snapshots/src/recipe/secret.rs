@@ -1,4 +1,4 @@
-//! Secrets of sealed releases. A release commits to its seed before minting and reveals it later.
+//! The secrets of sealed releases. A release commits to its seed before minting, and reveals the seed later.
 
 use crate::error::SnapshotError;
 use crate::format::folder;
@@ -46,10 +46,10 @@ const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
 const DISTINCT: usize = 17;
 
 impl Secret {
-    /// Creates a recipe's secret from 64 random bytes. Half of the bytes form the seed, and half form the nonce.
+    /// Creates a recipe's secret from 64 random bytes, half of which form the seed and half the nonce.
     pub fn draw(name: &str, recipe: Digest, chance: [u8; 64]) -> Secret {
         let (seed, nonce) = chance.split_at(32);
-        // The bytes are hashed, so that even poor randomness gives the full length.
+        // The bytes are hashed, so that even poor randomness gives the full length of output.
         let hashed = |context, half| Digest::from_bytes(blake3::derive_key(context, half));
         Secret {
             name: name.to_owned(),
@@ -59,8 +59,8 @@ impl Secret {
         }
     }
 
-    /// Computes the digest over the seed, the nonce and the recipe, in its own domain. For a secret without a recipe,
-    /// the digest is BLAKE3(seed ‖ nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
+    /// Computes the digest over the seed, the nonce and the recipe, in its own domain. If the secret has no
+    /// recipe, the digest is BLAKE3(seed ‖ nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
     pub fn commitment(&self) -> Digest {
         let Some(recipe) = self.recipe else {
             return Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat());
@@ -73,7 +73,7 @@ impl Secret {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Derives the salt for a withheld part's list. The salt reveals nothing about the secret or the other part's
+    /// Derives the salt of a withheld part's list. It reveals nothing about the secret or the other part's
     /// salt.
     pub(crate) fn salt(&self, part: HeldPart) -> Digest {
         let mut hasher = blake3::Hasher::new_derive_key(SALT_CONTEXT);
@@ -84,14 +84,14 @@ impl Secret {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Returns the seed from which everything in the release is derived. The seed is a child of the secret's seed
-    /// text and depends on the nonce, so that guessing only one of the two is useless.
+    /// Returns the seed from which everything in the release is derived. The seed is a child of the secret's
+    /// seed text and also depends on the nonce, so that guessing only one of the two is useless.
     pub fn root_seed(&self) -> Seed {
         Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
     }
 
-    /// Returns the seed of a release with the given recipe, mixed with the value of the recipe's beacon if there is
-    /// one; `None` if the beacon has no value.
+    /// Returns the seed of a release with the given recipe, mixed with the value of the recipe's beacon if
+    /// there is one; `None` if the beacon has no value yet.
     pub(crate) fn seed_for(&self, recipe: &Value) -> Option<Seed> {
         match recipe.get(BEACON) {
             None => Some(self.root_seed()),
@@ -125,8 +125,8 @@ impl Secret {
         Ok(())
     }
 
-    /// Returns a sentence about the problem with the secret of a release with the given manifest; `None` if the
-    /// secret matches the commitment.
+    /// Returns a sentence about the problem with the secret of a release that has the given manifest; `None`
+    /// if the secret matches the commitment.
     ///
     /// # Errors
     /// Returns an error if the manifest's recipe has no canonical JSON.
@@ -146,16 +146,17 @@ impl Secret {
         Ok(self.check().err())
     }
 
-    /// Returns `true` if the witness's seed is derived from this secret and the recipe's beacon along the path stated
-    /// in the witness. A secret from an earlier generation always passes the check.
+    /// Returns `true` if the witness's seed is derived from this secret and the recipe's beacon along the
+    /// path stated in the witness. Secrets from an earlier generation always pass.
     pub(crate) fn leads_to(&self, witness: &Witness, recipe: &Value) -> bool {
         let seed = self.seed_for(recipe).map(|seed| SeedPath::new(seed, witness.path.clone()).seed());
         self.recipe.is_none() || seed == Some(witness.episode.seed)
     }
 }
 
-/// Returns the digest of the recipe without the parts that a commitment does not cover: `seed` (which the commitment
-/// replaces), the commitment itself, `known` (which follows from the parent), and the beacon's value.
+/// Returns the digest of the recipe without the parts that a commitment does not cover: `seed` (which the
+/// commitment replaces), the commitment itself, `known` (which follows from the parent), and the beacon's
+/// value.
 ///
 /// # Errors
 /// Returns an error if the recipe has no canonical JSON.
@@ -298,7 +299,7 @@ mod tests {
         assert_ne!(digest(&|recipe| recipe["corpus"]["known"] = json!(2)), same);
     }
 
-    /// A witness's seed follows from its path, under one secret only.
+    /// A witness's seed follows from its path under only one secret.
     #[test]
     fn witnesses_belong_to_one_secret() {
         let secret = drawn();
@@ -314,7 +315,7 @@ mod tests {
         assert!(secret.leads_to(&witness, &json!({})));
         assert!(!Secret::draw("2027-01", Digest::of(b"recipe"), [8; 64]).leads_to(&witness, &json!({})));
         assert!(!secret.leads_to(&Witness { path: Vec::new(), ..witness.clone() }, &json!({})));
-        // A beacon without a value leads to no seed, and one with a value leads to a different seed.
+        // A beacon without a value yields no seed, and a beacon with a value yields a different seed.
         for part in [
             json!({ "source": "s", "round": 1 }),
             json!({ "source": "s", "round": 1, "value": Digest::of(b"") }),

@@ -9,11 +9,11 @@ use forge::card::Card;
 use serde::{Deserialize, Serialize};
 use validators::Difficulty;
 
-/// A job's result: its games, or no games if no candidate passed.
+/// A job's result: its games, or no games if no candidate has passed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JobResult {
-    /// The passing games.
+    /// The games that passed.
     pub games: Vec<FrozenGame>,
     /// The number of candidates tried, and the rejections by reason.
     pub tally: Tally,
@@ -23,11 +23,11 @@ pub struct JobResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrozenGame {
-    /// The rules, headed by the title.
+    /// The rules, preceded by the title.
     pub text: String,
-    /// The game's card. Its ladders come from episodes that were not used by the judges or by the selection.
+    /// The game's card. Its ladders come from episodes that neither the judges nor the selection have used.
     pub card: Card,
-    /// The difficulty measured by the judges for each level, for use in selection; empty if no ladder was
+    /// For each level, the difficulty that the judges measured, for use in selection; empty if no ladder was
     /// played.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub difficulties: Vec<Difficulty>,
@@ -40,10 +40,10 @@ pub struct FrozenGame {
     /// The reference players' wins on each level; empty if the recipe does not request reference players.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<Wins>,
-    /// The sibling withheld by a coin, if the recipe requests siblings and the game has one.
+    /// The sibling that a coin withheld, if the recipe requests siblings and the game has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<Sibling>,
-    /// For each level, the win withheld by a coin; `None` for a level without such a win. The list is empty if
+    /// For each level, the win that a coin withheld, or `None` if there is no such win. The list is empty if
     /// the recipe does not request second wins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub seconds: Vec<Option<SecondWin>>,
@@ -56,7 +56,7 @@ impl FrozenGame {
         std::iter::once((&*self.card.title, &*self.text)).chain(sibling)
     }
 
-    /// Returns `true` if the steps from the release's root seed to each of the game's episodes are known.
+    /// Returns `true` if, for each of the game's episodes, the steps from the release's root seed are known.
     pub(crate) fn is_traced(&self) -> bool {
         let seconds = self.seconds.iter().flatten().map(|second| &second.path);
         !self.paths.iter().chain(seconds).any(Vec::is_empty)

@@ -1,8 +1,8 @@
 //! The mirrored twin: the board and every direction in the rules, reflected left to right.
 //!
-//! A game without a mirror image is rejected with a reason. Possible reasons are sprites whose class prefers a side,
-//! sprites whose width is not one cell, and dependence on the order in which a row's sprites are processed. In games
-//! without randomness, this dependence is detected by playing both worlds side by side.
+//! A game without a mirror image is rejected with a reason, such as sprites whose class prefers a side or
+//! whose width is not one cell. Another reason is dependence on the order in which a row's sprites are
+//! processed. In games without randomness, this dependence is detected by playing both worlds side by side.
 
 use super::{Made, Original, Twin, TwinError, TwinGame, replayed};
 use agents::{PortfolioConfig, Solution, solve};
@@ -14,13 +14,13 @@ use engine::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The number of ticks in a random episode during which the two worlds must agree.
+/// The number of ticks of a random episode for which the two worlds must agree.
 const TICKS: usize = 150;
 /// The number of random episodes on each level.
 const PLAYS: u64 = 2;
-/// The number of seeds with which a witness's mirrored actions are tried in a stochastic game.
+/// The number of seeds with which to try a witness's mirrored actions in a stochastic game.
 const CHANCES: u64 = 16;
-/// The budget in forward-model calls for finding a new witness in a stochastic game.
+/// The budget for finding a new witness in a stochastic game, in forward-model calls.
 const CALLS: u64 = 50_000;
 
 /// The words to swap in the names of types that face a side.
@@ -97,7 +97,7 @@ fn mirrored_constant(text: &str) -> Option<&'static str> {
     }
 }
 
-/// Rejects games with sprites that prefer a side and cannot be reoriented.
+/// Rejects games with sprites that prefer a side and cannot be turned around.
 fn refuse(analysis: &Analysis) -> Result<(), String> {
     use SpriteClass as C;
     let game = analysis.game();
@@ -128,7 +128,7 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the renamings of types that face a side and are named after that side. For example, `westvane` and
+/// Returns the renamings of types that face a side and are named after it. For example, `westvane` and
 /// `eastvane` are swapped.
 fn swapped_names(game: &Game) -> BTreeMap<String, String> {
     let names: BTreeSet<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
@@ -153,7 +153,7 @@ fn swapped_names(game: &Game) -> BTreeMap<String, String> {
     }
 }
 
-/// Returns the name with its side swapped, if it begins or ends with a side.
+/// Returns the name with its side swapped, if the name begins or ends with a side.
 fn other_side(name: &str) -> Option<String> {
     let pairs = SIDES.into_iter().flat_map(|(one, two)| [(one, two), (two, one)]);
     for (from, to) in pairs {
@@ -185,7 +185,8 @@ fn rules(game: &Game, names: &BTreeMap<String, String>) -> Result<Description, S
             };
         }
     }
-    // Types that face a side by class or inheritance must get the opposite orientation explicitly.
+    // Types that face a side because of their class or by inheritance must explicitly get the opposite
+    // orientation.
     for stype in misdirected(game, &rules)? {
         let facing = match mirrored_direction(game.orientation(stype)) {
             Direction::UP => "UP",
@@ -255,7 +256,7 @@ struct Worlds<'a> {
 }
 
 impl Worlds<'_> {
-    /// Plays actions in one world and their mirror images in the other world, and compares the observations.
+    /// Plays actions in one world and their mirror images in the other, and compares the observations.
     ///
     /// # Errors
     /// Returns the first tick, from 0, after which the two worlds differ.
@@ -286,8 +287,8 @@ impl Worlds<'_> {
     }
 }
 
-/// Searches for a winning episode on a stochastic game's level. Tries the original's actions with different seeds
-/// first, and then a search with a small budget.
+/// Searches for a winning episode on a level of a stochastic game. First tries the original's actions with
+/// other seeds, and then a search with a small budget.
 fn another(analysis: &Analysis, level: &Level, known: &Episode, seed: Seed) -> Option<Episode> {
     let game = analysis.game();
     for chance in 0..CHANCES {
@@ -350,7 +351,7 @@ mod tests {
                 "rower > ShootAvatar stype=gate orientation=LEFT",
             ],
         );
-        // Types that inherit a different direction are not affected.
+        // Types that inherit a different direction are unaffected.
         check(
             "    hull > Missile orientation=UP\n      boat > speed=0.5\n      raft > orientation=DLEFT\n    rower > \
              MovingAvatar\n",
@@ -402,8 +403,8 @@ mod tests {
         );
     }
 
-    /// Only one raft can exist. The first boat in the row spawns it, and in the mirror image the other boat comes
-    /// first.
+    /// Only one raft can exist. The first boat in the row spawns it, and in the mirror image, the other boat
+    /// is first.
     #[test]
     fn games_that_depend_on_the_order_in_a_row_are_refused() {
         let sprites = "    boat > SpawnPoint stype=raft cooldown=3\n    raft > Immovable singleton=True\n    rower > MovingAvatar\n";

@@ -1,5 +1,5 @@
-//! Twins: games with the same mechanics under a different theme. Twins help to test whether a model remembers or
-//! understands ([the properties of each kind](../../../../docs/how-to/twins.md)).
+//! Twins: games with the same mechanics under a different theme. They help to test whether a model remembers
+//! a game or understands it ([the properties of each kind](../../../../docs/how-to/twins.md)).
 
 mod mirrored;
 mod released;
@@ -16,7 +16,7 @@ use std::fmt;
 use std::str::FromStr;
 
 base::named_enum! {
-    /// The kind of twin, which determines how the game's surface changes.
+    /// The kind of twin, which determines how the game's surface (names, characters or orientation) changes.
     pub enum Twin {
         /// Names and level characters no longer carry meaning.
         Masked = "masked",
@@ -24,7 +24,7 @@ base::named_enum! {
         Mirrored = "mirrored",
         /// The game has a different theme.
         Renamed = "renamed",
-        /// The renaming withheld by a coin until the reveal ([`crate::sections::memory`]).
+        /// The renaming that a coin withholds until the reveal ([`crate::sections::memory`]).
         Sibling = "sibling",
     }
 }
@@ -44,15 +44,15 @@ impl FromStr for Twin {
     }
 }
 
-/// A game with a different surface.
+/// A twin: a game with the same mechanics as the original but a different surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TwinGame {
-    /// The rules, headed by the title and the canary.
+    /// The rules, preceded by the title and the canary.
     pub text: String,
     /// The levels, in the original's order.
     pub levels: Vec<String>,
-    /// A winning episode for each level; `None` if the original has no win, or if its actions do not win in the twin
-    /// and no other win was found.
+    /// A winning episode for each level; `None` if the original has no win, or if the original's actions do
+    /// not win in the twin and no other win was found.
     pub witnesses: Vec<Option<Episode>>,
     /// The twin's title.
     pub title: String,
@@ -88,8 +88,9 @@ pub enum TwinError {
     NoTheme(#[from] GenerateError),
 }
 
-/// Creates a game's twin, with the same mechanics, level by level. `witnesses` are the levels' winning episodes in
-/// level order, and may be fewer than the levels. The same arguments produce the same twin.
+/// Creates a game's twin, with the same mechanics, level by level. `witnesses` are the levels' winning
+/// episodes in level order. There may be fewer witnesses than levels. The same arguments produce the same
+/// twin.
 ///
 /// Cost: well under a second, unless a witness search is needed.
 ///
@@ -105,7 +106,7 @@ pub fn of_game(
     of_levels(kind, source, levels, known)
 }
 
-/// Creates a twin as [`of_game`] does, except that any level may lack a witness.
+/// Creates a twin like [`of_game`], except that any level may lack a witness.
 fn of_levels(
     kind: Twin,
     source: &str,
@@ -121,8 +122,8 @@ fn of_levels(
     }
 }
 
-/// Creates a renamed twin from the caller's seed instead of a publicly known seed. Also returns the name of the
-/// twin's scene.
+/// Creates a renamed twin from the caller's seed instead of a publicly known one. Also returns the name of
+/// the twin's scene.
 pub(crate) fn renamed(
     source: &str,
     levels: &[String],
@@ -133,7 +134,7 @@ pub(crate) fn renamed(
     Original::load(source, levels, known)?.renamed(seed)
 }
 
-/// A twin's original.
+/// The original of a twin.
 struct Original<'a> {
     game: Game,
     /// The canonical level texts.
@@ -188,7 +189,7 @@ impl<'a> Original<'a> {
     }
 }
 
-/// The prefix of comments that mark a text as excluded from training.
+/// The prefix of the comments that mark a text as excluded from training.
 const CANARY: &str = "canary ";
 
 /// A twin without its title and text, and its compiled game.
@@ -198,15 +199,15 @@ struct Made {
 }
 
 impl Made {
-    /// Creates a twin from rules. The image of an action must have the same effect in these rules as the action
-    /// itself has in the original.
+    /// Creates a twin from rules. In these rules, the image of an action must have the same effect as the
+    /// action itself has in the original.
     fn of(
         original: &Original<'_>,
         rules: &Description,
         levels: Vec<String>,
         image: fn(Action) -> Action,
     ) -> Result<Made, TwinError> {
-        // Compiled from the printed text, so that the played game is the frozen one.
+        // The game is compiled from the printed text, so that the game played is the frozen one.
         let game = Game::from_source(&syntax::print_bare(rules)).map_err(TwinError::Game)?;
         let mut witnesses = Vec::new();
         for (number, text) in levels.iter().enumerate() {
@@ -222,12 +223,12 @@ impl Made {
         Ok(Made { twin, game })
     }
 
-    /// Returns a title without meaning.
+    /// Returns a meaningless title.
     fn plain_title(&self) -> String {
         format!("Game {}", self.game.digest().short())
     }
 
-    /// Adds the text, headed by the title and by the original's canary if there is one.
+    /// Adds the text, preceded by the title and, if the original has one, by its canary.
     fn headed(self, original: &Original<'_>) -> TwinGame {
         let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
         let canaries = comments.filter(|line| line.starts_with(CANARY));
@@ -238,7 +239,7 @@ impl Made {
     }
 }
 
-/// Replays the images of the given actions. Returns `None` if the episode does not win.
+/// Replays the images of the given actions. Returns `None` if the episode is not a win.
 fn replayed(
     game: &Game,
     level: &Level,

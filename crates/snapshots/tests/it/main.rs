@@ -1,4 +1,4 @@
-//! Tests of releases: under attack, and as twins.
+//! Tests of releases under attack and of twins.
 
 extern crate infinite_arcade_snapshots as snapshots;
 

@@ -1,4 +1,4 @@
-//! Tests of the twins of corpus games, which have the same mechanics under any surface.
+//! Tests of twins of corpus games, which have the same mechanics under any surface.
 
 use agents::{PortfolioConfig, Solution, solve};
 use base::Seed;
@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use validators::GameForm;
 
-/// A corpus game with witnesses. Only its quickly won first levels are included.
+/// A corpus game with witnesses. It includes only those of its first levels that are won quickly.
 struct Sample {
     name: String,
     source: String,
@@ -94,8 +94,8 @@ fn mirrored(sample: &Sample) {
     let twin = of(sample, Twin::Mirrored).unwrap_or_else(|problem| panic!("{name}: {problem}"));
     check(sample, &twin);
     let without = twin.witnesses.iter().filter(|witness| witness.is_none()).count();
-    // In a stochastic game, the win may differ. In a deterministic game, the mirrored actions win with the same
-    // score.
+    // In a stochastic game, the win may be a different one. In a deterministic game, the mirrored actions win
+    // with the same score.
     assert!(without == 0 || sample.chance, "{name}");
     for (own, known) in twin.witnesses.iter().zip(&sample.witnesses).filter(|_| !sample.chance) {
         let own = own.as_ref().unwrap_or_else(|| panic!("{name}: no witness"));
@@ -148,7 +148,7 @@ const FLAT: &str = "BasicGame
     SpriteCounter stype=exit win=True
 ";
 
-/// A mirrored twin keeps the texts of the card unless they mention a side.
+/// A mirrored twin keeps the card's texts unless they mention a side.
 #[test]
 fn cards_are_mirrored_with_their_games() {
     let told = |description: &str| {

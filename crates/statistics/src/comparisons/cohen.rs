@@ -5,7 +5,7 @@
 /// medium, and 0.8 is large.
 ///
 /// The arcsine transformation makes the variance of a proportion from `n` trials about `1 / n`, whatever the
-/// proportion. Therefore, equal values of h are equally hard to detect. Returns NaN if a value is not a
+/// proportion. Equal values of h are therefore equally hard to detect. Returns NaN if a value is not a
 /// proportion.
 ///
 /// ```
@@ -25,7 +25,8 @@ pub(crate) fn angle(p: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The test vectors come from `spec/06` §3.1. More digits were computed with decimal arithmetic.
+    /// The test vectors come from `spec/06` §3.1. The additional digits were computed with decimal
+    /// arithmetic.
     #[test]
     #[expect(clippy::approx_constant, reason = "printed like the others")]
     fn published_vectors() {

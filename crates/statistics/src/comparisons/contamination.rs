@@ -1,31 +1,32 @@
 //! Exact memory tests, which detect players that have memorised published content.
 //!
-//! A coin decided which of two items was published. The items are two renamings of a game, or two winning
-//! episodes on a level. Only a player that knows the published item can distinguish the two. Given a player's
-//! results on both sides, either side was equally likely to be the published one, regardless of the player's
-//! skills.
+//! A coin toss decided which of two items was published. The items are two renamings of a game, or two
+//! winning episodes on a level. Only a player that knows the published item can tell which one it is. For any
+//! other player, either side was equally likely to be the published one, whatever the results on the two
+//! sides.
 //!
-//! Therefore, the distribution of the sum of the differences is known without any assumption about players or
-//! games (R. A. Fisher, *The Design of Experiments*, 1935, §21). If all differences are 1, the test reduces
-//! to Q. McNemar's ("Note on the sampling error of the difference between correlated proportions", 1947).
+//! The distribution of the sum of the differences is therefore known without any assumption about players or
+//! games (R. A. Fisher, *The Design of Experiments*, 1935, §21). If all nonzero differences are ±1, the test
+//! reduces to Q. McNemar's ("Note on the sampling error of the difference between correlated proportions",
+//! 1947).
 
 use crate::planning::design::{Spread, logistic};
 
-/// The result of a coin test.
+/// The result of a [`coin_test`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoinTest {
-    /// The one-sided exact p-value: the probability that the sum is at least this large if the player knows
-    /// none of the coins.
+    /// The one-sided exact p-value: the probability of a sum at least this large if the player does not know
+    /// how any coin fell.
     pub p: f64,
     /// The sum of the differences, published side minus sealed side.
     pub sum: i64,
-    /// The number of coins whose two sides have different results. Coins with equal results are not evidence.
+    /// The number of coins whose two sides have different results. Equal results are not evidence.
     pub informative: usize,
 }
 
-/// Tests whether results depend on coins. `differences` contains, for each coin, the result on the published
-/// side minus the result on the sealed side. A result is a number of wins, or a number of episodes that begin
-/// like the witness. Both sides must have the same number of episodes.
+/// Tests whether a player's results depend on which side was published. `differences` contains, for each
+/// coin, the result on the published side minus the result on the sealed side. A result is a number of wins,
+/// or of episodes that begin like the side's witness. Both sides must have the same number of episodes.
 ///
 /// Cost: O(coins · sum of the absolute differences).
 ///
@@ -39,8 +40,8 @@ pub fn coin_test(differences: &[i64]) -> CoinTest {
     let sum = differences.iter().sum();
     let sizes: Vec<usize> =
         differences.iter().filter(|&&one| one != 0).map(|one| one.unsigned_abs() as usize).collect();
-    // `chances` holds the probability of each sum of the sizes on the published side. The remaining sizes are
-    // on the sealed side.
+    // `chances` holds the probability of each sum of the sizes on the published side. The other sizes are on
+    // the sealed side.
     let mut chances = vec![1.0];
     for &size in &sizes {
         let mut next = vec![0.0; chances.len() + size];
@@ -127,7 +128,7 @@ impl Memoriser {
     }
 
     /// Returns two probabilities: that an episode begins like the published witness, and that it begins like
-    /// the sealed witness. Without memory, each of the two probabilities is `by_chance`.
+    /// the sealed witness. Without memory, both probabilities are `by_chance`.
     pub fn prefix_chances(&self, by_chance: f64) -> (f64, f64) {
         let less = (1.0 - self.share) * by_chance;
         (self.share + less, less)
@@ -172,8 +173,8 @@ mod tests {
         }
     }
 
-    /// The wins of a player without memory do not depend on the coin, and memory helps only on the published
-    /// side.
+    /// Checks that the wins of a player without memory do not depend on the coin, and that memory helps only
+    /// on the published side.
     #[test]
     fn chances() {
         let clean = Memoriser { share: 0.0, known: 0.9, clean: 0.27 };

@@ -6,12 +6,12 @@
 //! between platforms.
 
 /// The factor by which a table may appear more likely than the observed table and still count as equally
-/// likely. The factor exceeds rounding errors, but not any true difference between tables of counts that fit
-/// in memory.
+/// likely. It is larger than rounding errors, but smaller than any true difference between tables of counts
+/// that fit in memory.
 pub(crate) const SAME: f64 = 1.0 + 1e-7;
 
 /// Returns the two-sided p-value for `successes` among `trials` in two groups. The p-value is the total
-/// probability of all tables with the same totals that are at most as likely as the observed table.
+/// probability of all tables with the same totals that are no more likely than the observed table.
 ///
 /// Returns 1 if there is nothing to compare: no trials, only successes, or no successes. Returns NaN if a
 /// group has more successes than trials. Cost: O(number of tables with these totals), which is at most the
@@ -80,7 +80,7 @@ mod tests {
     fn check(n: u64, a: u64, b: u64, expect: f64) {
         for (a, b) in [(a, b), (b, a), (n - a, n - b)] {
             let p = fisher([a, b], [n, n]);
-            // The result must equal the ten digits that are printed in the specification.
+            // The result must equal the ten digits printed in the specification.
             assert!((p - expect).abs() <= 5.1e-10 * expect, "{a} and {b} of {n}: {p}, not {expect}");
         }
     }
@@ -125,8 +125,8 @@ mod tests {
     }
 
     /// The expected values were calculated by hand. The totals allow 0, 1 or 2 successes in the first group,
-    /// with 10, 20 and 6 of 36 equally likely cases. Tables with at most 10 cases add up to 16 cases, and
-    /// tables with at most 6 cases add up to 6 cases.
+    /// with 10, 20 and 6 of 36 equally likely cases. The tables with at most 10 cases have 16 cases in total,
+    /// and those with at most 6 cases have 6.
     #[test]
     fn groups_of_different_size() {
         for (k, expect) in [(0, 16.0 / 36.0), (1, 1.0), (2, 6.0 / 36.0)] {

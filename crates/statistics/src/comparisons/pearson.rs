@@ -59,8 +59,8 @@ mod tests {
         assert!((found - expect).abs() <= 1e-8 * expect.abs(), "{found}, not {expect}");
     }
 
-    /// The test vectors come from `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355). More digits
-    /// were computed with decimal arithmetic.
+    /// The test vectors come from `spec/06` §3.1 (.8830926, p .00365248; .8502303, p .00748355). The
+    /// additional digits were computed with decimal arithmetic.
     #[test]
     fn published_vectors() {
         let pairs: Vec<(f64, f64)> = X.into_iter().zip(Y).collect();
@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(correlation_p(-1.0, 3), Some(0.0));
         assert_eq!(correlation_p(0.0, 3), Some(1.0));
         assert_eq!(correlation_p(1.0, 2), None);
-        // The computed mean of three times 0.1 is not 0.1, but the values are equal.
+        // The computed mean of three values of 0.1 is not 0.1, but the values are equal.
         assert_eq!(pearson(&[(0.1, 1.0), (0.1, 2.0), (0.1, 4.0)]), None);
         assert_eq!(pearson(&[(0.0, 1.0)]), None);
         assert_eq!(pearson(&[(0.0, 1.0), (f64::NAN, 2.0)]), None);

@@ -1,10 +1,10 @@
-//! A stratified test of two players, level by level. Pooling levels of different difficulty can hide or
-//! create a difference. The stratified test compares only episodes on the same level, and sums the evidence
-//! (N. Mantel and W. Haenszel, "Statistical aspects of the analysis of data from retrospective studies of
+//! A stratified test that compares two players level by level. Pooling levels of different difficulty can
+//! hide or create a difference. This test compares only episodes on the same level, and sums the evidence (N.
+//! Mantel and W. Haenszel, "Statistical aspects of the analysis of data from retrospective studies of
 //! disease", 1959).
 //!
 //! The test is exact. For given totals on every level, all assignments of wins to episodes are equally
-//! likely. Therefore, one side's number of wins is a sum of independent hypergeometric variables, whose
+//! likely. One side's number of wins is therefore a sum of independent hypergeometric variables, whose
 //! distribution is computed exactly. A permutation test within strata would estimate the same distribution by
 //! sampling.
 
@@ -25,9 +25,9 @@ pub struct Stratified {
     /// The two-sided exact p-value. With a single stratum, the p-value equals the result of
     /// [`fisher`](super::fisher).
     pub p: f64,
-    /// The first group's rate minus the second group's rate, as a weighted mean over the levels. The weights
-    /// (Mantel and Haenszel) are based on the harmonic means of the numbers of trials. `None` if no level has
-    /// trials in both groups.
+    /// The first group's rate minus the second group's rate, as a weighted mean over the levels. The weights,
+    /// from Mantel and Haenszel, are based on the harmonic means of the numbers of trials. `None` if no level
+    /// has trials in both groups.
     pub difference: Option<f64>,
     /// Mantel and Haenszel's estimate of the common odds ratio: the first group's odds divided by the second
     /// group's. The ratio is infinite if all evidence favours the first group, and `None` if there is no
@@ -108,8 +108,8 @@ mod tests {
         }
     }
 
-    /// In this test, there are two levels, each with one trial per side and one win. The first side has 0, 1
-    /// or 2 wins with probabilities of 1/4, 2/4 and 1/4.
+    /// Checks a case with two levels, each with one trial per side and one win. The first side has 0, 1 or 2
+    /// wins with probabilities of 1/4, 2/4 and 1/4.
     #[test]
     fn worked_by_hand() {
         let found = stratified(&[stratum(1, 1, 0, 1), stratum(1, 1, 0, 1)]);

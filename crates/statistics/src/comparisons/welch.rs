@@ -6,7 +6,7 @@ use crate::student::student_p;
 /// The result of Welch's t test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Welch {
-    /// The t statistic: the mean of `ours` minus the mean of `theirs`, in standard errors.
+    /// The t statistic: the mean of `ours` minus the mean of `theirs`, in units of the standard error.
     pub t: f64,
     /// The degrees of freedom, computed by the Welch–Satterthwaite equation.
     pub df: f64,
@@ -74,7 +74,7 @@ mod tests {
     }
 
     /// The test vectors come from `spec/06` §3.1 (t 1.396501, df 8.353065, p .198555; t −5.418683, df
-    /// 5.102377, p .00272304). More digits were computed with decimal arithmetic.
+    /// 5.102377, p .00272304). The additional digits were computed with decimal arithmetic.
     #[test]
     fn published_vectors() {
         check(
@@ -93,7 +93,7 @@ mod tests {
         );
     }
 
-    /// If one side has no variance, the test is a t test of the other side's mean.
+    /// If one side has no variance, the test reduces to a t test of the other side's mean.
     #[test]
     fn one_side_is_sure() {
         let found = welch(&[1.0, 2.0, 3.0], &[0.1, 0.1, 0.1]).unwrap();

@@ -9,12 +9,12 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// Returns the percentile interval for a statistic over `values`. The statistic can be a mean, for example,
-/// or a difference in means between groups if each value includes its group.
+/// or a difference in means between groups if each value carries its group.
 ///
-/// Draws `resamples` samples of the same size with replacement, and returns the range of the central `level`
-/// (0.95 for 95%) of their statistics. With `m` resamples, the bounds are the values with rank ⌊(1 − level) /
-/// 2 · (m − 1)⌋ from below and from above. Returns `None` if there are no values or resamples, if a statistic
-/// is NaN, or if `level` is not within 0..1. Cost: O(resamples · values).
+/// Draws `resamples` samples of the same size with replacement, and returns the range of the central fraction
+/// `level` of their statistics (0.95 for 95%). With `m` resamples, the bounds are the values with rank ⌊(1 −
+/// level) / 2 · (m − 1)⌋ from below and from above. Returns `None` if there are no values or resamples, if a
+/// statistic is NaN, or if `level` is not within 0..1. Cost: O(resamples · values).
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap;
@@ -104,7 +104,7 @@ mod tests {
         sample.iter().sum::<f64>() / sample.len() as f64
     }
 
-    /// The expected bits occur in reports, so any change must be deliberate.
+    /// Reports contain these bits, so any change must be deliberate.
     #[test]
     fn golden() {
         let values: Vec<f64> = (0..25).map(f64::from).collect();

@@ -1,6 +1,6 @@
-//! An interval for the difference between two win rates. The hybrid score interval remains reliable for few
-//! trials and near 0 and 1 (R. G. Newcombe, "Interval estimation for the difference between independent
-//! proportions", 1998, method 10).
+//! An interval for the difference between two win rates. The hybrid score interval remains reliable with few
+//! trials and for rates near 0 and 1 (R. G. Newcombe, "Interval estimation for the difference between
+//! independent proportions", 1998, method 10).
 
 use super::wilson::{Interval, wilson};
 
@@ -37,7 +37,7 @@ mod tests {
     #[track_caller]
     fn check(successes: [u64; 2], trials: [u64; 2], low: f64, high: f64) {
         let found = difference(successes, trials, Z95);
-        // The result must equal the four digits that are printed.
+        // The result must equal the four printed digits.
         assert!(
             (found.low - low).abs() < 5.1e-5 && (found.high - high).abs() < 5.1e-5,
             "{successes:?} of {trials:?}: {found:?}, not [{low}, {high}]"

@@ -1,4 +1,4 @@
-//! Estimates the dose at which half of the trials succeed. The trials use several doses and several items of
+//! Estimates the dose at which half of the trials succeed, from trials at several doses on several items of
 //! unequal difficulty.
 
 use super::bootstrap::below;
@@ -17,7 +17,7 @@ pub struct DoseTrials {
     pub of: f64,
 }
 
-/// A dose at which half of the trials on an average item succeed.
+/// The estimated dose at which half of the trials on an average item succeed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfPoint {
     /// The estimated half point.
@@ -36,10 +36,10 @@ const ITEM_PRECISION: f64 = 1.0 / (1.3 * 1.3 + 1.0);
 const SLOPE: (f64, f64) = (1.0, 1.0);
 /// The precision of the intercept's prior, whose mean is 0.
 const INTERCEPT_PRECISION: f64 = 1.0 / (20.0 * 20.0);
-/// The maximum number of Newton steps. Six steps are typical.
+/// The maximum number of Newton steps (typically 6).
 const STEPS: usize = 60;
-/// The maximum factor by which a reported dose may lie outside the range of tried doses. The data contain no
-/// information about doses further outside.
+/// The maximum factor by which a reported dose may lie outside the range of tried doses. The data say nothing
+/// about doses further outside.
 const BEYOND: f64 = 4.0;
 
 /// Estimates the dose at which half of the trials succeed. `groups` contains each group's items with their
@@ -47,8 +47,8 @@ const BEYOND: f64 = 4.0;
 ///
 /// The model is logit P = a + item − b ln dose with b ≥ 0.05 and normally distributed item effects. The
 /// parameters are maximum a posteriori estimates. The interval comes from a hierarchical bootstrap, which
-/// draws groups with replacement, and items within each group. If the estimate is more than four times below
-/// or above the tried doses, the bound is reported instead.
+/// draws groups with replacement, and items within each group. If the estimate is more than a factor of four
+/// below or above the tried doses, that limit is reported instead.
 ///
 /// Returns `None` if there are no trials, if a dose is not positive, or if `level` is not within 0..1. Cost:
 /// O(resamples · trials).

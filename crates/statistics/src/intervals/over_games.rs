@@ -1,6 +1,6 @@
-//! Intervals for win rates and their differences that apply to games similar to the played games. Games are
+//! Intervals for win rates and their differences, which apply to games similar to the ones played. Games are
 //! the sampling unit, because episodes of the same game are similar, and different games suit different
-//! players. Both intervals maintain their coverage with six or more games (`cargo xtask simulate`).
+//! players. Both intervals keep their coverage with six or more games (`cargo xtask simulate`).
 
 use super::wilson::{Interval, score_interval};
 use crate::student::{student_p, student_quantile};
@@ -22,14 +22,14 @@ pub struct RateOverGames {
 /// games. `games` contains each game's numbers of successes and trials. Games without trials are ignored.
 ///
 /// The method follows E. L. Korn and B. I. Graubard ("Confidence intervals for proportions with small
-/// expected number of positive counts estimated from survey data", 1998), but uses Wilson's interval.
-/// Wilson's interval is computed from the effective number of trials, and from a quantile of Student's t. The
-/// degrees of freedom are the number of games minus one.
+/// expected number of positive counts estimated from survey data", 1998), but uses Wilson's interval,
+/// computed from the effective number of trials and a quantile of Student's t. The degrees of freedom are the
+/// number of games minus one.
 ///
 /// The effective number of trials follows from the variance between games (W. G. Cochran, *Sampling
 /// Techniques*, 1977, §3.12). If all games have the same rate, the variance is unknown, and the effective
-/// number is the number of games. For example, if no episode is won in six games with 25 episodes each, rates
-/// up to 0.52 remain possible.
+/// number of trials is the number of games. For example, if no episode is won in six games of 25 episodes
+/// each, rates up to 0.52 remain possible.
 ///
 /// Returns `None` if there are fewer than two games, if a game has more successes than trials, or if `level`
 /// is not within 0..1. Cost: O(games).
@@ -45,8 +45,8 @@ pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames
     share_over_games(&games, level)
 }
 
-/// Returns the mean of many fractions, with a confidence interval that applies to similar games. For example,
-/// the fractions can be the win rates of equally weighted levels. The method is the same as in
+/// Returns the mean of fractions from several games, with a confidence interval that applies to similar
+/// games. The fractions can, for example, be the win rates of equally weighted levels. The method is that of
 /// [`rate_over_games`]. `games` contains the sum and the number of fractions for each game.
 ///
 /// ```
@@ -95,12 +95,13 @@ pub struct PairedOverGames {
 /// probable error of a mean", 1908). Each game counts once, regardless of its number of episodes. A game's
 /// difficulty cancels out.
 ///
-/// The p-value is at least 2 · 2⁻ᵍ for g games, the minimum of the exact sign test (R. A. Fisher, *The Design
-/// of Experiments*, 1935, §21). Therefore, fewer than six games cannot prove a difference at the 5% level.
+/// The p-value is at least 2 · 2⁻ᵍ for g games, the minimum p-value of the exact sign test (R. A. Fisher,
+/// *The Design of Experiments*, 1935, §21). Fewer than six games therefore cannot prove a difference at the
+/// 5% level.
 ///
-/// If the difference is the same on all games, its variance is unknown. In that case, the p-value is the
-/// minimum, or 1 if the difference is zero. The interval is Newcombe's, computed from the Wilson intervals
-/// for the two rates with the games as trials.
+/// If the difference is the same on all games, its variance is unknown. In that case, the p-value is this
+/// minimum, or 1 if the difference is zero, and the interval is Newcombe's, computed from the Wilson
+/// intervals for the two rates with the games as trials.
 ///
 /// Returns `None` if there are fewer than two games, if a rate is not a proportion, or if `level` is not
 /// within 0..1. Cost: O(games).
@@ -170,7 +171,7 @@ mod tests {
         close(found.interval.high, 0.5 + half);
     }
 
-    /// All episodes count if games differ no more than randomness explains.
+    /// If games differ no more than randomness explains, all episodes count.
     #[test]
     fn equal_games_keep_their_episodes() {
         let games: Vec<(u64, u64)> = (0..400).map(|game| (10 + game % 2, 25)).collect();
@@ -211,7 +212,7 @@ mod tests {
         close(back.p, found.p);
     }
 
-    /// If a player wins everything, the p-value is as low as the number of games allows. Five games prove
+    /// If a player wins everything, the p-value is the minimum for the number of games. Five games prove
     /// nothing.
     #[test]
     fn few_games_prove_little() {

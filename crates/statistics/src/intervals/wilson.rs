@@ -1,6 +1,6 @@
 //! The Wilson score interval for a proportion (E. B. Wilson, "Probable inference, the law of succession, and
-//! statistical inference", 1927). Unlike the textbook interval, the Wilson interval maintains its coverage
-//! for few trials and for proportions near 0 and 1.
+//! statistical inference", 1927). Unlike the textbook interval, it keeps its coverage with few trials and for
+//! proportions near 0 and 1.
 
 /// The quantile of the normal distribution for a two-sided 95% interval.
 pub const Z95: f64 = 1.959963984540054;
@@ -40,7 +40,7 @@ pub(crate) fn score_interval(p: f64, n: f64, z: f64) -> Interval {
     let scale = 1.0 + z2 / n;
     let centre = (p + z2 / (2.0 * n)) / scale;
     let half = z * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt() / scale;
-    // Rounding can move the ends slightly beyond their exact values.
+    // Rounding can move the bounds slightly beyond their exact values.
     Interval {
         low: if p == 0.0 { 0.0 } else { (centre - half).clamp(0.0, p) },
         high: if p == 1.0 { 1.0 } else { (centre + half).clamp(p, 1.0) },
@@ -113,7 +113,7 @@ mod tests {
         check(1, 1000000, Z95, 1.765245767453715e-07, 5.664911804311442e-06, 2.3e-16);
     }
 
-    /// The expected bits occur in reports, so any change must be deliberate.
+    /// Reports contain these bits, so any change must be deliberate.
     #[test]
     fn golden_bits() {
         let Interval { low, high } = wilson(19, 25, Z95);

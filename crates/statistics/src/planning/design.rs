@@ -17,8 +17,8 @@ pub struct Spread {
     pub games: f64,
     /// The standard deviation of level ease within a game.
     pub levels: f64,
-    /// The standard deviation of the match between a player and a game. A match states how much better the
-    /// player performs on the game than on equally hard games.
+    /// The standard deviation of the match between a player and a game. A match is how much better the player
+    /// performs on the game than on equally hard games.
     pub matches: f64,
 }
 
@@ -43,7 +43,7 @@ pub struct Design {
     pub runs: u64,
 }
 
-/// The distance between the nodes for integrating over a normal variable, in standard deviations. With
+/// The distance, in standard deviations, between the nodes for integrating over a normal variable. With
 /// [`SIDE`] nodes on either side of 0, the trapezoidal rule is accurate to about 1e-7 for functions as smooth
 /// as the logistic function.
 const STEP: f64 = 0.75;
@@ -62,8 +62,8 @@ impl Design {
     }
 
     /// Returns the probability that the test over games at level `alpha` distinguishes two players with the
-    /// given win rates, in the right direction. Returns 0 if the test requires more games. Cost: O(1), about
-    /// a millisecond.
+    /// given win rates, in the right direction. Returns 0 if there are too few games for the test. Cost:
+    /// O(1), about a millisecond.
     ///
     /// ```
     /// use infinite_arcade_statistics::{Design, Spread};
@@ -88,7 +88,7 @@ impl Design {
     }
 
     /// Returns the smallest win rate above `base` that the test at level `alpha` distinguishes from `base`
-    /// with the given power. Returns `None` if no rate can be distinguished.
+    /// with the given power. Returns `None` if there is no such rate.
     pub fn detectable(&self, base: f64, spread: Spread, alpha: f64, power: f64) -> Option<f64> {
         let (mut low, mut high) = (base, 0.999);
         if low >= high || self.power([high, base], spread, alpha) < power {
@@ -109,8 +109,8 @@ impl Design {
     fn moments(&self, rates: [f64; 2], spread: Spread) -> (f64, f64) {
         let ability = rates.map(|rate| spread.ability(rate));
         let (levels, runs) = (self.levels as f64, self.runs as f64);
-        // `powers` holds the sums of the powers of a game's mean difference, and `inner` the sum of the
-        // variance about that mean. `cross` holds the sum of the variance times the mean difference.
+        // `powers` holds the sums of the powers of a game's mean difference, `inner` the sum of the variances
+        // about that mean, and `cross` the sum of the variances times the mean difference.
         let (mut powers, mut inner, mut cross) = ([0.0; 3], 0.0, 0.0);
         for (game, weight) in nodes() {
             // For each match: its weight, the mean rate on this game, and the rates on the game's levels.
@@ -193,7 +193,7 @@ pub(crate) fn logistic(x: f64) -> f64 {
 /// Returns an upper tail of the noncentral t distribution: the probability that a normal variable with mean
 /// `shift`, divided by √(χ²/`df`) for an independent χ² with `df` degrees of freedom, exceeds `quantile`.
 ///
-/// Means of skewed values are correlated with their standard errors. Therefore, the root is multiplied by √(1
+/// Means of skewed values are correlated with their standard errors. The root is therefore multiplied by √(1
 /// + `skewness` · z), where z is the deviation of the normal variable.
 fn shifted_tail(quantile: f64, df: f64, shift: f64, skewness: f64) -> f64 {
     // The integral is over s = √(χ²/df), whose density is 2 (df/2)^(df/2) / Γ(df/2) · s^(df−1) · exp(−df
@@ -239,7 +239,7 @@ mod tests {
         let none = Spread { games: 0.0, levels: 0.0, matches: 0.0 };
         assert!((none.ability(0.25) - log(1.0 / 3.0)).abs() < 1e-9);
         assert!(Spread::default().ability(0.5).abs() < 1e-9);
-        // Random effects move mean rates towards 0.5, so the ability for a rate of 0.1 is further from 0.
+        // Random effects move mean rates towards 0.5, so a rate of 0.1 requires an ability further from 0.
         assert!(Spread::default().ability(0.1) < none.ability(0.1) - 0.5);
     }
 

@@ -1,4 +1,4 @@
-//! Random numbers for simulations. The numbers come from ChaCha8, and are the same on every machine.
+//! Random numbers for simulations. They come from ChaCha8 and are the same on every machine.
 
 use libm::{log, sqrt};
 use rand_chacha::ChaCha8Rng;

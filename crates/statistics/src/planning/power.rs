@@ -1,6 +1,6 @@
-//! Power analysis for win rates: computes the number of episodes needed to detect a difference. The analysis
-//! is intended for planning a run. With five episodes per side, only two kinds of result are significant:
-//! five wins against at most one win, and four wins against none.
+//! Power analysis for win rates: computes the number of episodes needed to detect a difference. It is
+//! intended for planning a run. With five episodes per side, for example, only two kinds of result are
+//! significant: five wins against at most one win, and four wins against none.
 //!
 //! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral
 //! Sciences*, 1988, §6.4). [`fisher_power`] sums over all tables, and computes the power of the test
@@ -40,7 +40,8 @@ impl Power {
     }
 
     /// Returns the nearest rates below and above `base` that `trials` trials per side can distinguish from
-    /// `base`. A rate is `None` if no rate can be distinguished, or if `base` is not a proportion.
+    /// `base`. A rate is `None` if no rate on its side can be distinguished, or if `base` is not a
+    /// proportion.
     ///
     /// ```
     /// use infinite_arcade_statistics::Power;
@@ -69,7 +70,7 @@ impl Power {
         (h.abs() > 0.0).then(|| (2.0 * ratio * ratio).ceil() as u64)
     }
 
-    /// Returns the size of a difference detectable with the required power, in standard deviations.
+    /// Returns the size, in standard deviations, of a difference detectable with the required power.
     fn deviations(&self) -> f64 {
         quantile(1.0 - self.alpha / 2.0) + quantile(self.power)
     }
@@ -171,8 +172,8 @@ mod tests {
         assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
     }
 
-    /// The arcsine approximation agrees with the number of trials required by Fisher's test, apart from the
-    /// latter's conservatism.
+    /// The arcsine approximation agrees with the number of trials required by Fisher's test, except that
+    /// Fisher's test is more conservative.
     #[test]
     fn the_approximation_is_near() {
         for (p, q) in [(0.1, 0.4), (0.5, 0.7), (0.05, 0.2)] {

@@ -1,9 +1,8 @@
 //! Estimates a player's ability from its episodes on levels of known difficulty.
 //!
 //! The likelihood is integrated by quadrature over three kinds of unknowns: the match between the player and
-//! each game, the errors in the difficulties, and the standard deviation of the matches. None of the
-//! distributions are approximated by a normal distribution. Therefore, even a player without wins gets an
-//! interval.
+//! each game, the errors in the difficulties, and the standard deviation of the matches. No distribution is
+//! approximated by a normal one, so even a player without wins gets an interval.
 
 use super::logistic::{logistic, softplus};
 use crate::intervals::wilson::{Interval, Z95};
@@ -17,7 +16,7 @@ pub struct PlayedLevel {
     pub own: f64,
     /// The number of episodes won.
     pub won: f64,
-    /// The number of episodes. Identical episodes are counted once.
+    /// The number of episodes. Identical episodes count once.
     pub of: f64,
 }
 
@@ -49,7 +48,7 @@ impl Default for MismatchPrior {
 /// mismatch² + link².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ability {
-    /// The posterior mean, in logits above the mean difficulty of the first release's levels.
+    /// The ability's posterior mean, in logits above the mean difficulty of the first release's levels.
     pub value: f64,
     /// The ability's total standard error.
     pub error: f64,
@@ -63,8 +62,8 @@ pub struct Ability {
     pub link: f64,
     /// The ability's 95% interval.
     pub interval: Interval,
-    /// For the lower and the upper end of the interval, `true` if that end is determined by the data. Without
-    /// wins, there is no lower bound, and without losses, there is no upper bound.
+    /// `true` for each end of the interval, lower then upper, that the data determine. Without wins, there is
+    /// no lower bound; without losses, there is no upper bound.
     pub is_bounded: [bool; 2],
     /// The posterior mean of the standard deviation of the player's matches with games.
     pub mismatch_sd: f64,
@@ -76,8 +75,8 @@ pub(super) const STEP: f64 = 0.15;
 pub(super) const SIDE: i32 = 67;
 /// The standard deviation of an ability's prior.
 pub(super) const ABILITY_SD: f64 = 5.0;
-/// The grid for the standard deviation of matches, given by its smallest node, the constant ratio between
-/// neighbouring nodes, and the number of nodes.
+/// The grid for the standard deviation of matches: its smallest node, the ratio between neighbouring nodes,
+/// and the number of nodes.
 const MISMATCHES: (f64, f64, usize) = (0.2, 1.4, 10);
 /// The number of standard deviations beyond which a normal distribution is truncated.
 pub(super) const TAIL: f64 = 5.0;
@@ -217,7 +216,7 @@ impl<'a> Density<'a> {
                 sum >= share * total
             });
             let place = place.unwrap_or(last * PARTS);
-            // Each node represents half a part on either side.
+            // Each node represents half of a part on either side.
             let over = (sum - share * total) / fine[place];
             (place as f64 + 0.5 - over) / PARTS as f64 * STEP - f64::from(SIDE) * STEP
         })

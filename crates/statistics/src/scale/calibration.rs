@@ -49,8 +49,8 @@ impl Difficulties {
 pub struct GameDifficulties {
     /// The difficulties for planners and for readers. The standard errors exclude the link error.
     pub difficulties: [Difficulties; 2],
-    /// The mean squared standardised residual over the game's episodes. The value is about 1 if the episodes
-    /// fit the model, and greater otherwise.
+    /// The mean squared standardised residual over the game's episodes. It is about 1 if the episodes fit the
+    /// model, and greater if they do not.
     pub misfit: f64,
 }
 
@@ -62,13 +62,13 @@ pub struct Month {
     /// The difference in mean level difficulty between the month and the first release, for planners and for
     /// readers. The errors include the link error for arbitrary players in the dimension.
     pub shifts: [Estimated; 2],
-    /// The shift in mean difficulty for exactly the calibration's planners, with their link error.
+    /// The shift in mean difficulty for exactly the planners in the calibration, with their link error.
     pub planners_shift: Estimated,
     /// The standard error shared by the difficulties of all levels, for planners and for readers. For the
     /// first release, the error is 0.
     pub link: [f64; 2],
     /// The month's additional difficulty for readers, beyond the value implied by its difficulty for
-    /// planners. `None` if no anchor played.
+    /// planners. `None` if no anchor (a reader from the calibration) played.
     pub drift: Option<Estimated>,
 }
 
@@ -79,8 +79,8 @@ pub struct Calibration {
     pub examinees: Vec<Examinee>,
     /// The model's estimated standard deviations and slopes.
     pub spreads: Spreads,
-    /// The examinees' abilities. An ability is the examinee's logit on an average game from the distribution
-    /// of the first release's games.
+    /// The examinees' abilities. An ability is the examinee's logit on an average game from the first
+    /// release's distribution of games.
     pub abilities: Vec<f64>,
     /// The covariance matrix of the abilities, the two origins and the ease, in this order, stored by rows.
     pub covariance: Vec<f64>,
@@ -154,7 +154,8 @@ impl Calibration {
     /// Adds a release by fixed-parameter calibration. The difficulties of the new levels are estimated, while
     /// abilities and spreads stay fixed.
     ///
-    /// Returns `None` in the same cases as [`Calibration::new`], except that not every examinee must play.
+    /// Returns `None` in the same cases as [`Calibration::new`], except that examinees without episodes are
+    /// allowed.
     pub fn add(&self, games: &[GamePlays]) -> Option<Month> {
         let model = checked(&self.examinees, games, Some(&self.abilities))?;
         let posterior = model.expected_posterior(&self.spreads)?;
@@ -200,7 +201,7 @@ impl Calibration {
         self.covariance[i * (self.examinees.len() + 3) + j]
     }
 
-    /// Returns the variance of a linear function of the abilities, the origins and the ease.
+    /// Returns the variance of a linear combination of the abilities, the origins and the ease.
     fn variance_of(&self, factors: &[f64]) -> f64 {
         let size = factors.len();
         let row = |i: usize| (0..size).map(|j| self.covariance(i, j) * factors[j]).sum::<f64>();

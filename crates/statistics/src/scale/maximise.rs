@@ -12,7 +12,7 @@ const GAIN: f64 = 1e-7;
 
 /// Returns the position of a local maximum near `start`. `function` returns its value and its derivatives, or
 /// `None` at positions where it is undefined. Returns `None` if `function` is undefined at `start`. Cost: one
-/// call of `function` for most steps, and a few calls for some.
+/// call of `function` for most steps, and a few calls for the rest.
 pub(super) fn maximise(
     start: &[f64],
     function: &mut impl FnMut(&[f64]) -> Option<(f64, Vec<f64>)>,

@@ -2,14 +2,14 @@
 //! episodes of unchanging examinees.
 //!
 //! The logit of the probability of winning is a sum of terms. The player's ability is added, and the
-//! difficulties of the month, the game and the level are subtracted. Two matches are added: one between the
-//! player's family and the game, and one between the player and the game.
+//! difficulties of the month, the game and the level are subtracted. Two matches are added: that of the
+//! player's family with the game, and that of the player with the game.
 //!
 //! Difficulty has two dimensions, one for planners and one for readers. The difficulty for readers is a slope
 //! times the difficulty for planners, plus an independent remainder.
 //!
 //! [`Calibration`] estimates spreads by Laplace's method, corrects their shrinkage by a parametric bootstrap,
-//! and adds months with fixed abilities and spreads. [`ability()`] estimates a player's ability by
+//! and adds months while keeping abilities and spreads fixed. [`ability()`] estimates a player's ability by
 //! quadrature. [`expected_error`] supports planning, and [`Selection`] chooses levels adaptively.
 
 mod ability;

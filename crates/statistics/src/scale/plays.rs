@@ -5,7 +5,7 @@
 pub enum Dimension {
     /// The ability of programs that search with the forward model.
     Planner,
-    /// The ability of players that read a prompt: language models, and programs without any other input.
+    /// The ability of players that read a prompt: language models, and programs whose only input is a prompt.
     Reader,
 }
 
@@ -43,7 +43,7 @@ pub struct GamePlays {
 
 impl GamePlays {
     /// Returns `true` if every entry refers to an existing level and to an examinee below `examinees`, and
-    /// contains no more wins than episodes.
+    /// has no more wins than episodes.
     pub(super) fn is_valid(&self, examinees: usize) -> bool {
         self.plays.iter().all(|plays| {
             plays.level < self.levels

@@ -20,9 +20,9 @@ pub struct Correlated {
 }
 
 impl Calibration {
-    /// Simulates results of the same examinees on new games drawn from the model, and returns the spreads
-    /// estimated from these results. The new games have the same numbers of levels and episodes as `games`.
-    /// Cost: one [`Calibration::new`].
+    /// Simulates the examinees' results on new games drawn from the model, and returns the spreads estimated
+    /// from them. The new games have the same numbers of levels and episodes as `games`. Cost: one
+    /// [`Calibration::new`].
     pub fn replicate(&self, games: &[GamePlays], seed: u64) -> Option<Spreads> {
         let mut draws = Draws::new(seed);
         let model = Model::new(&self.examinees, games, None);
@@ -56,7 +56,7 @@ impl Calibration {
 
     /// Returns the correlation between level difficulties for planners and for readers, corrected for the
     /// bias found in the replicates. The interval is computed from the replicates' variation on Fisher's
-    /// scale. Returns `None` without readers, or with fewer than two replicates.
+    /// scale. Returns `None` without readers, or if there are fewer than two replicates.
     pub fn correlation(&self, replicates: &[Spreads]) -> Option<Correlated> {
         if replicates.len() < 2 || !self.has_readers() {
             return None;

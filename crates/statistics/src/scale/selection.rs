@@ -1,4 +1,4 @@
-//! Chooses levels: computes the expected error of planned episodes, and chooses the next level by its
+//! Chooses levels: computes the expected error after planned episodes, and chooses the next level by its
 //! information at the current ability.
 
 use super::ability::{ABILITY_SD, PlayedGame, SIDE, STEP, TAIL, kernel, nodes};
@@ -8,8 +8,8 @@ use super::logistic::logistic;
 /// number of episodes on each level, and `won` is unused. `mismatch` is the standard deviation of the
 /// player's matches with games, and `link` is the standard error shared by the difficulties of all levels.
 ///
-/// The information from a game's episodes is the sum over its levels. The sum is reduced, because all levels
-/// of a game share one match. Cost: O(levels).
+/// The information from a game's episodes is the sum over its levels, reduced because all levels of a game
+/// share one match. Cost: O(levels).
 ///
 /// ```
 /// use infinite_arcade_statistics::scale::{PlayedGame, PlayedLevel, expected_error};
@@ -30,8 +30,8 @@ pub fn expected_error(games: &[PlayedGame], ability: f64, mismatch: f64, link: f
     (1.0 / information + link * link).sqrt()
 }
 
-/// Returns the information about the player's ability in the game from a level's episodes. `variance` is the
-/// logit's variance, and `own` is the difficulty's standard error.
+/// Returns the information that a level's episodes give about the player's ability in the game. `variance` is
+/// the logit's variance, and `own` is the difficulty's standard error.
 fn information(logit: f64, variance: f64, own: f64, of: f64) -> f64 {
     let sd = (variance + own * own).sqrt();
     let mean: f64 = nodes()

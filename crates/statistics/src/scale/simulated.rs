@@ -1,4 +1,4 @@
-//! Simulated months under the scale's model. All true values are known, so the simulations measure error
+//! Simulated months under the scale's model. All true values are known, so the simulations can measure error
 //! sizes and interval coverage. `cargo xtask simulate` prints tables, and this crate's tests run small
 //! simulations.
 
@@ -61,7 +61,8 @@ pub struct Simulator {
 }
 
 impl Simulator {
-    /// Creates a simulator. Its planners range from weak to strong, and its readers are weaker.
+    /// Creates a simulator. Its planners range from weak to strong, and its readers are weaker on
+    /// average.
     pub fn new(plan: Plan, seed: u64) -> Simulator {
         let mut examinees = Vec::new();
         let mut abilities = Vec::new();
@@ -130,7 +131,7 @@ impl Simulator {
     }
 
     /// Draws a player's results on a month's levels. Each level is played once, and the episodes are spread
-    /// over the games first. `month` is the calibrated month.
+    /// over as many games as possible. `month` is the calibrated month.
     pub fn person(
         &mut self,
         truth: &SimulatedMonth,
@@ -174,13 +175,13 @@ pub struct AbilityCase {
 /// A month's link errors. Each pair contains the estimate minus the truth, and the stated error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkTrial {
-    /// The link error for exactly the calibration's planners.
+    /// The link error for exactly the planners in the calibration.
     pub to_these: (f64, f64),
     /// The link error for arbitrary planners.
     pub to_any: (f64, f64),
     /// The link error for the month's difficulties for readers.
     pub to_readers: (f64, f64),
-    /// The error of the drift estimated from the anchors. Without anchors, the pair is 0 and infinity.
+    /// The error of the drift estimated from the anchors. Without anchors, the pair is (0, ∞).
     pub drift: (f64, f64),
     /// The estimated spreads.
     pub spreads: Spreads,
@@ -197,7 +198,7 @@ pub struct AbilityTrial {
     pub is_covered: bool,
 }
 
-/// Two months. The first month is calibrated, and the second month is added to the scale.
+/// Two linked months: the first is calibrated, and the second is added to the scale.
 struct Linked {
     simulator: Simulator,
     first: SimulatedMonth,
@@ -208,8 +209,8 @@ struct Linked {
 }
 
 impl Linked {
-    /// Draws and calibrates two months. The second month is harder by `shift`, and has a drift of `drift`.
-    /// Returns `None` if a month cannot be calibrated.
+    /// Draws and calibrates two months. The second month is `shift` logits harder, and has a drift of
+    /// `drift`. Returns `None` if a month cannot be calibrated.
     fn new(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Linked> {
         let mut simulator = Simulator::new(plan.clone(), seed);
         let (first, second) = (simulator.month(0.0, 0.0), simulator.month(shift, drift));
@@ -241,8 +242,8 @@ impl Linked {
     }
 }
 
-/// Calibrates a first month, and adds a second month, harder by `shift` and with a drift of `drift`. Returns
-/// `None` if a month cannot be calibrated.
+/// Calibrates a first month, and adds a second month that is `shift` logits harder and has a drift of
+/// `drift`. Returns `None` if a month cannot be calibrated.
 pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<LinkTrial> {
     let Linked { first, second, calibration, month, .. } = Linked::new(plan, shift, drift, seed)?;
     let apart = |dimension: Dimension| second.mean(dimension) - first.mean(dimension);
@@ -276,7 +277,7 @@ pub fn ability_trials(
 /// A player's ability, estimated with two designs from the same outcomes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdaptiveTrial {
-    /// The result with one episode per level, with episodes spread over the games first.
+    /// The result with one episode per level, with episodes spread over as many games as possible.
     pub spread: AbilityTrial,
     /// The results after each of the given numbers of adaptively chosen episodes.
     pub adaptive: Vec<AbilityTrial>,

@@ -65,8 +65,8 @@ impl Spreads {
         all
     }
 
-    /// Returns the spreads for the given parameters. Without parameters for readers, the spreads for readers
-    /// are the defaults.
+    /// Returns the spreads for the given parameters. If there are no parameters for readers, the readers'
+    /// spreads have their defaults.
     pub(super) fn from_parameters(parameters: &[f64]) -> Spreads {
         let sd = |at: usize| libm::exp(parameters[at]);
         let planners =
@@ -137,7 +137,8 @@ mod tests {
         assert!((planners.game - 2.0).abs() < 1e-12 && planners.reader == Spreads::default().reader);
     }
 
-    /// With slopes of 1 and no independent component, levels are equally hard for readers and for planners.
+    /// If the slopes are 1 and there is no independent component, levels are equally hard for readers and for
+    /// planners.
     #[test]
     fn correlations() {
         let same = Spreads {

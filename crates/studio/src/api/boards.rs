@@ -50,10 +50,10 @@ pub(crate) struct Replay {
     episode: Episode,
 }
 
-/// The note about omitted frames.
+/// The note that frames have been omitted.
 pub(crate) const CUT: &str = "the boards change too much to show the whole episode";
 
-/// A recording as frames, which is serialised directly because JSON values would take many times as much
+/// A recording as frames. It is serialised directly, because JSON values would take many times as much
 /// memory.
 #[derive(Serialize)]
 pub(crate) struct Replayed {

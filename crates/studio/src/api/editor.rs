@@ -1,4 +1,4 @@
-//! An editor's requests about the text of a game and its levels.
+//! Requests from an editor about the text of a game and its levels.
 
 use crate::compiled::Compiled;
 use crate::frames::Tiles;
@@ -13,7 +13,7 @@ use engine::{Diagnostics, LevelMapping, MAX_LEVEL_TEXT, MAX_SOURCE, describe};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// The maximum number of edits in a renaming. Each edit takes some hundred bytes in the response.
+/// The maximum number of edits in a renaming. Each edit takes about a hundred bytes in the response.
 const MAX_EDITS: usize = 100_000;
 
 /// Rejects texts that are too large for a game or a level.
@@ -80,7 +80,7 @@ pub(crate) fn check(studio: &Studio, asked: Check) -> Result<Value, Refusal> {
     }
 }
 
-/// Returns the characters in levels, each with its tile and the types that it places.
+/// Returns the characters used in levels, each with its tile and the types that it places.
 fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
     let Compiled { source, game, looks, analysis } = compiled;
     let order = game.drawing_order();
@@ -94,8 +94,8 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
         let is_floor = types.iter().all(|&stype| analysis.role(stype) == Role::Floor);
         json!({ "symbol": game.character(symbol), "types": names, "label": label, "tile": tile, "floor": is_floor })
     };
-    // The characters that the game maps come first, in its order. The characters that are mapped by default to a type
-    // of the game follow.
+    // The characters that the game maps come first, in its order, followed by the characters that map to a
+    // type of the game by default.
     let written = game.description().mapping.iter().filter_map(|line| u8::try_from(line.symbol).ok());
     let mut symbols: Vec<u8> = written.collect();
     let by_default = (b'!'..=b'~').filter(|symbol| !symbols.contains(symbol));
@@ -106,7 +106,7 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
     symbols.into_iter().map(entry).collect()
 }
 
-/// Returns `true` if a game's text contains a word outside comments.
+/// Returns `true` if a game's text contains a word outside of comments.
 fn is_named(source: &str, name: &str) -> bool {
     let code = source.lines().filter_map(|line| line.split('#').next());
     code.flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_')).any(|word| word == name)
@@ -153,7 +153,7 @@ pub(crate) struct Rename {
     source: String,
     at: usize,
     name: String,
-    /// The levels, in which a character may also have to change.
+    /// The levels, which may also have to change if a character is renamed.
     #[serde(default)]
     levels: Vec<String>,
 }
@@ -163,7 +163,7 @@ pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
     bounded(&source, &levels)?;
     let byte = byte_of_utf16(&source, at);
     let edits = editor::rename(&source, byte, &name).map_err(Refusal::bad)?;
-    // A level character must be replaced by a single character, in the levels too.
+    // A level character must be replaced with a single character, in the levels as well.
     let old = editor::renamable(&source, byte).ok().and_then(|span| source.get(span.start..span.end));
     let is_symbol = editor::definition(&source, byte).is_some_and(|span| in_mapping(&source, span.start));
     let single = |text: &str| {

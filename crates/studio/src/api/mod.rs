@@ -1,4 +1,4 @@
-//! The API used by the page.
+//! The API that the page uses.
 
 mod boards;
 mod editor;

@@ -1,4 +1,4 @@
-//! Requests about a release: its games, its verification, and its comparison with a different release.
+//! Requests about a release: its games, its verification, and its comparison with another release.
 
 use super::workspace::first_board;
 use crate::answers::Asked;
@@ -76,7 +76,7 @@ pub(crate) struct Nothing {}
 
 pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Result<(), Ended> {
     let (root, released) = opened(studio)?;
-    // The verification of an archive reads all files at once.
+    // Verifying an archive reads all files at once.
     if root.is_dir() {
         let items: Vec<_> = released.manifest.files().collect();
         for (done, item) in items.iter().enumerate() {
@@ -121,7 +121,7 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     Ok(())
 }
 
-/// Follows the parents of the opened release as far as they can be found, and sends each parent. Returns
+/// Follows the opened release's parents as far as they can be found, and sends each of them. Returns
 /// sentences about the parents, and the problems.
 fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, Vec<String>), Ended> {
     let mut child = start.name.clone();
@@ -166,7 +166,7 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
             releases(count)
         )),
     }
-    // Unreadable places matter only if a release is missing.
+    // Unreadable paths matter only if a release is missing.
     if lineage.ancestors.iter().any(|ancestor| ancestor.link.is_none()) {
         said.extend(
             lineage.unread.iter().map(|place| format!("Not read: {}", nameless(place, &studio.workspace))),
@@ -185,7 +185,7 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     Ok((said, problems))
 }
 
-/// Returns the paths to search for the releases before the opened release: the user-specified paths, the
+/// Returns the paths in which to search for releases before the opened one: the user-specified paths, the
 /// release to compare with, and the parent folders of both releases.
 fn places(workspace: &Workspace) -> Vec<PathBuf> {
     let against = workspace.against.as_ref().map(|(place, _)| place.clone());
@@ -194,7 +194,8 @@ fn places(workspace: &Workspace) -> Vec<PathBuf> {
     workspace.chain.iter().cloned().chain(against).chain(beside).collect()
 }
 
-/// Returns the folder that contains a release. A sealed release is the folder `public` in its own folder.
+/// Returns the folder that contains a release. For the `public` folder of a sealed release, returns the
+/// folder that contains the whole sealed release.
 fn folder_of(release: &Path) -> Option<PathBuf> {
     let real = fs::canonicalize(release).ok()?;
     let parent = real.parent()?;
@@ -253,7 +254,7 @@ pub(crate) fn compare(studio: &Studio) -> Result<Value, Refusal> {
         let each = diff.games.each.iter().filter(|change| statuses.contains(&change.status));
         each.map(|change| change.id.as_str()).collect()
     };
-    // Pairs are ordered by distance, so the first pair of each later game has its nearest earlier game.
+    // Pairs are sorted by distance, so each later game's first pair contains its nearest earlier game.
     let mut seen = std::collections::BTreeSet::new();
     let nearest = diff.neighbours.closest.iter().filter(|pair| seen.insert(pair.after.as_str()));
     let nearest: Vec<Value> = nearest

@@ -1,4 +1,4 @@
-//! Requests for evaluation results: the episodes of each player, replayed with the exchanged messages.
+//! Requests for evaluation results: each player's episodes, replayed together with the messages exchanged.
 
 use super::boards::CUT;
 use crate::frames::{Frame, Frames, TileSvg, Tiles, action_name, outcome};
@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 /// The maximum length of a prompt or a response, in characters.
 const LONGEST: usize = 20_000;
 
-/// Opens the results, one evaluation per folder.
+/// Opens the results folders, each of which contains one evaluation.
 fn opened(studio: &Studio) -> Result<Vec<Evaluation>, Refusal> {
     if studio.workspace.results.is_empty() {
         return Err(Refusal::missing("no results are open").help("open results: `arcade studio RESULTS`"));
@@ -78,13 +78,13 @@ struct Talk {
     answer: String,
     /// The reasoning in the responses.
     reasoning: String,
-    /// The action parsed from the responses, or `None` if there is no such action.
+    /// The action parsed from the responses, or `None` if no action was found.
     parsed: Option<String>,
     /// The origin of the choice.
     validity: &'static str,
 }
 
-/// An episode as frames, with the exchanged messages.
+/// An episode as frames, with the messages exchanged.
 #[derive(Serialize)]
 pub(crate) struct Replayed {
     title: String,
@@ -154,7 +154,7 @@ fn replayed(evaluation: &Evaluation, task: &Task<'_>) -> Result<Replayed, Refusa
     })
 }
 
-/// Returns the messages for each decision with messages.
+/// Returns the messages for each decision that has any.
 fn talks(log: &[Event]) -> Vec<Talk> {
     let (mut talks, mut current, mut step) = (Vec::new(), Talk::default(), 0);
     let mut shown: Vec<(u32, String)> = Vec::new();
@@ -171,8 +171,8 @@ fn talks(log: &[Event]) -> Vec<Talk> {
                 shown.push((*id, format!("{picture}{text}")));
             }
             Event::Request { messages, .. } => {
-                // When a conversation continues, a log repeats the texts of earlier levels. These repetitions are
-                // left out here.
+                // When a conversation continues, a log repeats the texts of earlier levels. These repetitions
+                // are omitted here.
                 let is_shown = |id: &u32| [messages.first(), messages.last()].contains(&Some(id));
                 for (_, text) in shown.drain(..).filter(|(id, _)| is_shown(id)) {
                     add(&mut current.prompt, &text);
@@ -220,7 +220,7 @@ fn talks(log: &[Event]) -> Vec<Talk> {
     talks
 }
 
-/// Appends a text to a message, up to the limit.
+/// Appends a text to a message, up to the length limit.
 fn add(to: &mut String, text: &str) {
     if !to.is_empty() {
         to.push_str("\n\n");

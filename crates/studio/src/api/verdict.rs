@@ -1,5 +1,4 @@
-//! Requests with responses that are sent line by line: the verdict on a level, a game's criteria, and new
-//! levels.
+//! Requests whose responses are sent line by line: the verdict on a level, a game's criteria, and new levels.
 
 use crate::answers::Asked;
 use crate::compiled::Compiled;
@@ -70,8 +69,8 @@ pub(crate) struct Necessity {
     levels: Vec<String>,
 }
 
-/// The number of forward-model calls for each level, for the game across all its levels, and for winning a
-/// new level.
+/// The number of forward-model calls for each level, for a game across all its levels, and for winning a new
+/// level.
 const CALLS: u64 = 300_000;
 
 pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines) -> Result<(), Ended> {
@@ -104,7 +103,7 @@ pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines)
 #[derive(Deserialize)]
 pub(crate) struct More {
     source: String,
-    /// A level for the new levels to resemble.
+    /// The level that the new levels should resemble.
     level: Option<String>,
     method: String,
     width: Option<usize>,
@@ -118,8 +117,8 @@ pub(crate) struct More {
 
 /// The maximum number of levels per request.
 const MOST_LEVELS: u32 = 20;
-/// The maximum number of levels to generate per requested level if a tier is requested, because generators do
-/// not aim at a tier.
+/// The maximum number of levels to generate per requested level. It matters if a tier is requested, because
+/// generators do not aim at a tier.
 const TRIES: u32 = 4;
 
 pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result<(), Ended> {
@@ -145,7 +144,7 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     let count = count.min(MOST_LEVELS);
     let tries = if wanted.is_some() { TRIES * count } else { count };
     let mut sent = 0;
-    // Levels are made one after the other, so that each level arrives as soon as it is made.
+    // Levels are made one after another, so that each is sent as soon as it is made.
     for number in 0..tries {
         if sent == count {
             break;
@@ -199,8 +198,8 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     Ok(())
 }
 
-/// Returns a new level's winning episode. The episode comes from the level's judges, or from a search if the
-/// level was not judged. Also returns `true` if no win provably takes fewer ticks.
+/// Returns a new level's winning episode, which comes from the level's judges, or from a search if the level
+/// was not judged. Also returns `true` if the episode is proved to be a shortest win.
 fn known_win(compiled: &Compiled, made: &MadeLevel, seed: Seed, lines: &Lines) -> Option<(Episode, bool)> {
     if let Some(report) = &made.report {
         let win = report.witness.clone()?;

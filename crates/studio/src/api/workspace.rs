@@ -33,7 +33,7 @@ pub(crate) fn workspace(studio: &Studio) -> Result<Value, Refusal> {
 }
 
 fn summary(studio: &Studio, game: &GameEntry) -> Value {
-    // A game that cannot be read or has problems is listed without an image.
+    // A game that cannot be read, or that has problems, is listed without an image.
     let (tiles, frame) =
         first_board(studio, game).map_or((Vec::new(), None), |(tiles, frame)| (tiles, Some(frame)));
     json!({
@@ -107,7 +107,7 @@ pub(crate) fn witness(studio: &Studio, id: &str, name: &str) -> Result<Episode, 
     found.map(|witness| witness.episode.clone()).ok_or_else(|| Refusal::missing("there is no such recording"))
 }
 
-/// A request to save a text, with the digest of the file version on which the text is based.
+/// A request to save a text. It contains the digest of the file version on which the text is based.
 #[derive(Deserialize)]
 pub(crate) struct Save {
     text: String,
@@ -133,7 +133,7 @@ pub(crate) fn save(studio: &Studio, id: &str, name: &str, asked: Save) -> Result
     Ok(json!({ "digest": Digest::of(asked.text.as_bytes()) }))
 }
 
-/// Rejects the request if a file differs from the version that the page has loaded.
+/// Rejects the request if a file is no longer the version that the page has loaded.
 fn unchanged(path: &Path, name: &str, base: Option<Digest>, help: &str) -> Result<(), Refusal> {
     let now = files::content(path)?;
     let digest = now.as_ref().map(|text| Digest::of(text.as_bytes()));
@@ -148,7 +148,7 @@ fn unchanged(path: &Path, name: &str, base: Option<Digest>, help: &str) -> Resul
     Err(refusal.with("text", now).with("digest", json!(digest)))
 }
 
-/// A request to remove a file, with the digest of the file version that the page has loaded.
+/// A request to remove a file. It contains the digest of the file version that the page has loaded.
 #[derive(Deserialize)]
 pub(crate) struct Remove {
     base: Digest,
@@ -158,7 +158,7 @@ pub(crate) fn remove(studio: &Studio, id: &str, name: &str, asked: Remove) -> Re
     let game = studio.workspace.game(id)?;
     let path = game.path_of(name)?;
     let _saving = studio.saving.lock().unwrap_or_else(PoisonError::into_inner);
-    // Only the last level can be removed, so that the numbers of the other levels have no gap.
+    // Only the last level can be removed, so that no gap appears among the level numbers.
     let last = match &game.place {
         Place::Folder { folder, source, .. } => {
             files::level_files(folder, source)?.last().map(|(last, _)| *last)
@@ -177,7 +177,7 @@ pub(crate) fn remove(studio: &Studio, id: &str, name: &str, asked: Remove) -> Re
     Ok(json!({}))
 }
 
-/// A request to copy a game, with the title of the copy.
+/// A request to copy a game. It contains the title of the copy.
 #[derive(Deserialize)]
 pub(crate) struct Copy {
     id: String,
@@ -200,7 +200,7 @@ pub(crate) fn copy(studio: &Studio, asked: Copy) -> Result<Value, Refusal> {
     })
 }
 
-/// A request for a new game, with its genre and title.
+/// A request for a new game. It contains the genre and the title.
 #[derive(Deserialize)]
 pub(crate) struct Begin {
     genre: String,
@@ -214,8 +214,8 @@ pub(crate) fn begin(studio: &Studio, asked: Begin) -> Result<Value, Refusal> {
     add(studio, asked.title, template.about.to_owned(), |folder| template.begin(folder))
 }
 
-/// Writes a game into a new folder among the copies, with a folder name based on the title, and adds the game
-/// to the workspace.
+/// Writes a game into a new folder among the copies, named after the title, and adds the game to the
+/// workspace.
 fn add(
     studio: &Studio,
     title: String,
@@ -250,7 +250,7 @@ fn add(
     Err(Refusal::bad("there are too many games with this title").help("choose another title"))
 }
 
-/// Returns a folder name for a title. The name consists of lower-case letters, digits and dashes.
+/// Returns a folder name for a title. It consists of lower-case letters, digits and dashes.
 fn folder_name(title: &str) -> String {
     let words = title.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let name = words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-");

@@ -1,4 +1,4 @@
-//! A game's measures, for comparison with people's preferences.
+//! The measures of a game, for comparison with people's preferences.
 
 use super::Candidate;
 use base::Seed;
@@ -9,13 +9,13 @@ use validators::{
     Criteria, Criterion, CriterionSet, Effort, Judging, Panel, PlayMeasures, Recorded, Report, SkillGap,
 };
 
-/// The measures' values, by name.
+/// The values of measures, by name.
 pub(super) type Measures = BTreeMap<String, f64>;
 
 /// The number of forward-model calls for each level, divided between the search for a win and the ladder.
 const CALLS: u64 = 200_000;
 
-/// Returns a game's measures: measures of its episodes, the length of its wins in ticks, and the advantage of
+/// Returns a game's measures: those of its episodes, the length of its wins in ticks, and the advantage of
 /// stronger players. Cost: some seconds. The same game has the same measures in every session.
 pub(super) fn of(Candidate { game, levels, .. }: &Candidate) -> Measures {
     let ask = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);

@@ -1,4 +1,5 @@
-//! Blind comparisons of games by people: pairs of games from several folders, with hidden origins.
+//! Blind comparisons of games by people, who judge pairs of games from several folders without knowing their
+//! origins.
 
 mod measures;
 mod record;
@@ -39,7 +40,7 @@ pub struct Source {
 /// A game to be judged.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The game's name in its source.
+    /// The game's name within its source.
     pub id: String,
     /// The title shown to the judge.
     pub title: String,
@@ -49,7 +50,7 @@ pub struct Candidate {
     pub levels: Vec<Level>,
 }
 
-/// A candidate, with facts collected during the session.
+/// A candidate, with the facts collected during the session.
 struct Entry {
     source: usize,
     candidate: Candidate,
@@ -61,11 +62,12 @@ pub struct Judging {
     sources: Vec<String>,
     entries: Vec<Arc<Entry>>,
     seed: String,
-    /// The indices of each pair's left and right entries.
+    /// For each pair, the indices of its left and right entries.
     pairs: Vec<[usize; 2]>,
     keeper: Mutex<Keeper>,
     plays: Plays,
-    /// `true` once the judge has requested the report before the end. Later judgements are not blind.
+    /// `true` once the judge has requested the report before the end. Judgements made after that are not
+    /// blind.
     ended: AtomicBool,
 }
 
@@ -107,14 +109,15 @@ impl JudgingError {
 
 /// The maximum number of pairs in a session.
 pub const MOST_PAIRS: usize = 10_000;
-/// The maximum number of levels per game to show and measure.
+/// The maximum number of levels to show and measure per game.
 const LEVELS: usize = 5;
 /// The maximum length of a comment on a pair, in characters.
 const MOST_WORDS: usize = 4000;
 
 impl Judging {
-    /// Draws `pairs` pairs with a seed, and opens the record. Each pair is drawn from two sources. Pairs that
-    /// are already in the record are not shown again. Also returns warnings about a damaged record.
+    /// Draws `pairs` pairs with a seed, and opens the record. The two games in a pair come from different
+    /// sources. Pairs that are already in the record are not shown again. Also returns warnings about a
+    /// damaged record.
     ///
     /// # Errors
     ///
@@ -167,7 +170,7 @@ impl Judging {
         self.keeper.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the indices of the judged pairs.
+    /// Returns the indices of the pairs already judged.
     fn judged(&self) -> BTreeSet<usize> {
         let keeper = self.keeper();
         let own = keeper.judgements.0.iter().filter(|judgement| judgement.seed == self.seed);
@@ -189,16 +192,17 @@ impl Judging {
         }
     }
 
-    /// Returns the two games in a pair, and the number of levels to show for each game.
+    /// Returns the two games in a pair, and the number of levels to show for each of them.
     fn both(&self, pair: [usize; 2]) -> ([&Candidate; 2], usize) {
         let both = pair.map(|at| &self.entries[at].candidate);
-        // Both games show the same number of levels, because different numbers could reveal the sources.
+        // The same number of levels is shown for both games, because different numbers could reveal the
+        // sources.
         let levels = both.iter().map(|candidate| candidate.levels.len()).min().unwrap_or_default();
         (both, levels)
     }
 
-    /// Returns a recorded episode on a level, frame by frame. The episode is always the same. If `gone` returns `true`,
-    /// returns a refusal early.
+    /// Returns a recorded episode on a level, frame by frame. The episode is always the same. Returns a
+    /// refusal early once `gone` returns `true`.
     pub(crate) fn watch(
         &self,
         cache: &Cache,
@@ -264,8 +268,8 @@ impl Judging {
         }
     }
 
-    /// Returns the results of the record. Until all pairs have been judged blindly, returns only the number
-    /// of judged pairs.
+    /// Returns the record's results. Until all pairs have been judged blindly, returns only the number of
+    /// pairs judged.
     pub(crate) fn report(&self) -> Value {
         let (judged, of) = (self.judged().len(), self.pairs.len());
         if judged < of && !self.ended.load(Ordering::Relaxed) {
@@ -277,7 +281,7 @@ impl Judging {
         report
     }
 
-    /// Shows the report from now on. Later judgements are marked accordingly.
+    /// Shows the report from now on, and marks later judgements accordingly.
     pub(crate) fn end_blinding(&self) {
         self.ended.store(true, Ordering::Relaxed);
     }
@@ -290,7 +294,7 @@ impl Entry {
 }
 
 /// Returns a game's text as shown to the judge. The text is reprinted, because spelling and comments could
-/// reveal its source.
+/// reveal where the game comes from.
 fn source_of(candidate: &Candidate) -> String {
     print_bare(candidate.game.description())
 }
@@ -321,12 +325,12 @@ pub(crate) struct Asked {
     watched: Watched,
 }
 
-/// Draws pairs of games from different sources. All combinations of sources occur equally often, the games in
-/// a source occur about equally often, and the sides are random.
+/// Draws pairs of games from different sources. All combinations of sources occur equally often, a source's
+/// games occur about equally often, and the sides are random.
 fn draw(counts: &[usize], seed: Seed, pairs: usize) -> Vec<[usize; 2]> {
     let first = |source: usize| counts[..source].iter().sum::<usize>();
     let mut draws = seed.child("pairs", 0).sampler();
-    // The games of each source are in a random order, which is redrawn whenever all games have had their turn.
+    // Each source's games are in a random order, which is redrawn whenever all of them have had their turn.
     let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); counts.len()];
     let combinations: Vec<[usize; 2]> =
         (0..counts.len()).flat_map(|a| (a + 1..counts.len()).map(move |b| [a, b])).collect();

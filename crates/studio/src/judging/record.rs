@@ -1,4 +1,4 @@
-//! The judgement record: one line of JSON per judgement, appended and flushed.
+//! The judgement record, with one line of JSON per judgement. Lines are appended and flushed.
 
 use super::JudgingError;
 use base::Digest;
@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// The maximum size of a record to read, in bytes.
+/// The maximum size of a record that can be read, in bytes.
 const MOST_BYTES: u64 = 64 << 20;
 
 /// The better game in a pair.
@@ -39,14 +39,14 @@ pub enum Which {
 }
 
 impl Which {
-    /// Returns two flags: whether the statement applies to the left game, and whether it applies to the
-    /// right game.
+    /// Returns `true` or `false` for the left game and for the right game, depending on whether the statement
+    /// applies to it.
     pub fn sides(self) -> [bool; 2] {
         [matches!(self, Which::Left | Which::Both), matches!(self, Which::Right | Which::Both)]
     }
 }
 
-/// The numbers of ticks played in the two games.
+/// The number of ticks played in each of the two games.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Played {
@@ -56,7 +56,7 @@ pub struct Played {
     pub right: u64,
 }
 
-/// The games for which the judge has watched a program's episode.
+/// The games of which the judge has watched a program's episode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Watched {
@@ -94,7 +94,7 @@ pub struct Judgement {
     pub better: Better,
     /// The games that the judge would play again.
     pub again: Which,
-    /// The games that the judge believes to be made by a machine, or `None` if the judge was not asked.
+    /// The games that the judge believes were made by a machine, or `None` if the judge was not asked.
     #[serde(default)]
     pub machine: Option<Which>,
     /// The judge's comment.
@@ -103,15 +103,15 @@ pub struct Judgement {
     /// The number of ticks played in each game.
     #[serde(default)]
     pub played: Played,
-    /// The games for which the judge has watched an episode.
+    /// The games of which the judge has watched an episode.
     #[serde(default)]
     pub watched: Watched,
-    /// `true` if the judge had already requested the report, so that the judgement is not blind.
+    /// `true` if the judge had already requested the report, so the judgement is not blind.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub after_report: bool,
 }
 
-/// The judgements in a record. For each pair, only the last judgement is included.
+/// The judgements in a record. For each pair, only the last judgement counts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Judgements(pub Vec<Judgement>);
 
@@ -137,7 +137,7 @@ impl Judgements {
     }
 }
 
-/// Returns the judgements, the number of bytes of complete lines, and warnings.
+/// Returns the judgements, the number of bytes in complete lines, and warnings.
 fn parse(bytes: &[u8], file: &Path) -> Result<(Judgements, usize, Vec<String>), JudgingError> {
     let (mut judgements, mut sound) = (Judgements::default(), 0);
     for (number, line) in bytes.split_inclusive(|&byte| byte == b'\n').enumerate() {
@@ -196,7 +196,7 @@ impl Keeper {
             line.insert(0, '\n');
         }
         line.push('\n');
-        // If this line is cut off, the next line still starts separately.
+        // If this line is cut off, the next one still starts on a new line.
         self.open = true;
         self.file.write_all(line.as_bytes())?;
         self.file.sync_data()?;

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub struct Share {
     /// The number of cases in which a statement holds.
     pub count: u64,
-    /// The number of all cases.
+    /// The total number of cases.
     pub of: u64,
     /// The fraction `count / of`, or `None` if there are no cases.
     pub rate: Option<f64>,
@@ -48,8 +48,8 @@ pub struct SourceRow {
     pub high: f64,
     /// The fraction of games that the judge would play again.
     pub again: Share,
-    /// The fraction of games that the judge believes to be made by a machine, among the games for which this question
-    /// was answered.
+    /// The fraction of games that the judge believes were made by a machine, among the games for which the
+    /// judge answered this question.
     pub machine: Share,
 }
 
@@ -62,8 +62,8 @@ pub struct MeasureRow {
     pub agrees: u64,
     /// The number of pairs in which one game is better and the values differ.
     pub pairs: u64,
-    /// The fraction `agrees / pairs`, or `None` if `pairs` is 0. If the fraction is near 0, better games tend
-    /// to have smaller values.
+    /// The fraction `agrees / pairs`, or `None` if `pairs` is 0. A fraction near 0 means that better games
+    /// tend to have smaller values.
     pub rate: Option<f64>,
     /// The lower end of Wilson's 95% interval.
     pub low: f64,
@@ -93,8 +93,8 @@ struct Counts {
 }
 
 impl Report {
-    /// Counts the judgements. Pairs are treated as independent, although pairs that share a game are not. With few games, the
-    /// intervals are too narrow.
+    /// Counts the judgements. Pairs are treated as independent, although pairs that share a game are not, so
+    /// the intervals are too narrow if there are few games.
     pub fn of(Judgements(judgements): &Judgements) -> Report {
         let mut sources: BTreeMap<&str, Counts> = BTreeMap::new();
         let mut measures: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
@@ -190,7 +190,7 @@ mod tests {
         assert_eq!((theirs.again.count, theirs.again.of), (2, 5));
         assert_eq!((ours.machine.count, ours.machine.of), (1, 2));
         assert_eq!((theirs.machine.count, theirs.machine.of), (2, 2));
-        // The pace is equal in all games, so no pair says anything about the pace.
+        // The pace is equal in all games, so no pair says anything about it.
         let [drama] = &report.measures[..] else { panic!("{report:?}") };
         assert_eq!((drama.name.as_str(), drama.agrees, drama.pairs), ("drama", 2, 3));
     }

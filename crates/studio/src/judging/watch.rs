@@ -1,5 +1,5 @@
-//! Episodes to watch. Both sides' episodes are produced in the same way, so that they do not reveal a game's
-//! source. Recorded wins, which only some sources have, are not shown.
+//! Episodes for the judge to watch. They are produced in the same way for both sides, so that they do not
+//! reveal a game's source. Recorded wins are not shown, because only some sources have them.
 
 use crate::compiled::Compiled;
 use crate::verdict::look_for_win;
@@ -18,10 +18,10 @@ const PLANNER: &str = "olets";
 const DECISION: Budget = Budget(400);
 /// The maximum number of ticks that the planner plays.
 const TICKS: usize = 300;
-/// The maximum number of episodes to store in a session.
+/// The maximum number of episodes stored in a session.
 const KEPT: usize = 256;
 
-/// A side of a pair.
+/// One side of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Hand {
@@ -29,7 +29,7 @@ pub(crate) enum Hand {
     Right,
 }
 
-/// A level in a pair to watch.
+/// A level in a pair, of which an episode is to be watched.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 pub(crate) struct Wanted {
     pub(super) pair: usize,
@@ -43,8 +43,8 @@ pub(crate) struct Play {
     pub(crate) note: Option<&'static str>,
 }
 
-/// Plays a level. Returns the win that a search finds, or else an episode played by a planner. Returns `None`
-/// once `gone` returns `true`. The same seed yields the same episode.
+/// Plays a level. Returns the win that a search finds, or, if it finds none, an episode played by a planner.
+/// Returns `None` once `gone` returns `true`. The same seed yields the same episode.
 pub(super) fn play(
     compiled: &Compiled,
     level: &Level,

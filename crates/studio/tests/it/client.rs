@@ -62,7 +62,7 @@ pub(crate) fn entry(id: &str, place: Place) -> GameEntry {
     }
 }
 
-/// Returns a game in memory.
+/// Returns a game that exists only in memory.
 pub(crate) fn in_memory(id: &str, source: &str, levels: &[&str]) -> GameEntry {
     let levels = levels.iter().enumerate().map(|(number, level)| text(&format!("lvl{number}.txt"), level));
     entry(id, Place::Texts { source: text("game.vgdl", source), levels: levels.collect() })
@@ -88,7 +88,7 @@ pub(crate) fn run(studio: Studio) -> Running {
     Running { port, token, stop: Some(stop), thread: Some(thread) }
 }
 
-/// Runs a studio with one game in memory.
+/// Runs a studio with one game, which exists only in memory.
 pub(crate) fn usual() -> Running {
     run(studio(Path::new("."), vec![in_memory("one", GAME, &[LEVEL, WALLED])]))
 }
@@ -107,7 +107,7 @@ impl Running {
         format!("127.0.0.1:{}", self.port)
     }
 
-    /// Returns the headers that the page itself sends.
+    /// Returns the headers that the page itself would send.
     pub(crate) fn own(&self) -> Vec<(String, String)> {
         vec![("Host".to_owned(), self.host()), ("X-Arcade-Token".to_owned(), self.token.clone())]
     }
@@ -118,7 +118,7 @@ impl Running {
         stream
     }
 
-    /// Sends a request with these headers, and reads the whole response.
+    /// Sends a request with the given headers, and reads the whole response.
     pub(crate) fn send(&self, method: &str, path: &str, headers: &[(String, String)], body: &[u8]) -> Answer {
         let mut stream = self.connect();
         let mut request = format!("{method} {path} HTTP/1.1\r\nConnection: close\r\n");
@@ -127,7 +127,7 @@ impl Running {
         }
         request += &format!("Content-Length: {}\r\n\r\n", body.len());
         stream.write_all(request.as_bytes()).expect("sent");
-        // A server that rejects a request may close the connection before it has read everything.
+        // A server that rejects a request may close the connection before it has read all of it.
         let _ = stream.write_all(body);
         read(stream)
     }
@@ -155,7 +155,8 @@ impl Running {
         answer.json()
     }
 
-    /// Sends a request whose response has several lines. The response must end normally or with an error line.
+    /// Sends a request whose response has several lines. The response must end normally, or with an error
+    /// line.
     pub(crate) fn lines(&self, path: &str, body: &Value) -> Vec<Value> {
         let answer = self.post(path, body);
         assert_eq!(answer.status, 200, "{path}: {}", String::from_utf8_lossy(&answer.body));
@@ -166,8 +167,8 @@ impl Running {
         assert!(last == json!("done") || last == json!("error"), "{last}");
         lines
     }
-    /// Sends a request whose response has several lines, reads up to the first line with one of these stages, and
-    /// leaves.
+    /// Sends a request whose response has several lines, reads up to the first line with one of the given
+    /// stages, and leaves.
     pub(crate) fn lines_until(&self, path: &str, body: &Value, stages: &[&str]) -> Vec<Value> {
         let mut stream = self.connect();
         let body = body.to_string();

@@ -1,4 +1,4 @@
-//! Opening, checking, playing and saving games.
+//! Tests of opening, checking, playing and saving games.
 
 use crate::client::{GAME, LEVEL, in_folder, in_memory, run, studio, usual};
 use base::Digest;
@@ -34,7 +34,8 @@ fn problems_come_with_places_and_repairs() {
         (problem["code"].as_str(), problem["severity"].as_str()),
         (Some("unknown-sprite"), Some("error"))
     );
-    // Positions count UTF-16 code units. The character before the problem has two of them, and four bytes.
+    // Positions are counted in UTF-16 code units. The character before the problem has two of them, but four
+    // bytes.
     let units: Vec<u16> = source.encode_utf16().collect();
     let at = |key: &str| usize::try_from(problem[key].as_u64().expect("a place")).expect("small");
     assert_eq!(String::from_utf16(&units[at("start")..at("end")]).unwrap(), "dor");
@@ -112,7 +113,7 @@ fn games_are_played_undone_and_recorded() {
     }
     assert_eq!(frames[3]["tick"], 3);
     assert_ne!(frames[0]["marks"], frames[1]["marks"]);
-    // Any tick can be shown again, with the same board.
+    // Every tick can be shown again, with the same board.
     for tick in [1_usize, 3, 0, 2] {
         let seen = running.ask("/api/play/seek", &json!({ "session": session, "tick": tick }));
         assert_eq!(seen["frame"], frames[tick], "{tick}");
@@ -130,7 +131,7 @@ fn games_are_played_undone_and_recorded() {
     damaged.actions[0] = engine::Action::Nil;
     let replayed = running.ask("/api/replay", &json!({ "source": GAME, "level": LEVEL, "episode": damaged }));
     assert_eq!(replayed["agrees"], false);
-    // A planner wins the game, and nothing follows the end.
+    // A planner wins the game, and no tick follows the end.
     let mut last = json!(null);
     for _ in 0..40 {
         last = running.ask("/api/play/act", &json!({ "session": session, "planner": "width:500" }));
@@ -191,13 +192,13 @@ fn saving_replaces_only_what_was_seen() {
     let saved = running.put(path, &json!({ "text": "wAw\n", "base": digest(LEVEL) }));
     assert_eq!((saved.status, &saved.json()["digest"]), (200, &digest("wAw\n")));
     assert_eq!(std::fs::read_to_string(&file).expect("read"), "wAw\n");
-    // If a different program writes the file, neither text is lost.
+    // If another program writes the file, neither text is lost.
     std::fs::write(&file, "wwA\n").expect("written");
     let answer = running.put(path, &json!({ "text": "Aww\n", "base": digest("wAw\n") }));
     assert_eq!(answer.status, 409);
     assert_eq!((&answer.json()["text"], &answer.json()["digest"]), (&json!("wwA\n"), &digest("wwA\n")));
     assert_eq!(std::fs::read_to_string(&file).expect("read"), "wwA\n");
-    // The page expects a new file, but the file exists. Later, the file has been removed.
+    // The page expects a new file, but the file already exists. Later, it has been removed.
     assert_eq!(running.put(path, &json!({ "text": "Aww\n", "base": null })).status, 409);
     std::fs::remove_file(&file).expect("removed");
     let answer = running.put(path, &json!({ "text": "Aww\n", "base": digest("wwA\n") }));
@@ -241,7 +242,7 @@ fn only_the_last_level_is_removed() {
         assert_eq!(answer.status, status, "{name} {body}");
     }
     assert_eq!(running.delete("/api/games/two/files/lvl0.txt", &base(LEVEL)).status, 403);
-    // The file has been changed by a different program since the page read it, so it is kept and shown.
+    // Another program has changed the file since the page read it, so the file is kept and shown.
     std::fs::write(at("lvl3.txt"), "wA\n").expect("written");
     let answer = running.delete(&path("lvl3.txt"), &base("A3\n"));
     assert_eq!((answer.status, &answer.json()["text"]), (409, &json!("wA\n")));

@@ -1,4 +1,4 @@
-//! Tests of judging: the view of the judge, the recorded data, and resumed sessions.
+//! Tests of judging: what the judge sees, what is recorded, and how sessions are resumed.
 
 use crate::client::{GAME, LEVEL, Running, WALLED, run, studio};
 use engine::Game;
@@ -30,7 +30,7 @@ fn pairs_are_judged_blindly_and_recorded() {
     let running = run(studio(home.path(), Vec::new()).judging(session(&file, "s")));
     assert_eq!(running.get("/api/workspace").json()["judge"], true);
     for number in 0..3 {
-        // No results are shown while there are pairs to judge.
+        // No results are shown while there are still pairs to judge.
         let blind = running.get("/api/judge/report").json();
         assert_eq!(blind, json!({ "blind": true, "judged": number, "of": 3 }));
         let answer = running.get("/api/judge");
@@ -86,7 +86,7 @@ fn plays_to_watch_are_made_alike_on_both_sides() {
     let first = {
         let running = run(studio(home.path(), Vec::new()).judging(of_two_levels(&file, "s")));
         let first = ["left", "right"].map(|side| [0, 1].map(|level| watch(&running, side, level)));
-        // Both games have the same first level here, and therefore the same episode.
+        // Here, both games have the same first level, and therefore the same episode.
         assert_eq!(first[0], first[1]);
         let [won, other] = &first[0];
         let last = |play: &Value| play["frames"].as_array().expect("frames").last().expect("one").clone();
@@ -118,7 +118,7 @@ fn plays_to_watch_are_made_alike_on_both_sides() {
         let error = answer.json()["error"].as_str().expect("a message").to_owned();
         assert!(answer.status == 400 && error.contains(message), "{wrong}: {} {error}", answer.status);
     }
-    // Levels that the other side lacks are neither shown nor played.
+    // Levels without a counterpart on the other side are neither shown nor played.
     let running = run(studio(home.path(), Vec::new()).judging(session(&file, "s")));
     for side in ["left", "right"] {
         assert_eq!(running.post("/api/judge/watch", &wanted(side, 1)).status, 400, "{side}");
@@ -170,7 +170,7 @@ fn judging_goes_on_where_it_was_left() {
         let running = run(studio(home.path(), Vec::new()).judging(session(&file, "s")));
         assert_eq!(running.get("/api/judge").json()["pair"], 1);
     }
-    // A different seed draws different pairs, which are judged from the start.
+    // A different seed draws different pairs, so judging starts from the beginning.
     let running = run(studio(home.path(), Vec::new()).judging(session(&file, "other")));
     assert_eq!(running.get("/api/judge").json()["pair"], 0);
 }

@@ -1,4 +1,4 @@
-//! Requests to the server from its page, from other pages and from other programs.
+//! Tests of requests to the server from its page, from other pages and from other programs.
 
 mod client;
 mod games;

@@ -1,11 +1,11 @@
-//! Requests that the server must reject, and requests that it must accept.
+//! Tests of requests that the server must reject, and of requests that it must accept.
 
 use crate::client::{GAME, LEVEL, in_folder, run, studio, usual};
 use serde_json::json;
 use std::io::Write;
 use std::net::TcpStream;
 
-/// Paths that read or change something.
+/// Paths whose requests read or change something.
 const QUESTIONS: [(&str, &str); 11] = [
     ("GET", "/api/workspace"),
     ("GET", "/api/games/one"),
@@ -211,7 +211,7 @@ fn large_and_broken_requests_are_refused() {
     assert_eq!(running.get("/api/workspace").status, 200);
 }
 
-/// Neither idle connections nor clients that do not read lock out the owner, with or without the token.
+/// Neither idle connections nor clients that do not read can lock out the owner, with or without the token.
 #[test]
 fn silent_clients_lock_nobody_out() {
     let running = usual();
@@ -284,7 +284,8 @@ fn pipes_are_no_files() {
     assert_eq!(running.get("/api/workspace").status, 200);
 }
 
-/// Texts beyond the size limits of games and levels are rejected, and so are games whose levels have too much text together.
+/// Texts beyond the size limits of games and levels are rejected, and so are games whose levels are too large
+/// in total.
 #[test]
 fn answers_take_bounded_memory() {
     let running = usual();

@@ -1,11 +1,11 @@
-//! Malicious names: the content of a game, a card or a level is always returned as data.
+//! Tests of malicious names: the content of a game, a card or a level is always returned as data.
 
 use crate::client::{Running, entry, in_memory, run, studio, text};
 use infinite_arcade_studio::Place;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Texts that would have an effect if they were not shown as text.
+/// Texts that would have an effect if they were not treated as text.
 const MISBEHAVING: [&str; 6] = [
     "<script>alert(1)</script>",
     "\"><img src=x onerror=alert(1)>",
@@ -18,7 +18,7 @@ const MISBEHAVING: [&str; 6] = [
 fn misbehaving() -> Running {
     let mut games = Vec::new();
     for name in MISBEHAVING {
-        // Names of sprites contain part of the text, while comments and levels contain all of it.
+        // Sprite names contain part of the text, while comments and levels contain all of it.
         let word: String =
             name.chars().filter(|c| !c.is_whitespace() && !"#>:".contains(*c) && !c.is_control()).collect();
         let source = format!(
@@ -34,7 +34,7 @@ fn misbehaving() -> Running {
     run(studio(Path::new("."), games))
 }
 
-/// Checks that a response is JSON and nothing else, and that the images in it contain no text at all.
+/// Checks that a response is JSON and nothing else, and that its images contain no text at all.
 fn check(answer: &crate::client::Answer) -> Value {
     assert_eq!(answer.header("content-type"), Some("application/json"));
     assert_eq!(answer.header("x-content-type-options"), Some("nosniff"));

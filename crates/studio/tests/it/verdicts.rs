@@ -1,4 +1,4 @@
-//! Verdicts on levels that can be won, that cannot be won, or that try to break the judge.
+//! Tests of verdicts on levels that can be won, that cannot be won, or that try to break the judge.
 
 use crate::client::{GAME, LEVEL, Running, WALLED, usual};
 use engine::{Episode, Game, Outcome};
@@ -62,7 +62,7 @@ fn a_level_that_cannot_be_won_is_explained_at_its_place() {
 #[test]
 fn proofs_by_search_are_explained_too() {
     let running = usual();
-    // There are two boxes in a corridor. The reach ignores that one box blocks the other.
+    // There are two boxes in a corridor. The computed reach ignores that one box blocks the other.
     let source = "BasicGame\n  SpriteSet\n    hole > Immovable\n    box > Passive\n    avatar > MovingAvatar\n  LevelMapping\n    o > hole\n    b > box\n  InteractionSet\n    avatar wall > stepBack\n    box avatar > bounceForward\n    box wall > undoAll\n    box box > undoAll\n    box hole > killSprite\n  TerminationSet\n    SpriteCounter stype=box win=True\n    Timeout limit=50 win=False\n";
     let lines = verdict(&running, source, "wwwwwww\nwAb bow\nw    ww\nwb   ww\nwwwwwww\n", 200_000);
     let impossible = find(&lines, "impossible");
@@ -91,9 +91,9 @@ fn the_gates_are_asked_of_all_levels() {
     assert_eq!(none[0]["stage"], "error");
 }
 
-/// Every game of the hostile set can be checked, drawn, begun and judged. Each request gets a response or a refusal,
-/// and the server keeps running. Like a page, the client leaves once it knows whether the level can be won. Outside
-/// `cargo xtask sweep`, only a third of the games are tested.
+/// Every game in the hostile set can be checked, drawn, begun and judged. Each request gets a response or a
+/// refusal, and the server keeps running. Like a page, the client leaves once it knows whether the level can
+/// be won. Outside of `cargo xtask sweep`, only a third of the games are tested.
 #[test]
 fn hostile_games_are_answered() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/suite/hostile");

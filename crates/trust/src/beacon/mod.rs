@@ -1,5 +1,5 @@
-//! Public randomness. A source publishes a random value in each round. The value is stored as a file or as a
-//! log entry.
+//! Public randomness. In each round, a source publishes a random value, which is stored as a file or as a log
+//! entry.
 
 mod drand;
 
@@ -77,11 +77,11 @@ impl Drawn {
     }
 
     /// Checks the value. A drand round must have its network's signature, and the value must be the SHA-256
-    /// hash of the signature. For other sources, a signature is not verified, but the value must be the
-    /// signature's SHA-256 hash.
+    /// hash of the signature. For other sources, a signature is optional and not verified, but if present,
+    /// its SHA-256 hash must be the value.
     ///
     /// # Errors
-    /// Returns a message with the fault and the recommended next step.
+    /// Returns a message that describes the fault and the recommended next step.
     pub fn check(&self) -> Result<(), String> {
         let round = &self.round;
         let network = drand::named(&round.source)?;

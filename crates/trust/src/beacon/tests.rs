@@ -24,7 +24,7 @@ fn the_value_is_the_hash_of_the_signature() {
     check(&surplus, Some("which only drand networks have"));
 }
 
-/// If a file is not a beacon file, the error describes the expected content.
+/// Checks that the error for a file that is not a beacon file describes the expected content.
 #[test]
 fn no_file_of_a_beacon() {
     for bytes in [&b""[..], b"\xff\xfe", b"[]", b"{}", b"{\"source\": 7}"] {

@@ -1,4 +1,4 @@
-//! Log entries. The entries are a publisher's statements, in chronological order.
+//! Log entries: a publisher's statements in chronological order.
 
 use crate::beacon::{Proof, check_source};
 use crate::error::TrustError;
@@ -30,8 +30,8 @@ pub enum Entry {
         recipe: Digest,
         /// The previous release's root.
         parent: Option<Digest>,
-        /// The round of public randomness used by the recipe. Its value must be unknown when the commitment
-        /// is logged.
+        /// The round of public randomness that the recipe uses. The round's value must still be unknown when
+        /// the commitment is logged.
         beacon: Option<Round>,
     },
     /// A published public random value.
@@ -135,7 +135,7 @@ pub struct ResultRow {
 const ROUNDING: f64 = 1e-9;
 
 impl ResultRow {
-    /// Returns the fields that differ in a row recomputed from the same results, each with both values.
+    /// Returns the fields in which a row recomputed from the same results differs, each with both values.
     pub fn differences(&self, again: &ResultRow) -> Vec<String> {
         let texts = |row: &ResultRow| {
             let track = row.track.clone().unwrap_or_default();
@@ -169,7 +169,7 @@ impl ResultRow {
             found.push("`score` is missing either from the log or from the episodes".to_owned());
         }
         for ((key, stated), (_, now)) in stated.into_iter().zip(now) {
-            // A number that is not finite differs from every number.
+            // A non-finite number differs from every number.
             let is_same = (stated - now).abs() <= ROUNDING * stated.abs().max(1.0);
             if !is_same {
                 found.push(format!("`{key}` is {stated} in the log, but {now} according to the episodes"));
@@ -183,7 +183,7 @@ impl Entry {
     /// Parses an entry.
     ///
     /// # Errors
-    /// Returns an error if the bytes are not an entry known to this version of arcade, or are not in
+    /// Returns an error if this version of arcade does not know the kind of entry, or if the bytes are not in
     /// canonical form.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Entry, TrustError> {
         canonical(bytes, place)

@@ -1,4 +1,4 @@
-//! The rules that a log's entries must obey together. For example, commitments must come before releases.
+//! The rules that a log's entries must obey as a whole. For example, commitments must come before releases.
 
 use super::entry::{Entry, Revealed, Round};
 use crate::beacon::{Drawn, check_source};
@@ -199,7 +199,7 @@ impl History {
         problems
     }
 
-    /// Returns the fault in an entry that refers to a release missing from the log.
+    /// Returns the fault if an entry refers to a release that the log does not contain.
     fn known(&self, release: &str, root: &Digest) -> Option<String> {
         match self.roots.get(release) {
             Some(found) if found.root == *root => None,
@@ -230,8 +230,8 @@ impl History {
     }
 }
 
-/// Returns the releases with a commitment but no root in the log. Such releases were not minted yet, or were
-/// dropped.
+/// Returns the releases with a commitment but no root in the log. Such releases have not been minted yet, or
+/// were dropped.
 pub fn unkept(entries: &[Entry]) -> Vec<String> {
     let is_minted =
         |name: &str| entries.iter().any(|e| matches!(e, Entry::Root { release, .. } if release == name));
@@ -254,8 +254,8 @@ pub fn is_month(name: &str) -> bool {
     })
 }
 
-/// Checks that a log has reached a month, such as `2027-03`, and returns the fault otherwise. The newest
-/// month in the log reveals an outdated copy. Releases with other names contain no information about time.
+/// Checks that a log has reached a month, such as `2027-03`. Returns the fault if it has not. The newest
+/// month in a log reveals an outdated copy; releases with other names say nothing about time.
 pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
     let roots = entries.iter().filter_map(|entry| match entry {
         Entry::Root { release, .. } => Some(release.as_str()).filter(|name| is_month(name)),

@@ -1,4 +1,4 @@
-//! An append-only log. The entries are the leaves of a Merkle tree, whose signed states cannot be revoked.
+//! An append-only log. Its entries are the leaves of a Merkle tree, whose signed states cannot be revoked.
 
 mod entry;
 mod history;
@@ -22,7 +22,7 @@ use disk::{Disk, Lock};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The name of the file with the newest checkpoint, in the log's folder.
+/// The name of the file in the log's folder that contains the newest checkpoint.
 pub const CHECKPOINT_FILE: &str = "checkpoint";
 /// The maximum number of entries to read from a log.
 const MAX_ENTRIES: u64 = 1 << 20;
@@ -38,10 +38,10 @@ pub struct Log {
 }
 
 impl Log {
-    /// Opens a log, checking only its form. Returns `None` if the folder contains no log.
+    /// Opens a log, checking only that it is well-formed. Returns `None` if the folder contains no log.
     ///
     /// # Errors
-    /// Returns an error if a file cannot be read, or does not have the expected form.
+    /// Returns an error if a file cannot be read or is malformed.
     pub fn open(folder: &Path) -> Result<Option<Log>, TrustError> {
         let file = folder.join(CHECKPOINT_FILE);
         if !file.exists() {
@@ -100,8 +100,7 @@ impl Log {
     }
 
     /// Returns the faults in partial tiles from earlier states, which readers of those states may still use.
-    /// Tiles larger than the checkpoint's tiles are ignored, because an interrupted append may leave such
-    /// tiles.
+    /// Ignores tiles larger than the checkpoint's, because an interrupted append may leave such tiles behind.
     fn earlier_faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         for (place, parts) in tiles::parts(&self.entries, &self.leaves) {
@@ -120,7 +119,7 @@ impl Log {
         faults
     }
 
-    /// Returns the fault in this log, as seen by a reader with an earlier checkpoint.
+    /// Returns the fault if this log does not extend an earlier checkpoint that a reader has seen.
     pub fn fork(&self, seen: &Checkpoint) -> Option<String> {
         let Checkpoint { origin, size, root, .. } = &self.checkpoint;
         if seen.origin != *origin {
@@ -189,11 +188,11 @@ impl Log {
 /// Appends entries to a log, or starts a log with the name `origin`.
 ///
 /// The new files are written first and the checkpoint last, so the log is unchanged until the checkpoint is
-/// written. `rules` returns the faults found in all entries together. For release logs, `rules` calls
+/// written. `rules` returns the faults in the entries as a whole. For release logs, `rules` calls
 /// [`problems`].
 ///
 /// # Errors
-/// Returns an error if the log is invalid under this key, an entry breaks a rule, a different process is
+/// Returns an error if the log is invalid under this key, an entry breaks a rule, another process is
 /// appending, or a file system operation fails.
 pub fn append(
     folder: &Path,
@@ -213,7 +212,7 @@ pub fn append(
     match origin {
         Some(origin) => check_name(origin)?,
         None if folder.join(CHECKPOINT_FILE).exists() => {}
-        // No folder is created if the name is missing, for example because of a typing error.
+        // If the name is missing, for example because of a typo, no folder is created.
         None => return unnamed(),
     }
     disk.create_folder(folder).map_err(TrustError::io("create", folder))?;

@@ -19,7 +19,7 @@ pub const MAX_CHECKPOINT: u64 = 1 << 16;
 pub struct Checkpoint {
     /// The log's name.
     pub origin: String,
-    /// The number of entries in the log.
+    /// The number of entries in the log at this checkpoint.
     pub size: u64,
     /// The root of the Merkle tree over the entries.
     pub root: Hash,
@@ -38,7 +38,7 @@ struct Signature {
 /// Checks the name of a log or a witness, which must not contain whitespace or `+`.
 ///
 /// # Errors
-/// Returns an error with the requirement for names.
+/// Returns an error that states the requirements for names.
 pub fn check_name(name: &str) -> Result<(), TrustError> {
     let is_bad = |c: char| c.is_whitespace() || c == '+' || c.is_control();
     match name.is_empty() || name.len() > 200 || name.chars().any(is_bad) {
@@ -134,7 +134,7 @@ impl Checkpoint {
     /// Checks that the checkpoint is signed by the log.
     ///
     /// # Errors
-    /// Returns a sentence about the fault.
+    /// Returns a sentence that describes the fault.
     pub fn check(&self, key: &PublicKey) -> Result<(), String> {
         let hash = key_hash(&self.origin, ED25519, key);
         let body = self.body();

@@ -1,5 +1,5 @@
-//! Log proofs, stored in files. A proof shows that an entry is in the log, or that a log extends its earlier
-//! state.
+//! Log proofs, which are stored in files. A proof shows that an entry is in the log, or that a log extends
+//! its earlier state.
 
 use super::note::Checkpoint;
 use super::tree::{self, Hash};
@@ -22,11 +22,11 @@ pub struct Inclusion {
     pub index: u64,
     /// The proof's hashes, from the entry's sibling upwards.
     pub hashes: Vec<Hash>,
-    /// The checkpoint with the root reached by the hashes.
+    /// The checkpoint whose root the hashes lead to.
     pub checkpoint: Checkpoint,
 }
 
-/// A proof that a log has grown from an earlier size without changes to earlier entries.
+/// A proof that a log has grown from an earlier size without changing its earlier entries.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Consistency {
     /// The log's earlier size.

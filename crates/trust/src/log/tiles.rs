@@ -44,7 +44,7 @@ pub(super) fn entry_files(size: u64) -> Vec<(String, u64)> {
     widths(size, 0).map(|(number, width)| (path("entries", number, width), width)).collect()
 }
 
-/// Returns the files to write after a log has grown from `old` entries to all of `entries`.
+/// Returns the files to write when a log grows from its first `old` entries to all of `entries`.
 pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile> {
     let mut files = Vec::new();
     let of = |number: u64, width: u64| (number * WIDTH) as usize..(number * WIDTH + width) as usize;
@@ -70,8 +70,8 @@ pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile>
     files
 }
 
-/// Returns the folders for all partial tiles that a log with these entries may have contained. Each folder is
-/// returned with its tile's parts, in order.
+/// Returns the folders for all partial tiles that a log with these entries may have contained. Each folder
+/// comes with the tile's possible parts, in order.
 pub(super) fn parts(entries: &[Vec<u8>], leaves: &[Hash]) -> Vec<(String, Vec<Vec<u8>>)> {
     let mut found = Vec::new();
     let mut add = |level: &str, parts: Vec<Vec<u8>>| {

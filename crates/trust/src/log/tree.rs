@@ -1,7 +1,8 @@
 //! A log's Merkle tree, as specified in RFC 6962, with SHA-256.
 //!
 //! A release's tree has the same shape, but uses BLAKE3 and includes paths in its leaves. Release trees are
-//! implemented in the crate `snapshots`. Neither crate depends on the other, so they share no code.
+//! implemented in the crate `snapshots`. Neither crate depends on the other, so the implementations share no
+//! code.
 
 use sha2::{Digest as _, Sha256};
 
@@ -35,7 +36,7 @@ fn split(count: usize) -> usize {
 }
 
 /// Returns the proof that the entry at `index` is in the tree (RFC 6962 §2.1.1). The hashes are ordered from
-/// the leaf's sibling upwards. Returns `None` if the entry does not exist.
+/// the leaf's sibling upwards. Returns `None` if there is no such entry.
 pub(super) fn inclusion(leaves: &[Hash], index: usize) -> Option<Vec<Hash>> {
     if index >= leaves.len() {
         return None;

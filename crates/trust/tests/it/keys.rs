@@ -1,5 +1,4 @@
-//! Tests of signed roots. The tests cover thresholds, rotation and revocation, altered files, and power
-//! failures.
+//! Tests of signed roots. They cover thresholds, rotation and revocation, altered files, and power failures.
 
 use base::Digest;
 use disk::Disk;
@@ -85,7 +84,8 @@ fn one_key_signs_one_root() {
     assert!(other.problems[0].contains("no signed statement says that `2027-01` has the root"), "{other:?}");
     let renamed = found.judge("2027-02", &root(), &Anchor::Key(ada.new.public.clone()));
     assert!(renamed.problems[1].contains("the statement is about `2027-01`"), "{renamed:?}");
-    // Those who trust a set need a set in the statement, because a lone signature may be older than a revocation.
+    // For a reader who trusts a set, the statement must name a set, because a lone signature may be older
+    // than a revocation.
     let set = KeySet::next(None, Some(1), vec![ada.named()], &[]).unwrap();
     refused(home.path(), &set_anchor(&set), "does not specify a set of keys");
 }
@@ -112,7 +112,7 @@ fn two_of_three_keys_sign() {
     );
 }
 
-/// A key is lost. The two other holders replace it, and its signatures no longer count.
+/// Checks that the other two holders can replace a lost key, whose signatures then no longer count.
 #[test]
 fn a_lost_key_is_revoked_and_replaced() {
     let home = tempfile::tempdir().unwrap();
@@ -140,7 +140,7 @@ fn a_lost_key_is_revoked_and_replaced() {
     );
     refused(home.path(), &set_anchor(&second), "the key of `bo` is revoked: lost");
     refused(home.path(), &Anchor::Key(bo.new.public.clone()), "the key of `bo` is revoked: lost");
-    // After the release is signed again under the new set, readers who trust either set accept it.
+    // After the release is signed again under the new set, it is accepted by readers who trust either set.
     sign(home.path(), Some(&second), &[&cy, &di]);
     for anchor in [&first, &second] {
         let signed = judge(home.path(), &set_anchor(anchor));
@@ -186,7 +186,7 @@ fn another_history_of_keys_is_refused() {
     sign(home.path(), Some(&forged), &[&eve]);
     assert_eq!(judge(home.path(), &set_anchor(&forged)).problems, [""; 0]);
     refused(home.path(), &set_anchor(&first), "which is not connected with the set that you trust");
-    // A forged set that claims to follow the right one.
+    // A forged set claims to follow the genuine one.
     fs::remove_file(home.path().join("keys-1.json")).unwrap();
     let next = KeySet::next(Some(&first), None, vec![eve.named()], &[]).unwrap();
     publish(home.path(), &next, &[&eve]);

@@ -1,4 +1,4 @@
-//! Tests of signatures, sets of keys and logs, from the viewpoints of publishers and readers.
+//! Tests of signatures, key sets and logs, from the viewpoints of publishers and readers.
 
 mod keys;
 mod log;

@@ -13,7 +13,7 @@ use crate::rules::terminations::can_be_held_up;
 use crate::rules::{Rules, SpriteType};
 use serde::Serialize;
 
-/// The conditions under which a termination can hold. All variants except [`Attainable::InPlay`] are proved.
+/// The conditions under which a termination can hold. All variants except [`Attainable::InPlay`] are proven;
 /// `InPlay` only means that the rules alone do not exclude the termination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -22,8 +22,8 @@ pub enum Attainable {
     AtOnce,
     /// Playing the level may make the termination hold.
     InPlay,
-    /// The termination holds from the start of a level or never, because nothing moves its count in the
-    /// required direction.
+    /// The termination holds from the start of a level or never, because nothing changes its sprite count in
+    /// the required direction.
     FromStart,
     /// The termination never holds in any level.
     Never,
@@ -33,7 +33,7 @@ pub enum Attainable {
 struct PopulationChanges {
     /// For each type, whether its sprites can exist.
     exists: Vec<bool>,
-    /// For each type, whether a sprite can disappear without a replacement.
+    /// For each type, whether a sprite can disappear without being replaced.
     disappears: Vec<bool>,
     /// For each type, whether a sprite can appear without replacing another sprite.
     appears: Vec<bool>,
@@ -185,8 +185,8 @@ impl PopulationChanges {
 }
 
 /// Returns `true` if the effects that turn their sprite into a different type also turn a dead avatar again
-/// in every tick. All such effects turn dead avatars again, except `transformTo`, which has no condition and
-/// turns no other sprite.
+/// in every tick. All such effects do so except `transformTo`, which has no condition and turns no other
+/// sprite.
 pub(crate) fn turns_dead(effects: &[EffectSummary], precondition: Precondition) -> bool {
     precondition == Precondition::Movement
         || effects
@@ -203,7 +203,7 @@ pub(crate) fn disappears_by_itself(rules: &Rules, stype: SpriteType) -> bool {
 }
 
 impl Analysis {
-    /// Returns `false` only if it is proved that no level can be won by playing it. The proof requires one of
+    /// Returns `false` only if it is proven that no level can be won by playing it. The proof requires one of
     /// the following for each winning termination:
     ///
     /// - The termination never holds.
@@ -213,7 +213,7 @@ impl Analysis {
         self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Returns `false` only if it is proved that no level can be lost by playing it, apart from the reference
+    /// Returns `false` only if it is proven that no level can be lost by playing it, apart from the reference
     /// engine's own tick limit. See [`Analysis::can_win`].
     pub fn can_lose(&self) -> bool {
         self.can_end(false, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))

@@ -11,11 +11,11 @@ use crate::state::State;
 /// The condition under which a termination ends the game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Condition {
-    /// At most this number of sprites of these types exist.
+    /// At most this many sprites of these types exist.
     AtMost(Vec<SpriteType>, i32),
-    /// At least this number of sprites of these types are alive.
+    /// At least this many sprites of these types are alive.
     AtLeast(Vec<SpriteType>, i32),
-    /// Exactly this number of sprites of these types are alive.
+    /// Exactly this many sprites of these types are alive.
     Exactly(Vec<SpriteType>, i32),
     /// This tick is reached.
     Tick(i32),
@@ -97,11 +97,11 @@ pub struct Aims {
     pub remove: Vec<SpriteType>,
     /// Types whose number of sprites must increase for a win.
     pub create: Vec<SpriteType>,
-    /// Types, except avatars, whose loss loses the game.
+    /// Types other than avatars whose loss loses the game.
     pub protect: Vec<SpriteType>,
     /// Types whose appearance loses the game.
     pub prevent: Vec<SpriteType>,
-    /// The tick at which surviving wins.
+    /// The tick that wins the game if the player survives until then.
     pub survive: Option<i32>,
     /// The first tick at which a Timeout loses the game, or may lose it, apart from the reference engine's
     /// own tick limit.
@@ -209,8 +209,8 @@ impl Analysis {
                 let tree = game.sprite_types().filter(|stype| self.applies(written, *stype));
                 tree.into_iter().any(|stype| game.class(stype).is_some_and(SpriteClass::is_avatar))
             };
-            // In the same tick, a second `transformToAll` turns the sprites again that the first
-            // `transformToAll` has turned.
+            // A second `transformToAll` in the same tick also turns the sprites that the first has already
+            // turned.
             let takes_one = !matches!(effect, EffectSummary::Make(_) | EffectSummary::BecomeAll(..))
                 && first.is_some_and(|first| all_of(first) && !(turns_dead && is_avatar(first)));
             effect.makes().iter().any(one_of) && !takes_one

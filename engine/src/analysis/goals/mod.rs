@@ -1,4 +1,4 @@
-//! A game's goals: its winning and losing conditions, whether they can be met, and their requirements on
+//! A game's goals: its winning and losing conditions, whether they can be met, and what they require of
 //! levels.
 
 pub(crate) mod attain;

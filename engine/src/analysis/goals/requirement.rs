@@ -1,4 +1,4 @@
-//! Requirements on a level's sprites, without which playing the level is pointless.
+//! Requirements on a level's sprites. If a level does not meet them, playing it is pointless.
 
 use super::goal::Condition;
 use crate::analysis::Analysis;
@@ -22,8 +22,8 @@ pub enum Reason {
     Portal(SpriteType),
 }
 
-/// The maximum number of terminations from which requirements are derived, in order. Real games have only a
-/// few terminations.
+/// The maximum number of terminations, in order of priority, from which requirements are derived. Real games
+/// have only a few terminations.
 pub const MAX_GOALS: usize = 64;
 
 /// A requirement on the total number of sprites of certain types in a level.
@@ -106,7 +106,7 @@ fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
 }
 
 /// Returns the requirements for creating the sprites that a win needs, or for removing unwanted sprites that
-/// the avatar cannot remove by touch.
+/// the avatar cannot remove by touching them.
 fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<Requirement> {
     let condition = &analysis.goals[at].condition;
     let wants_more = match condition {
@@ -133,7 +133,7 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
     }
     for pushable in analysis.pushables.iter().filter(|pushable| condition.types().contains(&pushable.stype)) {
         let placed = |partner: SpriteType| !analysis.facts(partner).symbols.is_empty();
-        // Prefer a sprite that stays in place to another pushable sprite.
+        // Prefer a sprite that stays in place over another pushable sprite.
         let spoils =
             |sink: &&Sink| matches!(sink.fate, Fate::Becomes(to) if analysis.aims.prevent.contains(&to));
         let sinks = pushable.sinks.iter().filter(|sink| placed(sink.partner) && !spoils(sink));
@@ -143,7 +143,7 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
     list
 }
 
-/// Returns the requirement of enough keys for one lock of each type.
+/// Returns the requirements that a level has enough keys for one lock of each type.
 fn keys(analysis: &Analysis) -> Vec<Requirement> {
     let mut list = Vec::new();
     for lock in &analysis.locks {

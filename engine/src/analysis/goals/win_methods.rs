@@ -13,13 +13,13 @@ use std::collections::BTreeSet;
 /// A method of winning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WinMethod {
-    /// The avatar touches an exit.
+    /// The avatar reaches an exit.
     Exit,
     /// The avatar touches sprites that do not move.
     Take,
     /// The avatar touches moving sprites.
     Catch,
-    /// The avatar's shots remove moving sprites, or are themselves moving.
+    /// The avatar's shots remove moving sprites, or the shots themselves move.
     Shoot,
     /// A sprite that the avatar places, and that stays in its cell, removes a sprite that does not move.
     Tool,
@@ -40,8 +40,8 @@ pub(crate) struct WinMethods<'a> {
     flown: Vec<bool>,
     /// For each type, whether touching some sprite removes all sprites of the type.
     opened: Vec<bool>,
-    /// For each type, whether its sprites can be pushed onto something that removes or changes them, or are
-    /// filled by a pushed sprite.
+    /// For each type, whether its sprites can be pushed onto something that removes or changes them, or can
+    /// be filled by a pushed sprite.
     pushed: Vec<bool>,
     /// For each type, whether a collision with another sprite removes its sprites.
     met: Vec<bool>,
@@ -156,8 +156,8 @@ impl WinMethods<'_> {
         methods
     }
 
-    /// Returns `true` if a motionless type that wins by touch is a destination, rather than a type of many
-    /// collectable items.
+    /// Returns `true` if a motionless type that wins by touch is a destination, rather than one of many items
+    /// to collect.
     fn is_like_an_exit(&self, stype: SpriteType) -> bool {
         let Analysis { game, aims, touches, .. } = self.analysis;
         let wanted = |stype: SpriteType| {

@@ -38,8 +38,8 @@ impl Encounter {
         self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
     }
 
-    /// Returns `true` if a sprite of one of these types definitely appears, or if the first sprite turns into
-    /// such a sprite. `types` must be sorted.
+    /// Returns `true` if a sprite of one of these types definitely appears, or if the first sprite definitely
+    /// turns into one. `types` must be sorted.
     pub(crate) fn brings_one_of(&self, types: &[SpriteType]) -> bool {
         self.does(|effect| {
             let (EffectSummary::Become(to) | EffectSummary::Make(to)) = effect else { return false };
@@ -57,8 +57,8 @@ impl Encounter {
     }
 }
 
-/// Returns all interactions in the order of a tick, without duplicates. Interactions with the edge come
-/// first.
+/// Returns all interactions in the order in which a tick checks them, without duplicates. Interactions with
+/// the edge come first.
 pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let mut seen: Vec<(SpriteType, Option<SpriteType>, u16, u16)> = Vec::new();
     // No sprite can be shielded against the edge.
@@ -66,14 +66,14 @@ pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let edge = edge.map(|&(stype, effect)| (stype, None, effect, u16::MAX));
     let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect, pass.keyword));
     for key in edge.chain(pairs) {
-        // Repetitions of a pass, or of an edge effect, are close together.
+        // Duplicates of a pass or an edge effect are close together.
         if !seen.iter().rev().take(64).any(|other| *other == key) {
             seen.push(key);
         }
     }
     let encounter = |(first, second, effect, keyword): (SpriteType, Option<SpriteType>, u16, u16)| {
         let info = &rules.effects[usize::from(effect)];
-        // At the edge, an effect that needs a partner only changes the score.
+        // At the edge, an effect that needs a partner does nothing but change the score.
         let runs = second.is_some() || !info.summary.needs_partner;
         let mut effects = if runs { info.summary.effects.clone() } else { SmallVec::new() };
         effects.extend(info.summary.schedules.into_iter().flat_map(|timed| global_part(rules, timed)));

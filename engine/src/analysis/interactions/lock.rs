@@ -7,7 +7,7 @@ use crate::analysis::futures::PossibleFutures;
 use crate::analysis::types::facts::{Avatar, Facts, Motion, Steering};
 use crate::rules::{Rules, SpriteType};
 
-/// The requirement for opening a locked sprite.
+/// The requirement for opening a lock.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Key {
     /// An amount of a resource.
@@ -21,8 +21,8 @@ pub enum Key {
     },
     /// The avatar must be of this type.
     Avatar(SpriteType),
-    /// The avatar must have touched a sprite of the first type, or pushed a sprite of the second type onto a
-    /// sprite of the first type.
+    /// The avatar must have touched a sprite of the first type, or, if there is a second type, have pushed a
+    /// sprite of that type onto one of the first.
     Switch(SpriteType, Option<SpriteType>),
 }
 
@@ -36,13 +36,13 @@ pub struct Lock {
     /// `true` if the sprite blocks or harms the avatar until it is opened, so that it can guard the cells
     /// behind it.
     pub guards: bool,
-    /// `true` if opening removes the sprite. Otherwise, the avatar passes through the opened sprite.
+    /// `true` if opening removes the sprite, and `false` if the avatar then passes through it.
     pub vanishes: bool,
     /// The types that give the key on contact, each with the given amount.
     pub givers: Vec<(SpriteType, i32)>,
 }
 
-/// A resource that an avatar can hold.
+/// A resource that avatars can hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Resource {
     /// The resource's type.
@@ -63,7 +63,7 @@ pub struct Resource {
     pub is_ammunition: bool,
 }
 
-/// The effect of a push onto a partner on the pushed sprite.
+/// The fate of a sprite that is pushed onto a partner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
     /// The pushed sprite stays on the cell, unchanged.
@@ -87,7 +87,7 @@ pub struct Sink {
     pub opens: Vec<SpriteType>,
 }
 
-/// A type that avatars push.
+/// A type whose sprites avatars can push.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pushable {
     /// The pushable type.
@@ -150,7 +150,7 @@ fn meetings(pairs: &Pairs<'_>, types: usize, stype: SpriteType) -> Vec<Meeting> 
     pairs.with(stype, |partner, own, encounter| {
         let meeting = &mut meetings[partner.index()];
         let Meeting::Free(sink) = meeting else { return };
-        // A row of pushed sprites moves together, but levels should not rely on such a subtlety.
+        // A row of pushed sprites moves together, but levels should not rely on this subtlety.
         let stops = |effect: &EffectSummary| effect.puts_back(own, stype) || *effect == EffectSummary::Push;
         if encounter.does(stops) {
             *meeting = Meeting::Blocked;
@@ -216,7 +216,7 @@ pub(crate) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
 }
 
 /// Returns, for each resource, the types whose touch changes its amount. `share` converts a change into a
-/// number, and each type is listed with its maximum number. Types without a positive number are omitted.
+/// number, and each type comes with its maximum number. Types without a positive number are omitted.
 fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
     let mut givers: Givers = vec![Vec::new(); facts.len()];
     for (stype, _) in (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible) {
@@ -290,8 +290,8 @@ pub(crate) fn locks(
     locks
 }
 
-/// Returns, for each type, the switch that removes all its sprites. The switch is either a sprite to touch or
-/// a sprite to fill with a pushed sprite. Switches to fill take precedence.
+/// Returns, for each type, the switch that removes all its sprites. A switch is either a sprite to touch or a
+/// sprite to fill with a pushed sprite. The latter take precedence.
 fn switches(
     types: usize,
     touches: &Touches,

@@ -1,11 +1,11 @@
-//! Interactions grouped by pair of types, so that one type can be compared with every other type without
+//! Interactions grouped by pair of types, so that one type can be checked against every other type without
 //! scanning all rules.
 
 use super::encounter::{EffectSummary, Encounter, Side};
 use crate::rules::{Rules, SpriteType};
 
-/// The maximum number of interactions between two types to consider. Later interactions, in the order of a
-/// tick, are assumed to be repetitions. Real games have only a few interactions per pair.
+/// The maximum number of interactions between two types to consider. Interactions that come later in a tick
+/// are assumed to be repetitions. Real games have only a few interactions per pair.
 pub const MAX_RULES_PER_PAIR: u16 = 64;
 
 /// The interactions between sprites, grouped by their pair of types.
@@ -32,9 +32,9 @@ impl<'a> Pairs<'a> {
         Pairs { rules, encounters, groups: groups.filter_map(group).collect() }
     }
 
-    /// Visits the interactions of a type with every other type, in the order of a tick. Passes three values:
-    /// the other type, the side of `own`, and the interaction. If the type matches both sides, passes the
-    /// first side.
+    /// Visits the interactions of a type with every other type, in the order of a tick. `visit` receives the
+    /// other type, the side of `own`, and the interaction. If the type matches both sides, the side is the
+    /// first.
     pub(crate) fn with(&self, own: SpriteType, mut visit: impl FnMut(SpriteType, Side, &Encounter)) {
         let mut seen = vec![0u16; self.rules.types.len()];
         let mut visit = |group: &Group<'_>, other: SpriteType, side: Side| {
@@ -61,7 +61,7 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// Returns the types, as written, against which some interaction of `own` can shield `own`.
+    /// Returns the types, as written, against which some interaction of `own` can shield it.
     pub(crate) fn shields(&self, own: SpriteType) -> Vec<SpriteType> {
         let concerned =
             self.encounters.iter().filter(|encounter| self.rules.types[encounter.first.index()].in_tree(own));

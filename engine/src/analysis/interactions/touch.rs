@@ -1,4 +1,4 @@
-//! The results of an avatar touching a sprite, combined from all interactions between the two types in either
+//! The results of an avatar touching a sprite. They combine all interactions between the two types, in either
 //! order.
 
 use super::encounter::{EffectSummary, Encounter, Precondition, Side};
@@ -12,7 +12,8 @@ pub enum Harm {
     /// Contact does not hurt.
     #[default]
     None,
-    /// Contact sometimes kills, depending on the movement of the two sprites, the avatar's resources, or other sprites.
+    /// Contact sometimes kills, depending on how the two sprites move, on the avatar's resources, or on other
+    /// sprites.
     Conditional,
     /// Contact costs fewer health points than the avatar starts with.
     Wounds,
@@ -39,7 +40,7 @@ pub enum Removal {
 pub struct Touch {
     /// The harm to the avatar.
     pub harm: Harm,
-    /// The resource and amount that protect the avatar from harm.
+    /// The resource, with the required amount, that protects the avatar from harm.
     pub safe_with: Option<(SpriteType, i32)>,
     /// `true` if the avatar cannot enter the sprite's cell.
     pub blocks: bool,
@@ -59,12 +60,12 @@ pub struct Touch {
     pub teleports: bool,
     /// The types whose sprites are all removed or changed, wherever they are.
     pub opens: Vec<SpriteType>,
-    /// The types of the sprites that appear, including the type that the avatar turns into if a win requires
+    /// The types of the sprites that appear, including the type that the avatar turns into, if a win requires
     /// that type.
     pub makes: Vec<SpriteType>,
     /// The sum of the score changes.
     pub score: i32,
-    /// `true` if any interaction between the two types exists.
+    /// `true` if there is any interaction between the two types.
     pub any: bool,
 }
 
@@ -80,14 +81,13 @@ impl Touch {
     }
 }
 
-/// Returns the touch results of an avatar type with each type. Cost: O(interactions of the avatar ×
-/// relatives).
+/// Returns the results of an avatar type touching each type. Cost: O(interactions of the avatar × relatives).
 pub(crate) fn touches(rules: &Rules, pairs: &Pairs<'_>, aims: &Aims, avatar: SpriteType) -> Vec<Touch> {
     let mut row = vec![Touch::default(); rules.types.len()];
     pairs.with(avatar, |other, side, encounter| {
         add(rules, aims, avatar, other, encounter, side, &mut row[other.index()]);
     });
-    // Another sprite at the same position can shield the avatar from the effects of a type.
+    // Another sprite at the same position can shield the avatar from a type's effects.
     for from in pairs.shields(avatar) {
         for other in &rules.types[from.index()].tree {
             let touch = &mut row[other.index()];
@@ -97,7 +97,7 @@ pub(crate) fn touches(rules: &Rules, pairs: &Pairs<'_>, aims: &Aims, avatar: Spr
     row
 }
 
-/// Adds the effects of an interaction that has the avatar on the side `own`.
+/// Adds the effects of an interaction in which the avatar is on the side `own`.
 fn add(
     rules: &Rules,
     aims: &Aims,

@@ -1,4 +1,4 @@
-//! Sets of cells on a board and on the ring around it.
+//! Sets of cells on a board and on the one-cell ring around it.
 
 use crate::numbers::geometry::Direction;
 
@@ -147,8 +147,8 @@ impl Cells {
         new
     }
 
-    /// Adds the cells on a line, from `start` in steps of `step`, whose distance along the line from a cell
-    /// in `from` is at most `distance`.
+    /// Adds the cells of a line that are at most `distance` away, along the line, from a cell in `from`. The
+    /// line leads from `start` in steps of `step`.
     fn smear(&mut self, from: &Cells, (start, step): (usize, usize), length: usize, distance: i32) {
         for back in [false, true] {
             let mut left = 0;
@@ -187,7 +187,7 @@ impl Directions {
     pub(super) const RIGHT: Directions = Directions(8);
     /// A direction off the grid axes.
     pub(super) const ASKEW: Directions = Directions(16);
-    /// No direction: for sprites without an orientation, and for sprites that have not moved.
+    /// No direction, for sprites that have no orientation or have not moved.
     pub(super) const UNSET: Directions = Directions(32);
     pub(super) const FOUR: Directions = Directions(15);
     /// Every direction.
@@ -238,7 +238,7 @@ impl Directions {
         Directions::of(Direction { x: f64::from(x), y: f64::from(y) })
     }
 
-    /// Returns the one-cell steps that a sprite moving in these directions can take. Diagonal steps come
+    /// Returns the one-cell steps that a sprite moving in these directions can take, with diagonal steps
     /// last.
     pub(super) fn steps(self) -> impl Iterator<Item = (i32, i32)> {
         let straight = [

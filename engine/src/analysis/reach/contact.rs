@@ -61,7 +61,7 @@ impl Model<'_> {
         } else {
             own.facing
         };
-        // Shots at an angle, and shots of sprites between cells, are between cells.
+        // Shots fired at an angle, or by sprites between cells, are themselves between cells.
         let off_grid = own.off_grid || any || (class.is_avatar() && own.facing.meets(Directions::ASKEW));
         for (made, _) in self.makes[stype.index()].clone() {
             let traits = &self.info(made).traits;
@@ -157,7 +157,8 @@ impl Model<'_> {
         now.goes_back |= new.goes_back;
     }
 
-    /// Applies a turn to a sprite of type `one`. `two` is the type of the colliding sprite, if any.
+    /// Applies a turn to a sprite of type `one`. `two` is the type of the sprite that it collides with, if
+    /// any.
     fn face(&self, one: SpriteType, two: Option<SpriteType>, turn: Turn, new: &mut Mobility) {
         let own = self.of_type(one);
         let partner = two.map_or_else(Mobility::default, |two| *self.of_type(two));
@@ -182,8 +183,8 @@ impl Model<'_> {
         new.straight = false;
     }
 
-    /// Applies a displacement to a sprite of type `one`. `two` is the type of the colliding sprite, if
-    /// any.
+    /// Applies a displacement to a sprite of type `one`. `two` is the type of the sprite that it collides
+    /// with, if any.
     fn displace(
         &mut self,
         one: SpriteType,
@@ -257,7 +258,7 @@ impl Model<'_> {
 
     /// Turns one type into another, which inherits its position and optionally its orientation.
     fn turn(&mut self, from: SpriteType, to: SpriteType, force: bool) {
-        // A sprite that is transformed again and then moved back returns to its original position.
+        // A sprite that is transformed a second time and then moved back returns to its original position.
         self.mobility[from.index()].goes_back |= self.mobility[to.index()].goes_back;
         let old = self.mobility[from.index()];
         let oriented = self.info(from).traits.is_oriented && self.info(to).traits.is_oriented;

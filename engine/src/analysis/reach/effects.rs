@@ -17,7 +17,7 @@ impl Events<'_> {
         if !summary.needs_partner && self.run_on_one(at, one, (cells, &own), summary) {
             return;
         }
-        // Timed effects and effects at the edge have no partner, and most effects do nothing without one.
+        // Timed effects and effects at the edge have no partner, without which most effects do nothing.
         if let Some(two) = meeting.two() {
             self.run_on_both(at, (one, two), (cells, &own), summary);
         }
@@ -154,7 +154,7 @@ impl Events<'_> {
         let heading = model.of_type(to).facing;
         self.appear_in(to, &here, at, heading);
         if model.of_type(to).goes_back {
-            // At any later moment of the tick, the new sprite can be moved back to the position that the old
+            // At any later point in the tick, the new sprite can be moved back to the position that the old
             // sprite, or its predecessor, had before it moved.
             let before = self.rest(from).clone();
             self.appear_in(to, &before, Order::LAST, heading);
@@ -185,7 +185,7 @@ impl Events<'_> {
         self.flood.face(one, &around, turn);
     }
 
-    /// Moves sprites back to their previous position, and two steps down.
+    /// Moves sprites back to their previous position and then two steps down.
     fn turn_around(&mut self, one: SpriteType, cells: &Cells, at: Order) {
         let model = self.flood.model;
         let (own, traits) = (*model.of_type(one), &model.info(one).traits);
@@ -205,7 +205,7 @@ impl Events<'_> {
         // A negative speed moves the sprite up.
         let signs: &[i32] = if own.backwards { &[1, -1] } else { &[1] };
         for cell in from.iter() {
-            // The further outside the board a sprite starts, the less far in it comes.
+            // The further outside the board a sprite starts, the less far it gets into the board.
             let least = if exact && !board.is_ring(cell) { 2 } else { 1 };
             for (&sign, times) in signs.iter().flat_map(|sign| (least..=most).map(move |times| (sign, times)))
             {

@@ -9,13 +9,13 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, Gives};
 use std::collections::BTreeMap;
 
-/// An unlimited amount of a resource: more than any rule requires.
+/// An amount of a resource that counts as unlimited: more than any rule requires.
 const PLENTY: i64 = i64::MAX;
 
-/// The sprites of each type placed by a level: each cell, with the number of such sprites in the cell.
+/// The sprites that a level places, by type: each cell with the number of sprites of the type in it.
 pub(super) type Placed = Vec<Vec<(usize, u32)>>;
 
-/// The effects of collisions, applied until nothing changes.
+/// Applies the effects of collisions until nothing changes.
 pub(super) struct Events<'a> {
     pub(super) flood: Flood<'a>,
     placed: &'a Placed,
@@ -26,8 +26,8 @@ pub(super) struct Events<'a> {
     seen: Vec<(u32, u32)>,
 }
 
-/// A source of a resource: the cells of its sprites, the amount that each sprite gives, and whether giving
-/// uses the sprite up.
+/// A source of a resource: the cells of its sprites, the amount that each sprite gives, and whether a sprite
+/// is used up by giving.
 pub(super) struct Gift {
     pub(super) cells: Cells,
     each: i64,
@@ -72,8 +72,8 @@ impl<'a> Events<'a> {
         self.flood.board
     }
 
-    /// Returns the cost of a pass over a set of cells, in units of single cells. A pass processes many cells
-    /// at a time.
+    /// Returns the cost of a pass over a set of cells, in single-cell units. A pass processes many cells at a
+    /// time.
     fn sweep(&self) -> u64 {
         1 + self.board().size() as u64 / 512
     }
@@ -99,7 +99,8 @@ impl<'a> Events<'a> {
     }
 
     pub(super) fn appear_in(&mut self, stype: SpriteType, cells: &Cells, at: Order, heading: Directions) {
-        // A sprite larger than its maker, or one that is between cells like its maker, extends to the right and down.
+        // A sprite that is larger than its maker, or between cells like its maker, extends to the right and
+        // down.
         let more = self.flood.model.spread(stype);
         let grows = self.flood.model.scales && more > 0;
         let cells = if grows { self.board().around(cells, more) } else { cells.clone() };
@@ -152,7 +153,8 @@ impl<'a> Events<'a> {
             let none = || Gift { cells: Cells::none(self.board()), each: 0, once: true };
             let gift = gifts.entry((resource, giver)).or_insert_with(none);
             gift.cells.add(&cells);
-            // Collecting removes the collected sprite, while each of the other rules may give the resource once more.
+            // Collecting removes the collected sprite, whereas each of the other rules may give the resource
+            // once more.
             gift.each = if collected { gift.each.max(each) } else { gift.each.saturating_add(each) };
             gift.once &= once;
         }
@@ -189,20 +191,20 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Returns the cells that two sprites can share at this point in a tick.
+    /// Returns the cells that sprites of two types can share at this point in a tick.
     fn met(&self, one: SpriteType, two: SpriteType, at: Order) -> Cells {
         self.flood.present(one, at, true).shared(&self.flood.present(two, at, false))
     }
 
-    /// Processes a collision of two types if any of its inputs has changed. Returns `true` if either region
-    /// has changed.
+    /// Processes a possible collision of two types, if any of its inputs has changed. Returns `true` if
+    /// either region has changed.
     fn meet(&mut self, at: usize) -> bool {
         let meeting = self.flood.model.meetings[at];
         let version =
             |stype: Option<SpriteType>| stype.map_or(0, |stype| self.flood.regions[stype.index()].version);
         let versions = (version(meeting.one), version(meeting.two()));
         let summary = meeting.summary(self.flood.model.rules);
-        // These effects depend on more than the two regions.
+        // These effects depend on more than the two types' regions.
         let far = summary.displacement == Some(Displacement::Exit)
             || summary.becomes_all().is_some()
             || summary.redirects.is_some();

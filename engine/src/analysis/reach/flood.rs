@@ -1,4 +1,4 @@
-//! A flood fill over the cells that sprites can reach from their positions, until no new cell is reached.
+//! A flood fill from the sprites' positions over all cells that they can reach.
 
 use super::cells::{Board, Cells, Directions};
 use super::meetings::{End, Meeting, Order, With};
@@ -7,8 +7,8 @@ use super::model::Model;
 use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, EffectSummary, Precondition, Side};
 
-/// The maximum number of cells to examine. If a level requires more, the result is coarse. Typical levels
-/// require tens of thousands.
+/// The maximum number of cells to examine, beyond which the result is coarse. Typical levels require tens of
+/// thousands.
 const BUDGET: u64 = 1 << 23;
 
 /// The cells that sprites of a type can reach.
@@ -16,7 +16,7 @@ const BUDGET: u64 = 1 << 23;
 pub(super) struct Region {
     /// The cells that a sprite can overlap at some point in a tick.
     pub(super) touch: Cells,
-    /// The cells in `touch` to which something other than a sprite's own update can move the sprite.
+    /// The cells in `touch` to which something other than its own update can move a sprite.
     late: Cells,
     /// The cells that a sprite can overlap between two ticks.
     pub(super) rest: Cells,
@@ -34,10 +34,10 @@ pub(super) struct Region {
     pub(super) version: u32,
 }
 
-/// A barrier: a type that keeps sprites of another type out of its cells, or removes them there.
+/// A barrier: a type that keeps sprites of another type out of its cells or removes them there.
 #[derive(Clone, Copy, Debug)]
 struct Barrier {
-    /// The type that acts as the barrier, or `None` for the edge of the board.
+    /// The type that forms the barrier, or `None` for the edge of the board.
     by: Option<SpriteType>,
     kills: bool,
     /// The first and last points in a tick at which the barrier keeps sprites out.
@@ -50,7 +50,8 @@ pub(super) struct Flood<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) board: Board,
     pub(super) regions: Vec<Region>,
-    /// For each type, the cells that its sprites occupy from the start and, as far as is known, forever.
+    /// For each type, the cells that its sprites occupy from the start and, as far as is known so far,
+    /// forever.
     pub(super) permanent: Vec<Cells>,
     /// For each type, the cells where a sprite can be removed.
     pub(super) removable: Vec<Cells>,
@@ -62,8 +63,8 @@ pub(super) struct Flood<'a> {
     bars: Vec<Vec<Barrier>>,
     /// For each type, the other types for which its sprites are barriers.
     bars_to: Vec<Vec<SpriteType>>,
-    /// For each type, whether its sprites may be removed in the middle of a tick. Other sprites still collide
-    /// with removed sprites until the end of the tick.
+    /// For each type, whether its sprites may be removed in the middle of a tick. Until the end of the tick,
+    /// other sprites still collide with removed ones.
     removed: Vec<bool>,
     /// The height of a jump in rows, for types that fall and jump.
     climbs: Vec<Option<i32>>,
@@ -131,7 +132,7 @@ impl<'a> Flood<'a> {
         }
         let is_avatar = model.info(one).class.is_some_and(|class| class.is_avatar());
         let bar = |flood: &mut Flood<'_>, stype: SpriteType, by: Option<SpriteType>, kills: bool| {
-            // A moving sprite sooner or later lets others pass.
+            // A sprite that moves lets others pass sooner or later.
             if by.is_none_or(|by| flood.can_be_firm(by)) {
                 flood.bar(stype, Barrier { by, kills, first: meeting.order, last: meeting.order });
             }
@@ -158,7 +159,8 @@ impl<'a> Flood<'a> {
         } else if kills && !is_avatar {
             bar(self, one, meeting.two(), true);
         } else if is_stop(meeting, summary) && !(flush && own.comes_from_far()) {
-            // A sprite that can skip cells, placed flush with its partner, may stand in the cell of a third sprite.
+            // A sprite that can skip cells may stand in a third sprite's cell after it is placed flush with
+            // its partner.
             bar(self, one, meeting.two(), false);
         }
     }
@@ -175,8 +177,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Returns, for each type, whether its sprites always move to the opposite edge when they leave the
-    /// board, because they move only straight ahead and only by themselves.
+    /// Returns, for each type, whether its sprites always reappear at the opposite edge when they leave the
+    /// board, because they only move straight ahead and nothing else moves them.
     fn always_wraps(model: &Model<'_>) -> Vec<bool> {
         let goes_ahead = |stype: SpriteType| {
             let own = model.of_type(stype);
@@ -212,7 +214,8 @@ impl<'a> Flood<'a> {
         wraps
     }
 
-    /// Returns `true` if sprites of the type that a level places fill their cells until something removes them.
+    /// Returns `true` if the type's sprites that a level places fill their cells until something removes
+    /// them.
     fn can_be_firm(&self, stype: SpriteType) -> bool {
         let info = self.model.info(stype);
         let traits = &info.traits;
@@ -238,8 +241,8 @@ impl<'a> Flood<'a> {
     }
 
     /// Returns the cells where a sprite can be at this point in a tick. If `first` is `true`, the sprite has
-    /// not been removed in this tick. Otherwise, the sprite may have been removed, and then nothing stops it
-    /// any longer.
+    /// not been removed in this tick. If `first` is `false`, the sprite may have been removed, in which case
+    /// nothing stops it any longer.
     pub(super) fn present(&self, stype: SpriteType, at: Order, first: bool) -> Cells {
         let Region { touch, late, rest, .. } = &self.regions[stype.index()];
         let mut cells = touch.clone();
@@ -283,8 +286,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that is in a cell between two ticks. `heading` contains the directions that the sprite
-    /// can have there, if the sprite keeps its direction.
+    /// Adds a sprite that is in a cell between two ticks. `heading` contains the directions that it can have
+    /// there, if sprites of its type keep their direction.
     fn rest_at(&mut self, stype: SpriteType, cell: usize, heading: Directions) {
         let region = &mut self.regions[stype.index()];
         let mut new = region.touch.insert(cell);
@@ -309,7 +312,7 @@ impl<'a> Flood<'a> {
         for cell in cells.shared(&self.regions[stype.index()].rest).iter() {
             let region = &self.regions[stype.index()];
             let heading = turn(region.headings[cell]);
-            // A sprite that is about to be removed in its cell goes nowhere.
+            // A sprite that is about to be removed in its cell does not move on.
             if region.spread.contains(cell) {
                 self.rest_at(stype, cell, heading);
             }
@@ -459,7 +462,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Moves a sprite in one direction by up to some number of cells. The sprite then has one of these
+    /// Moves a sprite in one direction by up to some number of cells, after which it has one of these
     /// headings.
     pub(super) fn go(
         &mut self,

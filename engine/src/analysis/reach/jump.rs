@@ -1,19 +1,24 @@
-//! The maximum height above the ground for avatars that fall, walk and jump.
+//! The maximum height above the ground that avatars with gravity, which walk and jump, can reach.
 //!
 //! The following bound holds as long as nothing changes the avatar's velocity except its own update and the
-//! sprites that stop it. Otherwise, the avatar is assumed to fly. The avatar moves upwards only after a jump.
-//! A jump sets the upward speed to `strength / mass`, whatever the speed was before, and lifts the avatar by
-//! 5 pixels at once. Gravity subtracts `gravity` in each tick. Friction and the speed limit can only reduce
-//! the speed further. A wall beside the avatar can restore the speed `gravity` once, when the avatar comes to
-//! rest. The avatar therefore rises above the position where it last stood on something solid by at most
+//! sprites that stop it. If anything else can change it, the avatar is assumed to fly.
+//!
+//! The avatar moves upwards only after a jump. A jump sets the upward speed to `strength / mass`, whatever
+//! the speed was before, and lifts the avatar by 5 pixels at once. Gravity subtracts `gravity` in each tick.
+//! Friction and the speed limit can only reduce the speed further. A wall beside the avatar can restore the
+//! speed `gravity` once, when the avatar comes to rest.
+//!
+//! The avatar therefore rises above the position where it last stood on something solid by at most
 //!
 //! ```text
 //! u + u² / 2g + g + 6 pixels      with u = strength / mass, g = gravity
 //! ```
 //!
-//! The sideways distance in the meantime is unlimited. The avatar detects the ground when it falls onto the
-//! ground, but then moves back to the position from which it fell. It therefore counts as standing on the
-//! ground wherever it can fall onto something solid within one tick.
+//! The sideways distance travelled in the meantime is unlimited.
+//!
+//! The avatar detects the ground when it falls onto it, but then moves back to the position from which it
+//! fell. It therefore counts as standing on the ground wherever it can fall onto something solid within one
+//! tick.
 
 use super::cells::Cells;
 use super::flood::Flood;
@@ -28,7 +33,7 @@ use crate::rules::effects::{Displacement, EffectSummary, SpeedEffect};
 pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     let info = model.info(stype);
     let (own, traits) = (model.of_type(stype), &info.traits);
-    // A wizard's key for blocks also lifts the wizard a little, even in the air.
+    // The key with which a wizard creates blocks also lifts the wizard a little, even in the air.
     let jumps = info.class == Some(SpriteClass::PlatformerAvatar);
     let sane = traits.gravity > 0.0
         && traits.mass > 0.0
@@ -61,7 +66,7 @@ fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<
     }
     let own = meeting.one == Some(stype);
     match summary.displacement {
-        // A moving sprite lifts a sprite that is flush with it.
+        // A moving sprite lifts a sprite that is placed flush with it.
         Some(Displacement::Flush | Displacement::Stop) => {
             own && meeting.two().is_some_and(|two| !model.stops_in_order(stype, two))
         }
@@ -100,8 +105,8 @@ impl Flood<'_> {
         Cells::of(board, near)
     }
 
-    /// Adds the cells that a falling and jumping sprite can reach from a cell, if it can still rise by `rise`
-    /// rows.
+    /// Adds the cells that a falling and jumping sprite can reach from a cell if it can rise by another
+    /// `rise` rows.
     pub(super) fn leap(&mut self, stype: SpriteType, from: usize, rise: i32) {
         let stride = self.model.of_type(stype).stride;
         let (x, y) = self.board.place(from);

@@ -1,4 +1,4 @@
-//! The sprites that types create by themselves, and the cells where these sprites appear.
+//! The sprites that types create by themselves, and the cells in which they appear.
 
 use super::cells::{Cells, Directions};
 use super::events::Events;
@@ -48,8 +48,8 @@ impl Events<'_> {
         }
     }
 
-    /// Returns the cells where the sprites created by a type appear, with the maker's orientation at that
-    /// point.
+    /// Returns the cells in which the sprites that a type creates appear, with the maker's orientation at
+    /// that point.
     fn spawn_cells(&self, maker: SpriteType) -> Vec<(Cells, Directions)> {
         use ClassFamily as Family;
         use SpriteClass as C;
@@ -59,7 +59,8 @@ impl Events<'_> {
         let grown = if own.off_grid { model.rules.reach.max(1) } else { 0 };
         let around = |distance: i32| vec![(board.around(self.touch(maker), distance), Directions::ALL)];
         match (class, class.family()) {
-            // These avatars shoot only if they do not move. All other avatars move before they shoot.
+            // These avatars shoot only in ticks in which they do not move. All other avatars move before they
+            // shoot.
             (C::ShootAvatar | C::ShootOnlyAvatar, _) if !model.info(maker).traits.continuous => {
                 self.ahead(self.rest(maker), own.facing, grown)
             }
@@ -73,7 +74,8 @@ impl Events<'_> {
             (C::WizardAvatar, _) => around(2 + grown),
             (C::OngoingTurningAvatar, _) => vec![(self.rest(maker).clone(), own.facing)],
             (C::Spreader, _) => self.ahead(self.touch(maker), Directions::FOUR, grown),
-            // Other producers and avatars make sprites where they are. The remaining families make no sprites.
+            // Other producers and avatars create sprites where they are. The remaining families create no
+            // sprites.
             (_, Family::Producer | Family::Avatar | Family::Npc | Family::Walker)
             | (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => {
                 vec![(self.touch(maker).clone(), own.facing)]
@@ -87,7 +89,7 @@ impl Events<'_> {
         if facing.meets(Directions::ASKEW) {
             return vec![(board.around(from, 1 + grown), Directions::ALL)];
         }
-        // A maker whose size differs from that of a cell shoots a little further, or less far.
+        // A maker that is larger or smaller than a cell shoots a little further or less far.
         let more = if self.flood.model.scales { grown } else { 0 };
         let shifted =
             |step: (i32, i32)| (board.around(&board.beside(from, step), more), Directions::of_step(step));

@@ -7,7 +7,7 @@ use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum number of possible collisions to consider. Beyond this limit, the reach is coarse.
+/// The maximum number of possible collisions to consider. If there are more, the reach is coarse.
 const MAX_MEETINGS: usize = 1 << 15;
 
 /// A point in a tick: a sprite's own update, the timed effects, the edge, or a numbered pass.
@@ -154,7 +154,7 @@ pub(super) fn meetings<'a>(
         let Encounter { first, second, effect, precondition, ref effects, .. } = *encounter;
         let info = &rules.effects[usize::from(effect)];
         if info.in_batch && info.summary.batch.is_none() {
-            // An effect in a batch that has no batch variant is never run.
+            // An effect without a batch variant never runs in a batch.
             continue;
         }
         let certain = second.is_none_or(|second| !shields.contains(&(second, encounter.keyword)));

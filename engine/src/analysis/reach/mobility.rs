@@ -12,7 +12,7 @@ use crate::rules::effects::{EffectSummary, Summary};
 /// to reach any cell.
 const MAX_STRIDE: f64 = 4.0;
 
-/// The mobility of a type's sprites: moving and being moved.
+/// The mobility of a type's sprites: how they move and are moved.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mobility {
     /// The directions in which a sprite's own update can move it.
@@ -25,9 +25,9 @@ pub(super) struct Mobility {
     pub(super) top: f64,
     /// `true` if the speed can be negative.
     pub(super) backwards: bool,
-    /// The maximum number of cells that a sprite's own update can move it, rounded up.
+    /// The maximum number of cells by which a sprite's own update can move it, rounded up.
     pub(super) stride: i32,
-    /// The number of consecutive barred cells that a sprite's own update can skip.
+    /// The maximum number of consecutive barred cells that a sprite's own update can skip.
     pub(super) leap: i32,
     /// `true` if sprites may reach any cell that is not barred.
     pub(super) boundless: bool,
@@ -53,7 +53,7 @@ pub(super) struct Mobility {
 }
 
 impl Mobility {
-    /// Returns `true` if a sprite can skip cells in a tick, so that the sprite that stops it need not be the
+    /// Returns `true` if a sprite can skip cells in a tick, so that it is not necessarily stopped by the
     /// first sprite in its path.
     pub(super) fn comes_from_far(&self) -> bool {
         self.leap > 0 || self.placed || self.boundless
@@ -167,7 +167,7 @@ impl Model<'_> {
                     own.facing = own.facing.with(steered);
                 }
                 own.facing = if faces(class) { own.facing.with(steered) } else { own.facing };
-                // In active movement a speed of 0 means 1, and a car has a fixed speed.
+                // In active movement, a speed of 0 means 1. A car has a fixed speed.
                 own.top = own.top.max(if class == C::CarAvatar { 5.0 } else { 1.0 });
             }
         }
@@ -177,7 +177,7 @@ impl Model<'_> {
         }
         directions = directions.without(Directions::UNSET);
         own.off_grid |= directions.meets(Directions::ASKEW);
-        // On the grid, these classes treat forces as directions of any length.
+        // With grid physics, these classes treat forces as directions of any length.
         let jumps = matches!(class, C::BirdAvatar | C::PlatformerAvatar | C::WizardAvatar) || walker;
         let leaps = jumps && !traits.continuous && walks;
         let hop = if jumps { 5.0 / self.block } else { 0.0 };

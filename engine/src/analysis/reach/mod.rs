@@ -1,6 +1,6 @@
-//! Reachability: the cells of a level where sprites of each type can be.
+//! Reachability: the cells of a level in which sprites of each type can be.
 //!
-//! The reach is a fixed point over the cells of a level, under the game's own rules for:
+//! The reach is a fixed point over the cells of a level, computed under the game's own rules for:
 //!
 //! - walking in four directions, along a line, straight ahead or by forces
 //! - pushing, carrying, teleporting and wrapping around
@@ -8,8 +8,8 @@
 //! - obstacles, which last until a key, a shot or a push removes them
 //! - the resources that can be obtained
 //!
-//! The result is an over-approximation: it contains everything that can happen, and possibly more. The result
-//! is exact in three respects:
+//! The result is an over-approximation: it contains everything that can happen, and possibly more. It is
+//! exact in three respects:
 //!
 //! - Permanent walls keep out the sprites that they stop, unless a later interaction in the same tick moves a
 //!   sprite in.
@@ -17,16 +17,16 @@
 //!   and the pusher faces the direction of its move.
 //! - Keys that can be taken only once are counted.
 //!
-//! The result is an over-approximation in these respects:
+//! It is inexact in these respects:
 //!
 //! - Time is ignored. A sprite that can ever be removed leaves its cell open from the start. Two types that
 //!   can be in the same cell, each at some time, can meet there. A sprite can be in two cells at the same
 //!   time.
-//! - Behaviour is ignored. NPCs go wherever they are not stopped, pushed sprites are never in the way, and
-//!   harm stops no sprite.
-//! - With continuous physics, a sprite whose velocity is changed by forces flies. It moves in any direction,
-//!   as far per tick as its maximum speed allows. An avatar that falls and jumps (see `jump.rs`) gets no
-//!   higher above the ground than a jump lifts it, but in the air it moves sideways without limit.
+//! - Behaviour is ignored. NPCs go wherever nothing stops them, pushed sprites are never in the way, and harm
+//!   stops no sprite.
+//! - With continuous physics, a sprite whose velocity is changed by forces counts as flying: it moves in any
+//!   direction, as far per tick as its maximum speed allows. An avatar that falls and jumps (see `jump.rs`)
+//!   gets no higher above the ground than a jump lifts it, but in the air it moves sideways without limit.
 //! - Keys are counted, but the cost of opening counts only if every removal that a win needs takes some of
 //!   the same resource (`payment`).
 //!
@@ -35,13 +35,13 @@
 //! 1. `meetings` lists which types can meet, with which effects.
 //! 2. From the meetings, `model` derives how each type can move (`mobility` by itself, `contact` by others),
 //!    before any cell is examined.
-//! 3. `events` iterates until nothing is new. In each round, types spread over the cells (`flood`, `jump`),
+//! 3. `events` iterates until nothing changes. In each round, types spread over the cells (`flood`, `jump`),
 //!    create other types (`makers`), and collide (`effects`).
 //! 4. `tally` determines the terminations that can no longer hold.
 //!
-//! A round costs O(types × cells + meetings × cells / 64), and there are about as many rounds as locks that
-//! open one after the other. Both the number of meetings and the number of examined cells are limited. Beyond
-//! these limits the result is coarse: every type that can occur is everywhere.
+//! A round costs O(types × cells + meetings × cells / 64), and there are about as many rounds as there are
+//! locks that open one after the other. Both the number of meetings and the number of examined cells are
+//! limited. Beyond these limits, the result is coarse: every type that can occur is assumed to be everywhere.
 //!
 //! Tests in `tests/tests/it/analysis` play handwritten and random games, and check that no sprite is ever
 //! outside its reach.
@@ -76,9 +76,9 @@ use reasons::chain::Chains;
 pub use reasons::chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable};
 use reasons::tally::Tally;
 
-/// The cells in one level where sprites of each type can ever be. The cells are a proven over-approximation:
-/// sprites are never in any other cell. Time, harm and crowding are ignored: everything that can be opened is
-/// open, and nothing stays in the way.
+/// The cells of one level in which sprites of each type can ever be. They are a proven over-approximation:
+/// sprites are never in any other cell. Time, harm and crowding are ignored, so everything that can be opened
+/// counts as open, and nothing stays in the way.
 ///
 /// Cells are indices into [`Level::cells`], row-major. A sprite is in every cell that it overlaps.
 #[derive(Clone, Debug)]
@@ -142,8 +142,8 @@ impl Reach {
         self.avatars.iter().any(|&stype| self.can_touch(stype, cell))
     }
 
-    /// Returns the terminations that provably never hold in this level, given the cells that its sprites can
-    /// reach, in order. Terminations that never hold in any level, for other reasons, are marked by
+    /// Returns, in order, the terminations that provably never hold in this level, given the cells that its
+    /// sprites can reach. Terminations that never hold in any level for other reasons are marked by
     /// [`Goal::attainable`](super::Goal::attainable).
     pub fn impossible_goals(&self) -> &[ImpossibleGoal] {
         &self.impossible_goals
@@ -161,7 +161,7 @@ impl Reach {
     }
 
     /// Returns `true` if the rules or the level exceeded the work budget. In a coarse result, every type that
-    /// can occur is everywhere, and no termination is proved impossible.
+    /// can occur is assumed to be everywhere, and no termination is proven impossible.
     pub fn is_coarse(&self) -> bool {
         self.coarse
     }
@@ -173,11 +173,12 @@ impl Reach {
 }
 
 impl Analysis {
-    /// Computes the cells in a level where sprites of each type can ever be.
+    /// Computes the cells of a level in which sprites of each type can ever be.
     ///
     /// Cost: O(types × cells + meetings × cells / 64) for each round in which locks open one after the other.
     /// Typical levels take less than a millisecond, and the largest levels some hundredths of a second.
-    /// Beyond a fixed amount of work, a few tenths of a second, the result is [coarse](Reach::is_coarse).
+    /// Beyond a fixed amount of work, which takes a few tenths of a second, the result is
+    /// [coarse](Reach::is_coarse).
     pub fn reach(&self, level: &Level) -> Reach {
         let (placed, board) = self.placed(level);
         let futures = self.prospect_of(&placed);
@@ -200,7 +201,7 @@ impl Analysis {
         chains.unwrap_or_default()
     }
 
-    /// Returns the sprites placed by the level, and its board.
+    /// Returns the sprites that the level places, and its board.
     fn placed(&self, level: &Level) -> (Placed, Board) {
         let board = Board { columns: level.columns() as i32, rows: level.rows() as i32 };
         let mut placed: Placed = vec![Vec::new(); self.game.0.types.len()];
@@ -297,7 +298,7 @@ impl Analysis {
         let hindered =
             |goal: usize| impossible_goals.iter().any(|impossible_goal| impossible_goal.goal == goal);
         let can_end = |win: bool| {
-            // A level may start with a termination that already holds.
+            // A termination may already hold when the level starts.
             self.can_end(win, |at, goal| goal.attainable != Attainable::Never && !hindered(at))
         };
         let (can_win, can_lose) = (can_end(true), can_end(false));

@@ -1,4 +1,5 @@
-//! The mobility of all types: a fixed point over the rules, before any level is examined cell by cell.
+//! The mobility of all types, computed as a fixed point over the rules before any level is examined cell by
+//! cell.
 
 use super::super::futures::PossibleFutures;
 use super::cells::{Board, Directions};
@@ -26,16 +27,16 @@ pub(super) struct Model<'a> {
     pub(super) makes: Vec<Vec<(SpriteType, Option<SpriteType>)>>,
     /// For each type, the types to which touching its sprites leads.
     pub(super) exits: Vec<Vec<SpriteType>>,
-    /// For each type, whether the amount held as a resource can exceed its limit.
+    /// For each type, whether sprites can hold more of it as a resource than its limit.
     pub(super) unlimited: Vec<bool>,
     pub(super) mobility: Vec<Mobility>,
     /// The size of the smallest sprite, in cells.
     pub(super) smallest: f64,
     /// `true` if some sprite is larger or smaller than a cell.
     pub(super) scales: bool,
-    /// For each type, the maximum number of cells that other sprites can move it in a tick.
+    /// For each type, the maximum number of cells by which other sprites can move its sprites in a tick.
     pub(super) pushed_far: Vec<i32>,
-    /// For each type, whether something other than its own sprites accelerates its sprites.
+    /// For each type, whether something other than its sprites themselves accelerates them.
     pub(super) forced: Vec<bool>,
     /// For each type, whether some effect gives it an orientation even if its class has no orientation.
     pub(super) takes_orientation: Vec<bool>,
@@ -55,7 +56,7 @@ impl<'a> Model<'a> {
         let present = || rules.types.iter().zip(&futures.exists).filter(|(_, exists)| **exists);
         let factors =
             || present().flat_map(|(info, _)| [info.traits.width_factor, info.traits.height_factor]);
-        // Sizes are whole pixels: a sprite may be a little smaller than its factor says.
+        // Sizes are whole pixels: a sprite may be slightly smaller than its factor implies.
         let smallest = factors().map(|factor| (factor * block).floor() / block).fold(1.0, f64::min);
         if !factors().all(|factor| factor * block >= 1.0 && factor <= 64.0) {
             return None;
@@ -63,7 +64,7 @@ impl<'a> Model<'a> {
         let mut makes: Vec<_> = (0..rules.types.len()).map(|at| futures.makes(at)).collect();
         let spawns = |class: SpriteClass| class.is_a(SpriteClass::SpawnPoint);
         let exits = |info: &TypeInfo| {
-            // A spawner leads to whichever type it makes in the current tick.
+            // A spawner leads to whichever type it creates in the current tick.
             let made = info.class.is_some_and(spawns).then_some(&info.traits.stypes[..]);
             let exits = info.leads_to().into_iter().chain(made.unwrap_or_default().iter().copied());
             exits.filter(|&exit| exit != SpriteType::NONE).collect::<Vec<SpriteType>>()
@@ -178,7 +179,7 @@ impl<'a> Model<'a> {
         options.unwrap_or(1)
     }
 
-    /// Returns the maximum number of cells that other sprites can move a sprite of the type in a tick.
+    /// Returns the maximum number of cells by which other sprites can move a sprite of the type in a tick.
     pub(super) fn pushed_far(&self, stype: SpriteType) -> i32 {
         self.pushed_far[stype.index()]
     }
@@ -187,7 +188,7 @@ impl<'a> Model<'a> {
         self.mobility.iter().map(|own| (own.facing, own.moved, [own.off_grid, own.placed, own.goes_back]))
     }
 
-    /// Returns `true` if a distance per tick is too large for pixel coordinates, or NaN.
+    /// Returns `true` if a distance per tick is NaN or too large for pixel coordinates.
     pub(super) fn is_out_of_range(&self, distance: f64) -> bool {
         distance.is_nan() || distance * self.block >= 1e6
     }
@@ -195,7 +196,8 @@ impl<'a> Model<'a> {
     /// Returns the number of cells that a move over this distance can enter, and the number of cells that it can skip.
     pub(super) fn stride(&self, distance: f64) -> (i32, i32) {
         let most = self.board.side() + 2;
-        // A sprite that moves by less than its own size plus one cell overlaps every cell on its way, before or after.
+        // A sprite that moves by less than its own size plus one cell overlaps every cell on its way, either
+        // before or after the move.
         let leap = if distance >= 1.0 + self.smallest { (distance - self.smallest) as i32 } else { 0 };
         ((distance.ceil() as i32).min(most), leap.min(most))
     }
@@ -203,8 +205,7 @@ impl<'a> Model<'a> {
     /// Returns the distance, in cells, of a move at another sprite's speed.
     pub(super) fn carried(&self, one: SpriteType, by: SpriteType) -> f64 {
         let (one, by) = (self.of_type(one), self.of_type(by));
-        // A speed of 0 stands for the sprite's own speed. If the sprite's own speed is 0 as well, it stands
-        // for 1.
+        // A speed of 0 stands for the sprite's own speed. If that is 0 as well, it stands for 1.
         by.top.max(one.top).max(1.0)
     }
 
@@ -223,7 +224,7 @@ impl<'a> Model<'a> {
         stands && !self.is_scaled(one) && !own.comes_from_far()
     }
 
-    /// Returns `true` if, according to the facts derived so far, sprites with this mobility never move.
+    /// Returns `true` if the facts derived so far imply that sprites with this mobility never move.
     pub(super) fn is_fixed_now(&self, mobility: &Mobility) -> bool {
         !mobility.placed && mobility.moved.without(Directions::UNSET) == Directions::NONE
     }

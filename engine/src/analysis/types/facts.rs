@@ -9,7 +9,7 @@ use crate::rules::traits::Traits;
 use crate::rules::{Rules, SpriteType};
 use std::collections::BTreeSet;
 
-/// The cell size in pixels on a board of the usual size.
+/// The cell size, in pixels, on a board of the usual size.
 const USUAL_BLOCK: i32 = 40;
 
 /// The way in which a type's sprites move by themselves.
@@ -22,9 +22,9 @@ pub enum Motion {
     Straight(Direction),
     /// The sprites move at random.
     Wandering,
-    /// The sprites move towards the closest sprite of a type.
+    /// The sprites move towards the nearest sprite of a type.
     Chasing(SpriteType),
-    /// The sprites move away from the closest sprite of a type.
+    /// The sprites move away from the nearest sprite of a type.
     Fleeing(SpriteType),
     /// The player moves the sprite.
     Steered,
@@ -69,7 +69,7 @@ pub struct Avatar {
     pub shots: Vec<SpriteType>,
     /// The resources that shots cost, one per type of shot.
     pub ammo: Vec<SpriteType>,
-    /// `true` if a level can place the type. Otherwise, the type results from a transformation.
+    /// `true` if a level can place the type, and `false` if it only results from a transformation.
     pub starts: bool,
 }
 
@@ -98,7 +98,8 @@ pub struct Facts {
     pub pace: f64,
     /// The types that sprites of the type create by themselves or, for avatars, with the use key.
     pub makes: Vec<SpriteType>,
-    /// The columns and rows of cells that a sprite covers, from its placement cell to the right and down.
+    /// The numbers of columns and rows that a sprite covers, extending right and down from the cell in which
+    /// it is placed.
     pub span: (usize, usize),
     /// `true` if sprites of the type live for only a few ticks.
     pub fleeting: bool,
@@ -125,7 +126,7 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
         .zip((0u16..).map(SpriteType))
         .map(|(info, stype)| {
             let traits = &info.traits;
-            // Continuous physics also moves sprites that are not oriented, once they face somewhere.
+            // Continuous physics also moves sprites that are not oriented, once they face some direction.
             let is_faced = takes_orientation || traits.continuous && (turns || made.contains(&stype));
             let oriented = traits.is_oriented || is_faced;
             let motion = info.class.map_or(Motion::Still, |class| motion(class, traits, oriented));
@@ -183,9 +184,9 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     facts
 }
 
-/// Returns, for each type, whether the player's avatar can have the type in some level, whatever characters
-/// the level uses. The avatar is determined when a level starts. From then on, the player controls whatever
-/// the avatar turns into.
+/// Returns, for each type, whether the player's avatar can have the type in some level, regardless of the
+/// characters that the level uses. The avatar is determined when a level starts. From then on, the player
+/// controls whatever the avatar turns into.
 fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool> {
     let is_avatar = |at: usize| rules.types[at].is_like_avatar() && exists[at];
     let mut played = vec![false; exists.len()];
@@ -240,7 +241,7 @@ fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
 fn motion(class: SpriteClass, traits: &Traits, oriented: bool) -> Motion {
     use SpriteClass as C;
     let drifts = !traits.is_static && !traits.only_active && traits.speed != 0.0;
-    // `stationary` only prevents a sprite's own choice of moves, and only with grid physics.
+    // `stationary` only prevents a sprite from choosing moves itself, and only with grid physics.
     let walks = !traits.stationary || traits.continuous;
     let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
     use ClassFamily as Family;
@@ -278,13 +279,13 @@ pub(crate) fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
     let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);
     let made: &[SpriteType] = if producer || shoots { &traits.stypes } else { &[] };
-    // The sprites left behind are walls, unless the type specifies a different type.
+    // The sprites left behind are walls unless the sprite type specifies something else.
     let behind = traits.spawn_behind.or((class == C::OngoingTurningAvatar).then_some(SpriteType(0)));
     made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }
 
-/// Returns the possible types of the player's avatar, sorted by whether levels place them, then by type. The
-/// list is empty if the engine finds no avatar among the placed types.
+/// Returns the possible types of the player's avatar, first the types that levels place, then the others,
+/// each sorted by type. The list is empty if the engine finds no avatar among the placed types.
 pub(crate) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     use ClassFamily as Family;
     use SpriteClass as C;

@@ -19,7 +19,7 @@ pub(crate) struct Marks {
     pub(crate) holds_up_enemies: bool,
     /// `true` if a shot by the avatar, or something harmful, always removes the type.
     pub(crate) breakable: bool,
-    /// `true` if a moving sprite that collides with the type creates a forbidden type.
+    /// `true` if a moving sprite's collision with the type creates a forbidden type.
     pub(crate) spoilt: bool,
     /// `true` if the type removes shots, or shots remove the type, regardless of the shooter.
     pub(crate) meets_shots: bool,

@@ -22,14 +22,14 @@ pub enum Role {
     PortalExit,
     /// A type that the avatar pushes.
     Pushable,
-    /// A type that wins, or counts towards a win, on contact: a door, something locked, or something that
+    /// A type that, on contact, wins or counts towards a win: a door, something locked, or something that
     /// creates the winning sprite. Unlocked items that count towards a win are [`Role::Collectable`].
     Exit,
     /// A motionless type that blocks or harms the avatar until the avatar holds something, does something or
     /// changes its type.
     Gate,
-    /// A type that moves by itself, blocks the avatar, and kills only in certain movements: for example, a
-    /// falling rock.
+    /// A type that moves by itself, blocks the avatar, and kills only when it moves in certain ways, such as
+    /// a falling rock.
     Boulder,
     /// A type that moves by itself and harms the avatar or a protected type, takes the avatar's resources, or
     /// creates sprites with any of these properties. However, a type that the avatar catches unharmed for a
@@ -42,7 +42,7 @@ pub enum Role {
     Hazard,
     /// A motionless type that creates other sprites by itself.
     Spawner,
-    /// A type whose loss loses the game, or that moving sprites must not reach.
+    /// A type whose loss loses the game, or that moving sprites must be kept away from.
     Ward,
     /// A type that must be removed for a win: by a shot, by other sprites, or by the avatar's touch while the
     /// sprite moves.
@@ -61,8 +61,8 @@ pub enum Role {
     Cover,
     /// A motionless type that blocks enemies and lets the avatar pass.
     Refuge,
-    /// A motionless type without interactions with any avatar, drawn as a background. A floor takes part in
-    /// no interaction at all, or a character places it together with an avatar.
+    /// A motionless type without interactions with any avatar, drawn as a background. It either takes part in
+    /// no interaction at all, or a level character places it together with an avatar.
     Floor,
     /// A type that fits no other role.
     Neutral,
@@ -189,7 +189,7 @@ impl Analysis {
             let asked = [pushable.stype, stype].iter().any(|stype| self.aims.remove.contains(stype));
             let made = matches!(sink.fate, Fate::Becomes(to) if self.aims.create.contains(&to));
             let harmless = harm == Harm::None && self.touches.iter().all(|row| !row[stype.index()].blocks);
-            // A type that levels do not place, such as a flood, is dammed rather than filled.
+            // A type that levels do not place, such as a flood, is dammed, not filled.
             let fills = sink.fills && (harm == Harm::None || !self.facts[stype.index()].symbols.is_empty());
             asked || made || fills || !sink.opens.is_empty() || harmless
         })
@@ -207,7 +207,7 @@ impl Analysis {
         self.touches.iter().all(|row| !row[stype.index()].blocks) && !self.beside_avatar(stype)
     }
 
-    /// Returns `true` if a character places the type together with an avatar.
+    /// Returns `true` if a level character places the type together with an avatar.
     fn beside_avatar(&self, stype: SpriteType) -> bool {
         let is_avatar = |other: &SpriteType| self.avatars.iter().any(|avatar| avatar.stype == *other);
         let symbols = self.facts[stype.index()].symbols.iter();

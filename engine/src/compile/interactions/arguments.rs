@@ -9,7 +9,7 @@ use crate::rules::effects::{self, Arguments, Undeclared};
 use crate::rules::{EffectInfo, SpriteType};
 use crate::syntax::{Param, Word};
 
-/// The index for unknown keywords. A shield against an unknown keyword has no effect.
+/// The index that stands for unknown keywords. A shield against an unknown keyword has no effect.
 pub(in crate::compile) const NO_KEYWORD: u16 = u16::MAX;
 
 /// Returns a keyword's index among all effect keywords.
@@ -18,7 +18,7 @@ pub(in crate::compile) fn number_of(keyword: &str) -> Option<u16> {
 }
 
 impl<'a> Reader<'a> {
-    /// Returns the parameter with this name. If several parameters have this name, returns the last one.
+    /// Returns the parameter with this name. If the name is duplicated, returns the last parameter.
     pub(super) fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }
@@ -29,7 +29,7 @@ impl<'a> Reader<'a> {
         Some((param, convert(key, &param.value.text)))
     }
 
-    /// Returns a sprite type that the effect requires.
+    /// Returns the sprite type in a parameter that the effect requires.
     fn required(&mut self, key: &'static str, undeclared: Undeclared) -> SpriteType {
         let found = self.optional_sprite(key, undeclared);
         if found.is_none() && self.param(key).is_none() {
@@ -133,7 +133,7 @@ impl Arguments for Reader<'_> {
     fn score(&mut self, key: &'static str) -> i32 {
         let Some((param, value)) = self.value(key) else { return 0 };
         let Value::Text(text) = value else {
-            // The value is the name of a constant, which the reference drops.
+            // The value names a constant, which the reference drops.
             self.problems.push(wrong_type(param, Expected::Int));
             return 0;
         };
@@ -220,7 +220,7 @@ impl Arguments for Reader<'_> {
             self.fail(problem.help("choose another effect"));
             return 0;
         }
-        // Read the line once more as the scheduled effect does.
+        // Read the line again, the way the scheduled effect does.
         self.used.extend(["timer", "repeating"]);
         if let Some(effect) = effects::build(name, self) {
             self.planned = Some((EffectInfo::of(effect), keyword));

@@ -1,4 +1,4 @@
-//! Compiles an InteractionSet line into an effect, including the parameters that every line accepts.
+//! Compiles an InteractionSet line into an effect, including the parameters that all lines accept.
 
 use super::super::{Names, Policy, Setting};
 use super::arguments::number_of;
@@ -27,7 +27,7 @@ pub(in crate::compile) const COMMON: &[&str] = &[
     "sequential",
 ];
 
-/// The state during the compilation of one line.
+/// The state of compiling one line.
 pub(in crate::compile) struct Reader<'a> {
     pub(super) line: &'a InteractionLine,
     pub(super) names: Names<'a>,
@@ -36,11 +36,11 @@ pub(in crate::compile) struct Reader<'a> {
     pub(in crate::compile) problems: Vec<Diagnostic>,
     /// The number of problems on earlier lines.
     pub(super) reported: usize,
-    /// `true` if the reference builds no effect from the line and stops reading.
+    /// `true` if the reference builds no effect from the line and stops reading the file.
     pub(in crate::compile) failed: bool,
     /// For each of `scoreChange` and `scoreChangeIfKilled`, `true` if the value is not a number.
     pub(super) score_faults: [bool; 2],
-    /// The index among the timed effects for an effect scheduled by this line.
+    /// The index, among the timed effects, of the effect that this line schedules.
     pub(super) timed: u16,
     /// The effect that addTimer schedules, and its keyword's index.
     pub(super) planned: Option<(EffectInfo, u16)>,
@@ -51,7 +51,7 @@ pub(in crate::compile) struct Built {
     pub(super) info: EffectInfo,
     /// The keyword's index.
     pub(super) keyword: u16,
-    /// The number of times that the pass is repeated per tick.
+    /// The number of times that the pass runs per tick.
     pub(super) repeat: usize,
     pub(super) enabled: bool,
 }
@@ -141,7 +141,8 @@ impl<'a> Reader<'a> {
     pub(super) fn clock(&mut self) -> Timed {
         let timer = self.int("timer", -1);
         let repeating = self.flag("repeating", false);
-        // The value of `nextExecution` itself is not used: any value other than −1 means "first after `timer` ticks".
+        // The value of `nextExecution` itself is not used: any value other than −1 means that the effect
+        // first runs after `timer` ticks.
         let first_due = if self.int("nextExecution", -1) == -1 { -1 } else { timer };
         let endless = repeating && timer <= 0;
         if endless && (self.has_clock() || self.line.effect.text == "addTimer") {

@@ -29,7 +29,7 @@ impl Program {
         let pairs = self.passes.iter().map(|pass| (pass.first, pass.effect));
         let timed = self.timed.iter().map(|timed| (timed.target.unwrap_or(SpriteType::NONE), timed.effect));
         let executed = pairs.chain(self.edge.iter().copied()).chain(timed);
-        // An edge pass of an undeclared type stops the game and has no effect.
+        // An edge pass of an undeclared type stops the game before any effect.
         let given = executed.filter_map(|(one, effect)| {
             let summary = &self.effects.get(usize::from(effect))?.summary;
             let info = types.get(summary.gives_speed(one)?.index())?;
@@ -41,9 +41,9 @@ impl Program {
             .collect()
     }
 
-    /// Returns the effects whose score depends on an earlier execution. Such an execution may leave the
-    /// remembered flags unchanged, because the collected sprite is not a resource, or because no partner
-    /// exists at the edge.
+    /// Returns the effects whose score depends on an earlier execution. Their own execution may leave the
+    /// remembered flags unchanged, because the collected sprite is not a resource, or because there is no
+    /// partner at the edge.
     pub(super) fn remembering(&self, types: &[TypeInfo]) -> Vec<u16> {
         let collects = |index: u16| self.effects[usize::from(index)].summary.collects();
         let other = |&stype: &SpriteType| {
@@ -70,7 +70,7 @@ pub(super) fn program(
     problems: &mut Vec<Diagnostic>,
 ) -> Program {
     let mut program = Program::default();
-    // A pair executes at the position of its first line, whatever lines are in between.
+    // A pair executes at the position of its first line, regardless of the lines in between.
     let mut pairs: Vec<((SpriteType, SpriteType), Vec<u16>)> = Vec::new();
     let mut places: BTreeMap<(SpriteType, SpriteType), usize> = BTreeMap::new();
     let mut edges: Vec<SpriteType> = Vec::new();
@@ -96,7 +96,7 @@ pub(super) fn program(
         let (score_change, apply_score) = (info.score_change, info.apply_score);
         let own = Timed { effect: index, wrapper: index, score_change, apply_score, line: at, ..clock };
         let target = by_the_clock(line, first, &seconds, problems);
-        // A disabled line never runs, but it has its position in the order of the pairs.
+        // A disabled line never runs, but it keeps its position in the order of the pairs.
         let index = enabled.then_some(index);
         if enabled {
             program.effects.push(EffectInfo { steady: target.is_some(), ..info });
@@ -136,8 +136,7 @@ pub(super) fn program(
             }
         }
     }
-    // If a type has n lines, all its effects are executed n times, each time in the same order (`spec/03`
-    // §4.4).
+    // If a type has n lines, all its effects run n times, in the same order each time (`spec/03` §4.4).
     for stype in edges {
         total = total.saturating_add(edge_effects[&stype].len());
         if total <= MAX_INTERACTIONS {

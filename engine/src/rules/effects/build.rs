@@ -1,10 +1,11 @@
-//! Builds an [`Effect`] from an interaction line: keyword, required and optional parameters (`spec/03` §2).
+//! Builds an [`Effect`] from an interaction line: its keyword, and its required and optional parameters
+//! (`spec/03` §2).
 
 use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, TransformIfCount};
 use crate::rules::SpriteType;
 
-/// The parameters on a line, parsed on demand. Getters report problems and continue with a default, so that
-/// all problems on a line are found.
+/// The parameters on a line, parsed on demand. Getters report problems and then continue with a default, so
+/// that all problems on a line are found.
 pub(crate) trait Arguments {
     fn int(&mut self, key: &'static str, default: i32) -> i32;
     fn number(&mut self, key: &'static str, default: f64) -> f64;
@@ -18,7 +19,8 @@ pub(crate) trait Arguments {
     fn sprite_or_none(&mut self, key: &'static str) -> SpriteType;
     /// Returns an optional sprite type.
     fn optional_sprite(&mut self, key: &'static str, undeclared: Undeclared) -> Option<SpriteType>;
-    /// Returns a type given by its registry index, which the reference accepts for some optional types.
+    /// Returns a type that is given by its registry index, which the reference accepts for some optional
+    /// types.
     fn numbered(&mut self, key: &'static str) -> Option<SpriteType>;
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType>;
     /// Returns the keyword index of another effect.
@@ -32,7 +34,7 @@ pub(crate) trait Arguments {
 /// The reference's handling of an undeclared name (`spec/03` §2.2). In strict mode, such a name is an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Undeclared {
-    /// The effect is dropped, and the rest of the file is not read.
+    /// The reference drops the effect and does not read the rest of the file.
     Fails,
     /// The name counts as absent.
     Absent,
@@ -67,7 +69,7 @@ effects! {
     "addTimer" => Effect::AddTimer { timed: args.timed() },
     "align" => Effect::Align { orient: args.flag("orient", true) },
     "attractGaze" => Effect::AttractGaze { align: args.flag("align", false), prob: args.number("prob", 1.0) },
-    // Converts degrees to radians like the reference.
+    // Converts degrees to radians as the reference does.
     "bounceDirection" => Effect::BounceDirection {
         most: args.number("maxBounceAngleDeg", 60.0) * 0.017_453_292_519_943_295,
     },
@@ -198,7 +200,7 @@ fn speed(args: &mut impl Arguments, default: f64, how: SpeedChange) -> Effect {
     Effect::ChangeSpeed { stype: args.sprite("stype"), value: args.number("value", default), how }
 }
 
-/// Returns the type given by a parameter of subtractHealthPoints or removeScore, if any.
+/// Returns the type that a parameter of subtractHealthPoints or removeScore names, if any.
 fn subject(args: &mut impl Arguments, undeclared: Undeclared) -> Option<SpriteType> {
     let numbered = args.numbered("itype");
     args.optional_sprite("stype", undeclared).or(numbered)

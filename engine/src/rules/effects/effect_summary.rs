@@ -1,4 +1,4 @@
-//! One consequence of an effect, as plain data, with the properties that analyses need.
+//! A single consequence of an effect, as plain data, with the properties that analyses need.
 
 use crate::rules::SpriteType;
 
@@ -20,7 +20,7 @@ impl Side {
     }
 }
 
-/// One effect of an interaction.
+/// A single consequence of an interaction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EffectSummary {
     /// The sprite on the given side is removed.
@@ -48,15 +48,14 @@ pub enum EffectSummary {
     Teleport,
     /// The first sprite reappears at the opposite edge.
     Wrap,
-    /// The speed changes: for sprites of this type and its relatives, or for the first sprite alone if the
-    /// type is `None`.
+    /// The speed changes, either of sprites of this type and its relatives or, if the type is `None`, of the
+    /// first sprite alone.
     Speed(Option<SpriteType>),
     /// A sprite of this type appears.
     Make(SpriteType),
     /// Another sprite like the first sprite appears.
     Clone,
-    /// The second sprite collects the first sprite as a resource, and gains the first sprite's `value` up to
-    /// the limit.
+    /// The second sprite collects the first sprite as a resource, and gains its `value`, up to the limit.
     Collect,
     /// The sprite on the given side gains (or loses) this amount of a resource.
     Change {
@@ -76,8 +75,8 @@ pub enum EffectSummary {
         /// A sprite is removed if its health points fall to this number or below.
         dies_at: i32,
     },
-    /// For the rest of the tick, the first sprite's type is shielded: interactions with one keyword between
-    /// that type and the type `from` have no effect on it.
+    /// For the rest of the tick, the first sprite's type is shielded: interactions with the given keyword
+    /// between that type and the type `from` have no effect on it.
     Shield {
         /// The partner type whose interactions are suppressed.
         from: SpriteType,
@@ -86,15 +85,15 @@ pub enum EffectSummary {
     },
 }
 
-/// The sprites that an effect changes, among all sprites in a level.
+/// The sprites in a level that an effect changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Target {
     /// The sprite on the given side.
     Side(Side),
     /// Every sprite of exactly this type.
     All(SpriteType),
-    /// One sprite, or every sprite, of this type and its relatives. If the type has no sprites, the target
-    /// may be the first sprite.
+    /// One sprite, or every sprite, of this type and its relatives. If there are none, the target may be the
+    /// first sprite.
     Tree(SpriteType),
 }
 
@@ -118,7 +117,7 @@ pub(crate) enum Movement<'a> {
     Back,
     /// Every sprite moves back, except sprites of these types.
     AllBack(&'a [SpriteType]),
-    /// The first sprite moves along with the second sprite, or to a different position.
+    /// The first sprite moves along with the second sprite, or elsewhere.
     Away,
 }
 
@@ -130,7 +129,7 @@ struct Properties<'a> {
     ending: Option<Ending>,
     movement: Option<Movement<'a>>,
     makes: &'a [SpriteType],
-    /// The type that must exist, or be held, for the effect to happen.
+    /// The type that must exist or be held for the effect to happen.
     names: Option<SpriteType>,
 }
 
@@ -201,7 +200,8 @@ impl EffectSummary {
         }
     }
 
-    /// Returns the sprites that the effect may remove or turn into other sprites, and how the effect does so.
+    /// Returns the sprites that the effect may remove or turn into other sprites, and the way in which it
+    /// does so.
     pub(crate) fn ending(&self) -> Option<(Target, Ending)> {
         let Properties { target, ending, .. } = self.properties();
         target.zip(ending)

@@ -1,5 +1,5 @@
 //! The effects of interactions (`spec/03`) as an enum, with their meaning. The code in `tick/effects/`
-//! executes the effects.
+//! executes them.
 
 mod build;
 mod effect_summary;

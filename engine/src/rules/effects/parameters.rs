@@ -1,5 +1,5 @@
-//! Effect parameters. The parameters are recorded from the calls made by [`build`] itself, so that no second
-//! table needs maintenance.
+//! Effect parameters, which are recorded from the calls that [`build`] itself makes, so that no second table
+//! needs to be maintained.
 
 use super::EffectFamily;
 use super::build::{Arguments, Undeclared, build};
@@ -26,12 +26,12 @@ pub enum ParameterKind {
     TypeNumber,
     /// The required keyword of an effect.
     Effect,
-    /// The required keyword of an effect to schedule. The scheduled effect's parameters follow.
+    /// The required keyword of an effect to schedule, which is followed by the scheduled effect's parameters.
     Planned,
 }
 
-/// Returns the parameters that an effect accepts in addition to the common parameters of all effects. The
-/// result is empty for an unknown keyword.
+/// Returns the parameters that an effect accepts in addition to the common parameters of all effects. Empty
+/// for an unknown keyword.
 pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
     let mut recorder = Recorder::default();
     build(keyword, &mut recorder);
@@ -42,8 +42,8 @@ pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
 #[derive(Default)]
 pub(super) struct Recorder {
     asked: Vec<(&'static str, ParameterKind)>,
-    /// `true` to return values that differ from the defaults: `true` flags, negative numbers, and types that
-    /// may be absent.
+    /// `true` to return values other than the defaults: `true` flags, negative numbers, and types that may be
+    /// absent.
     contrary: bool,
 }
 

@@ -1,11 +1,11 @@
-//! The sentence of each effect: a template with named holes, and the values for the holes.
+//! The sentence for each effect: a template with named placeholders, and their values.
 //!
-//! `engine::describe` fills the holes, and lists the templates for programs that parse the sentences.
+//! `engine::describe` fills the placeholders, and lists the templates for programs that parse the sentences.
 //!
-//! The holes `{one}` and `{two}` are the colliding sprites. `{one:die|disappears}` is a word that agrees with
-//! a sprite. The first form is for the player, and the second form is for any other sprite. `{both:…|…}`
-//! agrees with either sprite. `{every}` stands for the sprites on which a timed effect runs. All other holes
-//! have their own values.
+//! The placeholders `{one}` and `{two}` are the colliding sprites. `{one:die|disappears}` is a word that
+//! agrees with a sprite: the first form is for the player, and the second for any other sprite. `{both:…|…}`
+//! agrees with either sprite. `{every}` stands for the sprites on which a timed effect runs. All other
+//! placeholders have values of their own.
 
 use super::parameters::Recorder;
 use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, Summary, TransformIfCount, build};
@@ -18,10 +18,10 @@ use smallvec::SmallVec;
 pub(crate) struct Sentence {
     /// The template for two colliding sprites.
     pub(crate) meeting: &'static str,
-    /// The template for a timed effect. The hole `{alone}` in [`Sentence::meeting`] stands for this template.
+    /// The template for a timed effect. The placeholder `{alone}` in [`Sentence::meeting`] stands for this
+    /// template.
     pub(crate) alone: &'static str,
-    /// The words that introduce the points, if the condition for the points differs from the condition in the
-    /// sentence.
+    /// The words that introduce the points, if their condition differs from that in the sentence.
     pub(crate) if_scored: &'static str,
     values: SmallVec<[(&'static str, Value); 3]>,
 }
@@ -35,7 +35,7 @@ const NOTHING: &str = "when {one} {one:touch|touches} {two}, nothing happens";
 /// The text with which a probability starts.
 pub(crate) const CHANCE: &str = " with a chance of ";
 
-/// The value for a hole.
+/// The value of a placeholder.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     /// The name of a type.
@@ -52,10 +52,10 @@ pub(crate) enum Value {
     Decimal(f64),
     /// A number with its noun.
     Count(i64, &'static str),
-    /// A probability, which is omitted if its value is 1.
+    /// A probability, which is omitted if it is 1.
     Chance(f64),
     Text(String),
-    /// A part with its own holes, included if `present` is `true`.
+    /// A part with placeholders of its own, included if `present` is `true`.
     Part {
         text: &'static str,
         present: bool,
@@ -95,7 +95,8 @@ impl Sentence {
         self.scored("in any case, ")
     }
 
-    /// Awards the points at every contact, and states so in the text if the effect itself is only probable.
+    /// Awards the points at every contact, and says so in the text if the effect itself happens only with a
+    /// probability.
     fn scored_if(self, prob: f64) -> Sentence {
         if prob < 1.0 { self.scored_always() } else { self }
     }
@@ -114,7 +115,7 @@ impl Sentence {
         self.with(hole, Value::Part { text: part, present })
     }
 
-    /// Returns the initial text of a hole's value, if the value can be empty.
+    /// Returns the text with which a placeholder's value starts, if the value can be empty.
     pub(crate) fn optional_start(&self, hole: &str) -> Option<&'static str> {
         match self.value(hole)? {
             Value::Chance(_) => Some(CHANCE),
@@ -133,7 +134,7 @@ impl Sentence {
         }
     }
 
-    /// Returns the value for a hole.
+    /// Returns the value of a placeholder.
     pub(crate) fn value(&self, hole: &str) -> Option<&Value> {
         self.values.iter().find(|(name, _)| *name == hole).map(|(_, value)| value)
     }
@@ -150,8 +151,8 @@ fn recorded() -> impl Iterator<Item = Effect> {
         .map(effect)
 }
 
-/// Returns the sentences for all effects, each with the summary of one effect that uses its template. The
-/// result contains each template only once.
+/// Returns the sentences for all effects, without duplicate templates. Each comes with the summary of one
+/// effect that uses its template.
 pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     let mut found: Vec<(Sentence, Summary)> = Vec::new();
     for effect in recorded() {

@@ -1,14 +1,14 @@
 //! Summaries of effects: the possible consequences of an execution, as plain data. Each effect has one row
 //! (`rows.rs`).
 //!
-//! All other parts of the workspace use summaries and do not depend on any particular effect.
+//! The rest of the workspace uses only summaries, and does not depend on any particular effect.
 
 use super::effect_summary::{EffectSummary, Side};
 use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
 base::named_enum! {
-    /// An effect's family: the groups in the engine's ontology, with movement split by its result.
+    /// An effect's family: the groups in the engine's ontology, except that movement is split by its result.
     pub enum EffectFamily {
         /// Removes sprites, optionally under a condition.
         Kill = "kill",
@@ -66,7 +66,7 @@ pub(crate) struct Summary {
     pub(crate) needs_partner: bool,
     /// The joint execution on all partners of a sprite, if the effect has a batch form.
     pub(crate) batch: Option<Batch>,
-    /// The random draws with an effect on the result.
+    /// The random draws that affect the result.
     pub(crate) draws: Draws,
     /// `true` only if an avatar that the effect removes, without turning it into another sprite, stays on the
     /// board as a dead avatar.
@@ -82,11 +82,11 @@ pub(crate) struct Summary {
     pub(crate) spot: Option<Spot>,
     /// `true` if a transformed sprite keeps its orientation, regardless of the two types.
     pub(crate) forces_orientation: bool,
-    /// `true` if the transformed first sprite faces the reverse of the partner's direction.
+    /// `true` if the transformed first sprite faces opposite to the partner's direction.
     pub(crate) takes_orientation: bool,
     /// The resource that a collision gives.
     pub(crate) gives: Option<Gives>,
-    /// The resource that can exceed its limit through the effect.
+    /// The resource whose limit the effect can exceed.
     pub(crate) overfills: Option<SpriteType>,
     /// The type whose sprites the effect counts.
     pub(crate) counts: Option<SpriteType>,
@@ -96,7 +96,7 @@ pub(crate) struct Summary {
     pub(crate) shield: Option<(SpriteType, u16)>,
     /// The scheduled timed effect.
     pub(crate) schedules: Option<u16>,
-    /// The score change if the execution kills a sprite.
+    /// The score change if an execution kills a sprite.
     pub(crate) score_if_killed: i32,
     /// `true` if the effect can change sprites that take no part in the interaction, or read their positions.
     pub(crate) affects_distant_sprites: bool,
@@ -116,7 +116,7 @@ pub(crate) enum Batch {
     Reverse,
 }
 
-/// The sprites that an effect may move. They determine how a pass may search for hits.
+/// The sprites that an effect may move, which determine how a pass may search for hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Moves {
     Nothing,
@@ -130,9 +130,9 @@ pub(crate) enum Draws {
     Nothing,
     /// Draws one of the four directions.
     Direction,
-    /// Draws whether something happens, with this probability.
+    /// Decides whether something happens, with this probability.
     Chance(f64),
-    /// Draws whether something happens, with this probability, if both sprites are oriented.
+    /// Decides whether something happens, with this probability, if both sprites are oriented.
     ChanceIfOriented(f64),
     /// Draws one of the given number of types.
     OneOf(usize),
@@ -147,14 +147,14 @@ pub(crate) enum Displacement {
     Back,
     /// The position beside the partner, on the side from which the first sprite came.
     Flush,
-    /// The same position as [`Displacement::Flush`], but the first sprite also loses the component of its
+    /// The same position as for [`Displacement::Flush`], but the first sprite also loses the component of its
     /// velocity towards the partner.
     Stop,
     /// The first sprite's previous position. The partner also moves back to its own previous position.
     Apart,
     /// Two steps below the first sprite's previous position.
     BackAndDown,
-    /// The position at the opposite edge, at a distance of `offset` times the sprite's size.
+    /// The position at the opposite edge, offset by `offset` times the sprite's size.
     OppositeEdge { offset: f64 },
     /// The partner's position.
     OntoPartner,
@@ -319,7 +319,7 @@ impl Summary {
 
     /// Returns the types that the first sprite can turn into.
     pub(crate) fn becomes(&self) -> impl Iterator<Item = SpriteType> + '_ {
-        // If there are two types, the type that depends on a condition comes last.
+        // If there are two types, the conditional one comes last.
         let types = self
             .effects
             .iter()
@@ -329,7 +329,7 @@ impl Summary {
         types.copied().filter(|&stype| stype != SpriteType::NONE)
     }
 
-    /// Returns two types if the effect turns every sprite of the first type into a sprite of the second type.
+    /// Returns the two types if the effect turns every sprite of one type into a sprite of another.
     pub(crate) fn becomes_all(&self) -> Option<(SpriteType, SpriteType)> {
         self.effects.iter().find_map(|effect| {
             let EffectSummary::BecomeAll(from, to) = *effect else { return None };
@@ -350,8 +350,8 @@ impl Summary {
         tested.or(changed).filter(|&resource| resource != SpriteType::NONE)
     }
 
-    /// Returns the type whose sprites can gain speed from a standstill when the effect is executed on sprites
-    /// of `one`. Forces act only in continuous physics.
+    /// Returns the type whose sprites can gain speed from a standstill when the effect runs on sprites of
+    /// `one`. Forces act only in continuous physics.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self.speed? {
             SpeedEffect::OfAll { stype, .. } => Some(stype),

@@ -1,11 +1,11 @@
-//! The parser's limits: texts that are not games, overlong lines and names, and sprites nested too deep.
+//! The parser's limits: texts that are not games, overlong lines and names, and sprites nested too deeply.
 
 use super::layout::Line;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::limits::{MAX_LINE, MAX_NAME, MAX_NESTING, MAX_SOURCE};
 use crate::syntax::description::Word;
 
-/// Returns the problem with a text that cannot be read as a game.
+/// Returns the diagnostic for a text that cannot be read as a game, if any.
 pub(crate) fn unreadable(source: &str) -> Option<Diagnostic> {
     if source.len() > MAX_SOURCE {
         let message = format!("the game is {} bytes long; the limit is {MAX_SOURCE}", source.len());
@@ -21,7 +21,7 @@ pub(crate) fn unreadable(source: &str) -> Option<Diagnostic> {
     Some(problem.remove(Span::new(at, at + c.len_utf8()), &c.escape_default().to_string()))
 }
 
-/// Returns the problem with an overlong line.
+/// Returns the diagnostic for an overlong line.
 pub(crate) fn long_line(line: &Line<'_>) -> Option<Diagnostic> {
     let length = line.text.len();
     let message = format!("this line is {length} bytes long; the limit is {MAX_LINE}");
@@ -29,7 +29,7 @@ pub(crate) fn long_line(line: &Line<'_>) -> Option<Diagnostic> {
     (length > MAX_LINE).then_some(problem)
 }
 
-/// Returns the problem with an overlong sprite name.
+/// Returns the diagnostic for an overlong sprite name.
 pub(crate) fn long_name(name: &Word) -> Option<Diagnostic> {
     let length = name.text.len();
     let message = format!("this name is {length} bytes long; the limit is {MAX_NAME}");
@@ -37,7 +37,7 @@ pub(crate) fn long_name(name: &Word) -> Option<Diagnostic> {
     (length > MAX_NAME).then_some(problem)
 }
 
-/// Returns the problem with sprites nested too deep.
+/// Returns the diagnostic for sprites nested too deeply.
 pub(crate) fn too_deep(line: &Line<'_>) -> Diagnostic {
     let message = format!("sprites are nested more than {MAX_NESTING} deep");
     let problem = Diagnostic::error("too-deep", line.span, message);

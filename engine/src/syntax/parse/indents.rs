@@ -4,7 +4,7 @@ use super::layout::Line;
 use crate::diagnostic::{Diagnostic, Edit};
 use crate::syntax::description::Section;
 
-/// Returns the most frequent indent. If several indents are equally frequent, returns the first such indent.
+/// Returns the most frequent indent. If several are equally frequent, returns the first.
 pub(crate) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     let mut counts: Vec<(usize, usize)> = Vec::new();
     for indent in indents {
@@ -17,7 +17,7 @@ pub(crate) fn usual(indents: impl Iterator<Item = usize>) -> usize {
     counts.iter().find(|(_, count)| Some(*count) == most).map_or(0, |&(indent, _)| indent)
 }
 
-/// Returns the usual indent of the parentless lines among `lines`.
+/// Returns the usual indent of those `lines` that have no parent.
 pub(crate) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     let mut sibling = usize::MAX;
     usual(lines.iter().map(|line| line.indent).filter(|&indent| {
@@ -27,7 +27,7 @@ pub(crate) fn of_siblings(lines: &[&Line<'_>]) -> usize {
     }))
 }
 
-/// Returns the problem with a repair that indents the first line by `columns` and shifts the other lines by
+/// Returns the problem, with a repair that indents the first line by `columns` and shifts the other lines by
 /// the same amount.
 fn shifted(problem: Diagnostic, lines: &[&Line<'_>], columns: usize) -> Diagnostic {
     let first = lines.first().map_or(0, |line| line.indent);
@@ -36,7 +36,7 @@ fn shifted(problem: Diagnostic, lines: &[&Line<'_>], columns: usize) -> Diagnost
     problem.fix(format!("Indent {} by {columns} columns", them(lines.len())), edits)
 }
 
-/// Reports lines that are not indented deeper than their section's name.
+/// Reports lines that are not indented more deeply than their section's name.
 pub(crate) fn outside(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
     let inside = Some(usual(inside)).filter(|&indent| indent > head).unwrap_or(head + 4);
@@ -49,7 +49,7 @@ pub(crate) fn outside(section: Section, head: usize, lines: &[&Line<'_>], proble
     }
 }
 
-/// Reports lines that are not indented like most lines in their section, for sections without subtypes.
+/// In a section without subtypes, reports lines that are not indented like most of its lines.
 pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
     let indent = usual(inside);
@@ -62,8 +62,9 @@ pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
     }
 }
 
-/// Reports SpriteSet lines with an indent between the columns of the other lines, which are children or
-/// siblings by accident. Returns `true` if the lines are indented in columns. Otherwise, reports nothing.
+/// Reports SpriteSet lines whose indent lies between the columns of the other lines, which makes them
+/// children or siblings by accident. Returns `true` if the lines are indented in columns; if they are not,
+/// reports nothing.
 pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) -> bool {
     let indents = || std::iter::once(head).chain(lines.iter().map(|line| line.indent));
     let above: Vec<usize> = indents().map(|indent| indent - head).collect();
@@ -72,7 +73,8 @@ pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     steps.push(usual(lines.iter().map(|line| line.indent)).saturating_sub(head).max(1));
     steps.sort_unstable();
     steps.dedup();
-    // The deviation of a line that is between columns, or more than one column to the right of the previous line.
+    // The deviation of a line that lies between columns, or more than one column to the right of the previous
+    // line.
     let off = |step: usize, at: usize, line: &Line<'_>| {
         let (rest, above) = ((line.indent - head) % step, above[at].next_multiple_of(step));
         (rest > 0 || line.indent - head > above + step).then_some(rest)
@@ -119,7 +121,7 @@ fn runs<'a, 'b, 'c>(
     runs
 }
 
-/// Returns a note about indents with tabs, which may look wider than they count.
+/// Returns a note about indents with tabs, which may look wider than the single column that each tab counts.
 pub(crate) fn of_tabs(line: &Line<'_>) -> &'static str {
     if line.tabbed { ": a tab counts as one column" } else { "" }
 }

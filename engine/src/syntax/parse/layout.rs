@@ -2,10 +2,10 @@
 
 use crate::diagnostic::{Edit, Span};
 
-/// The character that some editors place at the start of a file.
+/// The byte order mark, which some editors put at the start of a file.
 pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 
-/// A line that contains text other than spaces and a comment.
+/// A line that contains more than spaces and a comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Line<'a> {
     /// The number of columns before the first character. A tab counts as one column.
@@ -25,7 +25,7 @@ pub(crate) struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// Returns the position of the indent, whose characters have one byte each.
+    /// Returns the position of the indent, whose characters are one byte each.
     pub(crate) fn indentation(&self) -> Span {
         Span::new(self.span.start - self.indent, self.span.start)
     }
@@ -52,7 +52,7 @@ pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
             Some((code, comment)) => (code, Some(comment.trim())),
             None => (raw, None),
         };
-        // Some editors put a byte order mark before the first line.
+        // Some editors put a byte order mark at the start of the file.
         let code = code.strip_prefix(BYTE_ORDER_MARK).filter(|_| start == 0).unwrap_or(code);
         let text = code.trim_matches(|c: char| c <= ' ');
         if text.is_empty() {
@@ -78,7 +78,7 @@ pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
 }
 
 /// Finds a line that consists only of `#` characters and starts in the first column. The reference crashes on
-/// such a line (`spec/01` §1.1).
+/// this (`spec/01` §1.1).
 pub(crate) fn bare_hashes(source: &str) -> Option<Span> {
     let mut start = 0;
     source.split(['\n', '\r']).find_map(|raw| {

@@ -17,8 +17,8 @@ use pest::Parser;
 use std::collections::BTreeSet;
 
 impl Reader {
-    /// Reads the SpriteSet. Lines at the same depth are siblings. Deeper lines are children of the line above
-    /// (`spec/01` §1.3).
+    /// Reads the SpriteSet. Lines at the same depth are siblings. More deeply indented lines are children of
+    /// the line above (`spec/01` §1.3).
     pub(crate) fn sprites(&mut self, lines: &[&Line<'_>], out: &mut Vec<SpriteLine>, depth: usize) {
         let Some(first) = lines.first() else { return };
         let indent = indents::of_siblings(lines);
@@ -70,8 +70,8 @@ impl Reader {
             if let Some(name) = fixed.as_deref().and_then(|fixed| fixed.split_whitespace().next()) {
                 sprite.name.text = name.trim_end_matches('>').to_owned();
             }
-            // One of the words was meant as the arrow, or contains the arrow. Among the other words, only a
-            // class is certain.
+            // One of the words was meant as the arrow, or contains it. Of the other words, only a class is
+            // certain.
             let known = |word: &Word| CLASSES.contains(&&*word.text);
             sprite.class = sprite.class.into_iter().chain(strays.drain(..)).find(known);
         }
@@ -82,8 +82,8 @@ impl Reader {
         (!sprite.name.text.is_empty()).then_some(sprite)
     }
 
-    /// Reports a line whose arrow is missing or misspelt, at the faulty word if there is such a word. Returns
-    /// the text to write there. `place` describes where the arrow belongs.
+    /// Reports a line whose arrow is missing or misspelt, at the faulty word if there is one. Returns the
+    /// text to write there. `place` describes where the arrow belongs.
     fn mend_arrow(&mut self, line: &Line<'_>, has_arrow: bool, shape: &str, place: &str) -> Option<String> {
         let mut words = line.text.split([' ', '\t']).filter(|word| !word.is_empty());
         let meant = words.find_map(|word| Some((word, repair::arrow(word)?))).filter(|_| !has_arrow);
@@ -103,8 +103,8 @@ impl Reader {
         Some(fixed)
     }
 
-    /// Reads a LevelMapping line. `symbols` contains the characters of all LevelMapping lines, and the
-    /// characters proposed so far.
+    /// Reads a LevelMapping line. `symbols` contains the characters of all LevelMapping lines, and those
+    /// proposed so far.
     pub(crate) fn mapping(&mut self, line: &Line<'_>, symbols: &mut BTreeSet<char>) {
         let shape = "a mapping is `c > sprite sprite …`";
         let Ok(mut pairs) = Grammar::parse(Rule::mapping, line.text) else {
@@ -151,7 +151,7 @@ impl Reader {
             let shown = if before.is_empty() { Span::new(place.start, start(arrow) + 1) } else { place };
             let problem = Diagnostic::error("bad-mapping", shown, format!("{message}: {shape}"));
             let problem = problem.help(in_levels_too(symbol, rest));
-            // A line whose character is missing may begin with the space that followed the character.
+            // A line that lacks its character may begin with the space that followed it.
             self.problems.push(if before.is_empty() && line.indent % 2 == 1 {
                 problem
             } else {

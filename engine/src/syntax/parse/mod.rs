@@ -1,4 +1,4 @@
-//! Parses lines into a syntax tree. Parsing never fails: a faulty line causes one diagnostic, and the rest of
+//! Parses lines into a syntax tree. Parsing never fails: a faulty line yields one diagnostic, and the rest of
 //! the file is still read.
 
 pub(crate) mod bounds;
@@ -23,8 +23,8 @@ use std::collections::BTreeSet;
 use tokens::Token;
 
 /// Reads a game file in reference mode: faulty lines are dropped with one message per line, and lines
-/// indented deeper than the first line of their section are ignored (`spec/01` §1.3–§1.9). The diagnostics
-/// contain the fault on which the reference crashes, or an exceeded limit.
+/// indented more deeply than the first line of their section are ignored (`spec/01` §1.3–§1.9). The
+/// diagnostics contain only the fault on which the reference crashes, or an exceeded limit.
 pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
     let read = unreadable(source).map_or_else(|| reference::read(source), Err);
     match read {
@@ -34,7 +34,7 @@ pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
 }
 
 /// Reads a game file. The tree contains every line that could be read. The diagnostics, sorted by position,
-/// cover all other lines.
+/// cover all others.
 ///
 /// Cost: linear in the text's length. A text longer than [`MAX_SOURCE`](crate::MAX_SOURCE) bytes yields one
 /// diagnostic and an empty tree.
@@ -145,7 +145,7 @@ impl Reader {
         self.description.header = header;
     }
 
-    /// Returns the sections as intended, and reports a problem for each deviation.
+    /// Returns the sections as they were intended, and reports a problem for each deviation.
     fn mended_parts<'a, 'b>(&mut self, header: &'b Line<'a>, lines: &'b [Line<'a>]) -> Vec<Part<'a, 'b>> {
         let parts = sections::mended(header, lines, &mut self.problems);
         for (at, part) in parts.iter().enumerate() {
@@ -208,7 +208,7 @@ impl Reader {
         }
     }
 
-    /// Reports a misplaced word. `rule` describes what belongs there.
+    /// Reports a misplaced word. `rule` states what belongs there.
     pub(super) fn stray_word(&mut self, word: &Word, rule: &str) {
         let message = format!("`{}` does not belong here: {rule}", word.text);
         let problem = Diagnostic::error("stray-word", word.span, message);
@@ -219,8 +219,8 @@ impl Reader {
     }
 }
 
-/// Returns the edit that adds an empty section. The SpriteSet is added below the first line, because other
-/// sections depend on it. All other sections are added at the end. `heads` are the indents of the existing
+/// Returns the edit that adds an empty section. The SpriteSet goes below the first line, because other
+/// sections depend on it, and all other sections go at the end. `heads` are the indents of the existing
 /// sections.
 fn missing_section(source: &str, header: &Line<'_>, section: Section, heads: &[usize]) -> Edit {
     let below = heads.iter().copied().filter(|&indent| indent > header.indent);

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-/// Returns the parameter meant by a word whose `=` is missing or replaced by a different character:
-/// `limit:5`, `scoreChange-1`, `winTrue`.
+/// Returns the parameter that a word was meant as, if its `=` is missing or replaced by a different
+/// character: `limit:5`, `scoreChange-1`, `winTrue`.
 pub(crate) fn parameter(word: &str) -> Option<String> {
     let (key, value) = match word.split_once([':', ';', '-', '+', '~', '>', '<', '_']) {
         Some((key, value)) if is_value(value) => {
@@ -55,7 +55,7 @@ fn named(word: &str) -> Option<usize> {
     KEYS.into_iter().find(|key| word.starts_with(key) && word.len() > key.len()).map(str::len)
 }
 
-/// Returns the text to write instead of a word that stands for an arrow, or contains an arrow with too few
+/// Returns the text to write instead of a word that stands for an arrow or that contains one with too few
 /// spaces around it.
 pub(crate) fn arrow(word: &str) -> Option<String> {
     const LIKE_ARROWS: [&str; 14] =
@@ -68,9 +68,9 @@ pub(crate) fn arrow(word: &str) -> Option<String> {
     Some(format!("{left}{}>{}{right}", blank(left), blank(right)))
 }
 
-/// Returns a LevelMapping line with its missing arrow inserted. The arrow is inserted after the character,
-/// in place of the sign behind the character, or after a new character if the first word cannot be a
-/// character. Returns `None` for a single word, and if a word resembles an arrow.
+/// Returns a LevelMapping line with its missing arrow inserted. The arrow goes after the character, in place
+/// of the sign that follows it, or after a new character if the first word cannot be one. Returns `None` for
+/// a single word, and if a word resembles an arrow.
 pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String> {
     let mut words: Vec<&str> =
         line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();
@@ -96,7 +96,7 @@ pub(crate) fn mapping(line: &str, symbols: &mut BTreeSet<char>) -> Option<String
     Some(format!("{symbol} > {}", words.join(" ")))
 }
 
-/// Returns the character on a LevelMapping line, if there is only one character before the line's arrow.
+/// Returns the character on a LevelMapping line, if it is the only one before the line's arrow.
 pub(crate) fn sole_character(line: &str) -> Option<char> {
     let words: Vec<&str> =
         line.split([' ', '\t', '\u{b}', '\u{c}']).filter(|word| !word.is_empty()).collect();
@@ -106,8 +106,8 @@ pub(crate) fn sole_character(line: &str) -> Option<char> {
 }
 
 /// Returns a character to write instead of a word in the LevelMapping: the word's first character that no
-/// line uses, or else a letter. `A` and `w` have a meaning even without a line. The returned character is
-/// added to `symbols`, so that it is proposed only once.
+/// line uses or, failing that, a letter. `A` and `w` count as used, because they have a meaning even without
+/// a line. Adds the returned character to `symbols`, so that it is proposed only once.
 pub(crate) fn symbol(word: &str, symbols: &mut BTreeSet<char>) -> char {
     let is_free = |c: &char| c.is_ascii_graphic() && !matches!(c, '#' | '>') && !symbols.contains(c);
     let letters = ('a'..='z').chain('B'..='Z').chain('0'..='9').filter(|&c| c != 'w');

@@ -1,5 +1,5 @@
-//! A game file's sections, as written and as intended. A missing, misspelt or swapped name causes one problem
-//! at its position, not one problem for every line below it.
+//! A game file's sections, as written and as intended. A missing, misspelt or swapped name yields one problem
+//! at its position, instead of one for every line below it.
 
 use super::indents;
 use super::layout::Line;
@@ -11,10 +11,11 @@ use crate::syntax::description::Section;
 /// A section: the line with its name, and the lines below it.
 pub(crate) struct Part<'a, 'b> {
     pub(crate) section: Section,
-    /// The line with the section's name or, if the name is missing, the line at whose depth the name should be.
+    /// The line with the section's name or, if the name is missing, the line whose depth the name should
+    /// have.
     pub(crate) head: &'b Line<'a>,
-    /// The column beyond which the section's lines should be indented. The value is the column of the
-    /// section's name, if the name is in the right position.
+    /// The column beyond which the section's lines should be indented. This is the column of the section's
+    /// name, if the name is in the right place.
     pub(crate) indent: usize,
     pub(crate) body: Vec<&'b Line<'a>>,
 }
@@ -25,8 +26,8 @@ pub(crate) fn named(text: &str) -> Option<Section> {
     all.find(|section| section.name().eq_ignore_ascii_case(text))
 }
 
-/// Returns a file's sections as intended. If a section's name is wrong, the lines below the name decide which
-/// section it is.
+/// Returns a file's sections as they were intended. If a section's name is wrong, the lines below it decide
+/// which section it is.
 pub(crate) fn mended<'a, 'b>(
     header: &'b Line<'a>,
     lines: &'b [Line<'a>],
@@ -41,7 +42,7 @@ pub(crate) fn mended<'a, 'b>(
     parts
 }
 
-/// Returns the lines before the first section, and the sections by name, including misspelt names.
+/// Returns the lines before the first section, and the sections by name, even if the name is misspelt.
 fn split<'a, 'b>(
     lines: &'b [Line<'a>],
     problems: &mut Vec<Diagnostic>,
@@ -98,8 +99,8 @@ fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Dia
     }
 }
 
-/// Reports sections without a name. Their lines look like the lines of a missing section, and are at the end
-/// of another section or before all sections.
+/// Reports sections without a name. Their lines look like those of a missing section, and stand at the end of
+/// another section or before all sections.
 fn missing<'a, 'b>(
     guess: &Guess<'_>,
     header: &'b Line<'a>,
@@ -152,8 +153,8 @@ fn missing<'a, 'b>(
     }
 }
 
-/// Reports section names that are not indented like the other section names. The reference reads a deeper
-/// name as a line in the section above.
+/// Reports section names that are not indented like the other section names. The reference reads a more
+/// deeply indented name as a line of the section above.
 fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diagnostic>) {
     // The head of a section without a name is a line of another section.
     let is_own = |&(at, part): &(usize, &Part<'_, '_>)| {
@@ -218,7 +219,8 @@ fn moved<'a, 'b>(guess: &Guess<'_>, parts: &mut [Part<'a, 'b>], problems: &mut V
         });
     }
     for (section, line) in moved {
-        // The line's indent fits its old section. Sprites are added nevertheless because their names must be known.
+        // The line's indent fits its old section. Sprites are added nevertheless, because their names must be
+        // known.
         let part = parts.iter_mut().find(|part| part.section == section && part.indent < line.indent);
         if let Some(part) = part.filter(|part| part.section == Section::SpriteSet) {
             part.body.push(line);
@@ -259,7 +261,7 @@ fn line_of(section: Section) -> &'static str {
 
 /// Recognises sections by their lines.
 struct Guess<'a> {
-    /// The sprite names, as far as the lines reveal them.
+    /// The names of the sprites, as far as the lines reveal them.
     sprites: Vec<&'a str>,
 }
 

@@ -44,9 +44,9 @@ impl Reader {
         tokens
     }
 
-    /// Reports a word with an `=` that is not `key=value`. The `=` may have spaces around it, the key or
+    /// Reports a word with an `=` that is not `key=value`: the `=` may have spaces around it, the key or
     /// value may be missing, or there may be several `=`. The intended parameter is read, so that the mistake
-    /// causes only one problem.
+    /// yields only one problem.
     fn broken_param<'a>(
         &mut self,
         line: &Line<'_>,
@@ -57,7 +57,7 @@ impl Reader {
         let next = rest.peek().filter(|next| next.as_rule() == Rule::word).map(|next| word(line, next));
         let known = |word: &Word| CLASSES.contains(&&*word.text) || EFFECTS.contains(&&*word.text);
         let has_arrow = line.text.split([' ', '\t']).any(|word| word == ">");
-        // Example: `gold = color=RED` in a line that needs an arrow.
+        // For example, `gold = color=RED` on a line that needs an arrow.
         let names_sprite = |word: &Word| word.text != "BasicGame" && !TERMINATIONS.contains(&&*word.text);
         let after_name = || matches!(&tokens[..], [Token::Word(first)] if names_sprite(first));
         let like_arrow = || next.as_ref().map_or_else(after_name, known);

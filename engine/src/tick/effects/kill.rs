@@ -5,7 +5,7 @@ use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
-/// Kills the sprite if `hit` is `true`. The score applies only in that case.
+/// Kills the sprite if `hit` is `true`. The score applies only if it does.
 pub(super) fn when(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, hit: bool) {
     step.apply_score(index, hit);
     if hit {
@@ -45,7 +45,7 @@ pub(super) fn if_frontal(
 }
 
 /// Executes killIfFast and killIfSlow, which compare the moving sprite's speed or, if both sprites move, the
-/// difference of their orientations.
+/// difference between their orientations.
 pub(super) fn if_speed(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, limit: f64, fast: bool) {
     let (first, second) = (step.world.overrides(one), step.world.overrides(two));
     let is_static = |slot: Slot| step.rules.types[step.world.sprite(slot).stype.index()].traits.is_static;
@@ -86,7 +86,7 @@ pub(super) fn remove_score(
     while slot != NONE {
         step.work(1);
         if step.world.sprite(slot).is(flag::AVATAR) {
-            // Each avatar has its own score, and the player's is the game's.
+            // Each avatar has its own score, and the score of the player's avatar is the game's.
             if slot == step.world.avatar() {
                 step.world.reset_score();
             }

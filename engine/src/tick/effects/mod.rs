@@ -14,7 +14,7 @@ use crate::rules::effects::{Batch, Draws, Effect, Summary};
 use crate::rules::{EffectInfo, Limit, memory};
 use crate::world::{Partners, Slot, Timer, flag};
 
-/// Executes an effect on a sprite and, in pairs, its partner. Effects that lack a required partner log a
+/// Executes an effect on a sprite and, if it has one, its partner. Effects that lack a required partner log a
 /// message.
 pub(crate) fn execute(
     step: &mut Step<'_, impl Scheduler>,
@@ -241,7 +241,7 @@ fn add_timer(step: &mut Step<'_, impl Scheduler>, timed: u16) {
     step.plan(Timer { due, timed });
 }
 
-/// Returns an execution's score change, and `true` if its text is not a number.
+/// Returns an execution's score change, and `true` if the text for it is not a number.
 pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     if remembered & memory::KILLED != 0 {
         (info.summary.score_if_killed, info.score_faults[1])

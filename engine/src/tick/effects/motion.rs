@@ -44,7 +44,7 @@ pub(super) fn undo_all(step: &mut Step<'_, impl Scheduler>, spare: &[SpriteType]
             return step.stop(Limit::FlatSprite);
         }
     }
-    // Only sprites that moved in this tick differ from their last rectangle.
+    // Only sprites that moved in this tick are away from their last rectangle.
     step.work(step.world.moved().len());
     for at in 0..step.world.moved().len() {
         let slot = step.world.moved()[at];
@@ -62,7 +62,7 @@ pub(super) fn turn_around(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     step.place(one, last);
     for _ in 0..2 {
         step.set_age(one, cooldown);
-        // In continuous physics, the first of the two steps changes the speed of the second.
+        // With continuous physics, the first of the two steps changes the speed of the second.
         let speed = step.world.overrides(one).speed;
         physics::active(step, one, Direction::DOWN, speed);
     }
@@ -206,11 +206,11 @@ pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
     }
 }
 
-/// Returns the exit type to which touching a sprite leads.
+/// Returns the exit type to which a sprite leads.
 fn exit_of(step: &Step<'_, impl Scheduler>, two: Slot) -> Option<SpriteType> {
     let info = &step.rules.types[step.world.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
-    // A spawner leads to the type that it makes, which may change.
+    // A spawner leads to the type that it creates, which may change.
     let leads_to = if spawns { Some(step.world.overrides(two).spawns) } else { info.leads_to() };
     leads_to.filter(|&stype| stype != SpriteType::NONE)
 }

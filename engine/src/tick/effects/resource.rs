@@ -5,7 +5,7 @@ use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::Slot;
 
-/// Returns a resource sprite's type, value and limit, or `None` if the sprite is not a resource.
+/// Returns a resource sprite's type, value and limit, or `None` if it is not a resource.
 fn resource_of(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Option<(SpriteType, i32, i32)> {
     let info = &step.rules.types[step.world.sprite(slot).stype.index()];
     let resource = info.traits.resource;
@@ -19,8 +19,8 @@ fn resource_of(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Option<(Sprit
     Some((resource, info.traits.value, step.rules.types[resource.index()].resource_limit))
 }
 
-/// Adds the resource to the partner's holdings, up to the limit. For any other sprite, nothing changes, not
-/// even the effect's memory.
+/// Adds the resource to the partner's holdings, up to the limit. If the sprite is not a resource, nothing
+/// changes, not even the effect's memory.
 pub(super) fn collect(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, two: Slot, kill: bool) {
     let Some((resource, value, limit)) = resource_of(step, one) else { return };
     let amount = step.world.amount(two, resource);

@@ -1,5 +1,5 @@
-//! Effects that create sprites (`spec/03` §7.4). These effects make their random draw first, even if the
-//! outcome is certain.
+//! Effects that create sprites (`spec/03` §7.4). They make their random draw first, even if the outcome is
+//! certain.
 
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{SpawnIf, SpawnIfCounterSubTypes};
@@ -34,8 +34,8 @@ pub(super) fn if_amount(step: &mut Step<'_, impl Scheduler>, index: u16, one: Sl
     }
 }
 
-/// Executes spawnAbove, spawnBelow, spawnLeft and spawnRight, which spawn a sprite one block beside the
-/// partner's position, or beside its last position.
+/// Executes spawnAbove, spawnBelow, spawnLeft and spawnRight, which spawn a sprite one block away from the
+/// partner's position, or from its last position.
 pub(super) fn beside(
     step: &mut Step<'_, impl Scheduler>,
     two: Slot,
@@ -57,7 +57,7 @@ pub(super) fn beside(
     step.add(stype, x, y);
 }
 
-/// Spawns a sprite at the partner's last position, if the partner has left that position.
+/// Spawns a sprite at the partner's last position, if the partner has left it.
 pub(super) fn behind(step: &mut Step<'_, impl Scheduler>, two: Slot, stype: SpriteType, prob: f64) {
     if step.world.dice().double() >= prob {
         return;
@@ -73,7 +73,7 @@ pub(super) fn clone(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     step.add(sprite.stype, sprite.rect.x, sprite.rect.y);
 }
 
-/// Spawns one of two types, depending on the number of sprites and of subtypes of a third type.
+/// Spawns one of two types, depending on the numbers of sprites and of subtypes that a third type has.
 pub(super) fn if_counter_subtypes(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,

@@ -67,7 +67,7 @@ pub(super) fn random_child(
     }
 }
 
-/// Transforms the sprite depending on a type's number of sprites, including killed and disabled sprites.
+/// Transforms the sprite depending on the number of a type's sprites, including killed and disabled ones.
 pub(super) fn if_count(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -158,12 +158,12 @@ fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
             step.add_amount(new, resource, amount);
         }
     }
-    // The player takes over the new sprite, if it can be an avatar. Otherwise, the old avatar stays,
+    // The player takes over the new sprite if it can be an avatar. If it cannot, the old avatar stays,
     // disabled.
     let player_lost = before.is(flag::AVATAR) && !step.can_be_played(new);
     if before.is(flag::AVATAR) && !player_lost {
         if step.world.avatar() == NONE {
-            // The reference takes the score and the player from an avatar that does not exist.
+            // The reference would take the score and the player from an avatar that does not exist.
             return step.stop(Limit::NoAvatar);
         }
         step.control(new);

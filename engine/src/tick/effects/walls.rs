@@ -7,14 +7,14 @@ use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::{Overrides, Partners, Slot};
 
-/// Returns a sprite's intended displacement per tick, in pixels to the right and down.
+/// Returns a sprite's intended displacement per tick, in pixels rightwards and downwards.
 fn velocity(step: &Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let &Overrides { orientation, speed, .. } = step.world.overrides(slot);
     Direction { x: orientation.x * speed, y: orientation.y * speed }
 }
 
-/// Returns two flags for a collision with a rectangle. The first flag is set for a collision from the
-/// side, and the second flag for a collision from above or below. Both flags or neither flag may be set.
+/// Returns two flags for a collision with a rectangle. The first is set for a collision from the side, and
+/// the second for a collision from above or below. Both or neither may be set.
 fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, bool) {
     let rect = step.world.sprite(one).rect;
     let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
@@ -41,8 +41,8 @@ fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, 
     (across < along, along < across)
 }
 
-/// Returns the rectangle to collide with, and the number of partners in the rectangle. The rectangle
-/// covers two aligned partners, or else the closest partner.
+/// Returns the rectangle to collide with, and the number of partners in it. The rectangle covers two aligned
+/// partners if there are any, and the closest partner if not.
 fn joined(step: &Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     let rect = |slot: Slot| step.world.sprite(slot).rect;
     if let [first, second] = partners[..] {
@@ -133,7 +133,7 @@ pub(super) fn reverse(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot)
     separate(step, one, &[two]);
 }
 
-/// Places the sprite flush with the wall, and lets the sprite continue along the wall.
+/// Places the sprite flush with the wall, and lets it continue along the wall.
 pub(super) fn stop(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let rect = pixel_perfect(step, one, two);
     step.place(one, rect);

@@ -8,8 +8,8 @@ use crate::tick::{Scheduler, Step};
 use crate::world::{NO_HEADING, NONE, Slot, Sprite, Target, World, flag};
 use smallvec::SmallVec;
 
-/// The directions to choose from, as indices into [`Direction::BASE`]. A direction appears once per target
-/// that favours it.
+/// The directions to choose from, as indices into [`Direction::BASE`]. A direction appears once for each
+/// target that favours it.
 type Options = SmallVec<[u8; 16]>;
 
 /// Updates a character: applies its drift, then moves it in the chosen direction.
@@ -17,7 +17,7 @@ type Options = SmallVec<[u8; 16]>;
 pub(super) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) {
     let sprite = step.world.sprite(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;
-    // No other characters drift.
+    // Other characters do not drift.
     if sprite.is(flag::FIRST_TICK | flag::ORIENTED) || traits.continuous {
         physics::passive(step, slot);
     }
@@ -103,7 +103,7 @@ fn towards(heading: u32) -> Direction {
     }
 }
 
-/// Draws one of the options, or returns `None` if there are no options.
+/// Draws one of the options, or returns `None` if there are none.
 #[inline(always)]
 fn drawn(step: &mut Step<'_, impl Scheduler>, options: &[u8]) -> Option<Direction> {
     if options.is_empty() {
@@ -113,7 +113,7 @@ fn drawn(step: &mut Step<'_, impl Scheduler>, options: &[u8]) -> Option<Directio
     Some(Direction::BASE[usize::from(options[drawn])])
 }
 
-/// Chooses the direction of a Chaser or Fleeing: a step towards, or away from, one of the closest targets.
+/// Chooses the direction of a Chaser or Fleeing: a step towards (or away from) one of the closest targets.
 fn chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     chase_visible(step, slot, |_, _| true)
 }
@@ -168,7 +168,8 @@ fn options(
 fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &mut Options) {
     let is_near = [own.x, own.y, target.x, target.y].iter().all(|at| at.unsigned_abs() < 1 << 30);
     if !continuous && is_near {
-        // On the grid, the distance shrinks by one if there is a gap in that direction, and grows by one otherwise.
+        // With grid physics, the distance shrinks by one if there is a gap in that direction, and grows by
+        // one if not.
         let (right, below) = (target.x - own.x, target.y - own.y);
         let gaps = [-below, -right, below, right];
         for (direction, gap) in (0..).zip(gaps) {
@@ -215,8 +216,7 @@ impl<'a> Targets<'a> {
     }
 }
 
-/// Returns the sprites of exactly this type. If there are no such sprites, returns the sprites of its
-/// relatives.
+/// Returns the sprites of exactly this type. If there are none, returns those of its relatives.
 fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) -> Targets<'a> {
     if stype == SpriteType::NONE {
         step.stop(Limit::NoType);
@@ -230,7 +230,7 @@ fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) ->
     targets
 }
 
-/// The first target at the minimum distance, and whether the distance is shared by further targets.
+/// The first of the closest targets, and a flag for whether further targets are equally close.
 struct Closest {
     distance: f64,
     first: Rect,
@@ -266,8 +266,8 @@ fn path_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     }
 }
 
-/// Returns the first step of the path to a position. A game without `obs=` has no paths, and stops if a path
-/// is requested.
+/// Returns the first step of the path to a position. A game without `obs=` has no paths, so the request stops
+/// the episode.
 fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -> Option<Direction> {
     if !step.rules.finds_paths {
         step.stop(Limit::NoPaths);
@@ -278,8 +278,8 @@ fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -
     way
 }
 
-/// Returns the targets for the AlternateChaser family: the sprites of the type, followed by the sprites of
-/// its whole tree, which includes the type itself. Sprites of a leaf type therefore appear twice.
+/// Returns the targets for the AlternateChaser family: the type's own sprites, followed by those of its whole
+/// tree, which includes the type itself. Sprites of a leaf type therefore appear twice.
 fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Targets<'a> {
     let rules = step.rules;
     let stypes = &rules.types[step.world.sprite(slot).stype.index()].traits.stypes;
@@ -291,7 +291,7 @@ fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Tar
     if total == 0 {
         return Targets::NONE;
     }
-    // The reference chooses among several types with an unseeded generator of its own.
+    // To choose among several types, the reference uses an unseeded generator of its own.
     let chosen = match stypes.len() {
         1 => stypes[0],
         count => stypes[step.world.second_dice().below(count as i32) as usize],
@@ -312,7 +312,7 @@ fn alternate_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Directio
 }
 
 /// Chooses the direction of a RandomAltChaser or RandomPathAltChaser, which occasionally takes a random step.
-/// The first random draw is always made.
+/// Always makes the first random draw.
 fn or_random<S: Scheduler>(
     step: &mut Step<'_, S>,
     slot: Slot,

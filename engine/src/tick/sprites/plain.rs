@@ -14,7 +14,7 @@ pub(super) fn random_missile(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);
 }
 
-/// Updates a flicker. Kills the flicker in the update in which its age exceeds the limit.
+/// Updates a flicker, which dies in the update in which its age exceeds the limit.
 pub(super) fn flicker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     base(step, slot);
     let sprite = step.world.sprite(slot);
@@ -25,8 +25,7 @@ pub(super) fn flicker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     sprite.count = sprite.count.wrapping_add(1);
 }
 
-/// Updates a flicker that spreads in its second update. The spreading always makes four random
-/// draws.
+/// Updates a flicker that spreads in its second update. Spreading always makes four random draws.
 pub(super) fn spreader(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     flicker(step, slot);
     let (sprite, last) = (*step.world.sprite(slot), step.world.last(slot));

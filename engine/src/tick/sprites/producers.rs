@@ -48,7 +48,7 @@ fn produce(step: &mut Step<'_, impl Scheduler>, slot: Slot, stypes: &[SpriteType
     }
 }
 
-/// Moves the sprite at random, then updates it as a spawn point at the new position.
+/// Moves a RandomBomber at random, then updates it as a spawn point at its new position.
 pub(super) fn random_bomber(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let direction = Direction::BASE[step.world.dice().below(4) as usize];
     let speed = step.world.overrides(slot).speed;

@@ -1,4 +1,4 @@
-//! The board: the cells that sprites cover, and overlapping sprites.
+//! The board: the cells that sprites cover, and the sprites that overlap.
 
 pub(crate) mod occupancy;
 pub(crate) mod overlap;

@@ -1,5 +1,5 @@
-//! The spatial index. Each board cell, and each cell in a ring around the board, has a chain of the sprites
-//! whose top-left corner is in the cell. Sprites of types without rules are omitted. The index is updated as
+//! The spatial index. Each cell of the board, and of the ring around it, has a chain of the sprites whose
+//! top-left corner is in the cell. Sprites of types without rules are omitted. The index is updated as
 //! sprites move, so the cost of finding the sprites that overlap a rectangle depends only on the number of
 //! nearby sprites.
 
@@ -9,7 +9,8 @@ use crate::numbers::geometry::Rect;
 use crate::rules::SpriteType;
 use crate::world::{Models, NONE, Slot, Sprite, TypeBits, Watcher, World, flag};
 
-/// The maximum number of a sprite's cells to store individually. A larger sprite counts as being everywhere.
+/// The maximum number of cells to store individually for a sprite. A sprite that covers more counts as being
+/// everywhere.
 const MAX_COVERED: i32 = 100;
 
 impl World {
@@ -26,7 +27,7 @@ impl World {
         self.enter_located(models, slot, to, watcher);
     }
 
-    /// Records all sprites again, from scratch, and notifies the watcher of all sprites. Cost: O(sprites +
+    /// Records all sprites again from scratch, and notifies the watcher of all of them. Cost: O(sprites +
     /// cells).
     pub(crate) fn reoccupy(&mut self, models: &Models, watcher: &mut impl Watcher) {
         self.cells.fill(NONE);
@@ -103,8 +104,8 @@ impl World {
         self.left_behind += u32::from(flags & flag::BIG != 0);
     }
 
-    /// Changes a sprite's rectangle. The sprite then counts as moved in this tick. The sprite must keep its
-    /// size, and must already be located.
+    /// Changes a sprite's rectangle. The sprite then counts as moved in this tick. It must keep its size, and
+    /// must already be located.
     #[inline(always)]
     pub(crate) fn relocate_to(
         &mut self,
@@ -127,7 +128,7 @@ impl World {
         self.enter_other(models, slot, from, to, watcher);
     }
 
-    /// Relocates a sprite like [`World::relocate_to`], but allows a change of size.
+    /// Relocates a sprite like [`World::relocate_to`], but allows its size to change.
     #[inline(always)]
     pub(crate) fn relocate(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
         let before = self.own(slot).rect;
@@ -193,7 +194,7 @@ impl World {
             self.link(slot, after);
         }
         if (from.flags | to.flags) & (flag::RIGHT | flag::BELOW) == 0 {
-            // Moves from one cell to another are the most frequent case on a grid.
+            // On a grid, moves from one cell to another are the most frequent case.
             if before != after {
                 self.depart(models, bits, before, watcher);
                 self.arrive(bits, after, watcher);
@@ -209,8 +210,8 @@ impl World {
         } else {
             return self.shift_across(models, bits, (before, from), (after, to), watcher);
         };
-        // The move is along one axis. The sprite covers one or two cells before and after, and the same
-        // number of cells beside them if it is in two rows or columns.
+        // The move is along one axis. Before and after, the sprite covers one or two cells, and as many
+        // beside them if it is in two rows or columns.
         let ends = |cell: usize, flags: u32| (cell, if flags & reach != 0 { cell + unit } else { cell });
         let (old, new) = (ends(before, from.flags), ends(after, to.flags));
         for cell in [old.0, old.1].into_iter().take(1 + usize::from(old.1 != old.0)) {
@@ -301,8 +302,8 @@ impl World {
         self.crowds.get(cell).copied().unwrap_or(0)
     }
 
-    /// Records that several sprites with a bit cover a cell. Returns the bit, because the sprite shares the
-    /// cell with sprites of its own kind.
+    /// Records that several sprites with the same bit cover a cell. Returns the bit, because the sprite
+    /// shares the cell with others of its own kind.
     #[inline(never)]
     fn crowd(&mut self, own: u64, cell: usize) -> u64 {
         if self.crowds.is_empty() {
@@ -354,8 +355,7 @@ impl World {
         self.covered = covered;
     }
 
-    /// Recomputes the cells that large sprites cover, once the sprites have left enough cells to justify the
-    /// cost.
+    /// Recomputes the cells that large sprites cover, once they have left enough cells to justify the cost.
     #[inline]
     pub(crate) fn tidy_covered(&mut self, models: &Models) {
         if self.left_behind as usize > 4 * self.big as usize + self.cells.len() / 16 {
@@ -388,7 +388,7 @@ impl World {
     fn link(&mut self, slot: Slot, cell: usize) {
         let sprites = &mut self.sprites[..];
         let head = std::mem::replace(&mut self.cells[cell], slot);
-        // A fixture has no link back.
+        // Fixtures have no backward link.
         if let Some(head) = sprites.get_mut(usize::from(head)) {
             head.cell_previous = slot;
         }
@@ -409,7 +409,7 @@ impl World {
         }
     }
 
-    /// Updates a type's counts of how its sprites lie in their cells.
+    /// Updates the counts of how a type's sprites lie in their cells.
     #[inline]
     fn lie(&mut self, models: &Models, stype: SpriteType, from: u32, to: u32, watcher: &mut impl Watcher) {
         if (from ^ to) & flag::OFF != 0 {
@@ -466,8 +466,8 @@ impl World {
         Span::new(cell, stride, flags & flag::RIGHT != 0, flags & flag::BELOW != 0)
     }
 
-    /// Calls `visit` with each cell that a sprite covers. Returns `false`, without any call, if the sprite
-    /// covers more than [`MAX_COVERED`] cells.
+    /// Calls `visit` with each cell that a sprite covers. If the sprite covers more than [`MAX_COVERED`]
+    /// cells, makes no calls and returns `false`.
     pub(crate) fn covered_by(&self, sprite: &Sprite, mut visit: impl FnMut(usize)) -> bool {
         let stride = (self.columns + 2) as usize;
         let cell = self.cell_of(sprite);

@@ -13,8 +13,8 @@ pub(crate) struct Side<'a> {
     pub(crate) bits: u64,
 }
 
-/// A sprite that overlaps another sprite. Hits are ordered like their sprites in a tree: by type in tree
-/// order, then by creation.
+/// A sprite that overlaps another sprite. Hits are ordered like the sprites of a tree: by type, in tree
+/// order, and then by creation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Hit(u64);
 
@@ -53,7 +53,7 @@ impl World {
         }
     }
 
-    /// Returns `true` if types with any of these bits have sprites larger than a cell.
+    /// Returns `true` if a type with any of these bits has sprites larger than a cell.
     #[inline(always)]
     pub(crate) fn is_big(&self, bits: u64) -> bool {
         self.big_bits & bits != 0
@@ -121,7 +121,7 @@ impl World {
     }
 
     /// Collects the sprites on a side that overlap a sprite, excluding the sprite itself, in no particular
-    /// order. Sprites with an ID of `above` or higher are excluded. Returns the number of examined cells and
+    /// order. Sprites whose ID is `above` or higher are excluded. Returns the number of examined cells and
     /// sprites.
     #[inline(always)]
     pub(crate) fn overlapping(
@@ -133,8 +133,8 @@ impl World {
         hits: &mut Hits,
     ) -> usize {
         let sprite = self.sprite(slot);
-        // The sprite is in one cell, and so are all sprites of the side. This is the most frequent case on a
-        // grid.
+        // The sprite is in one cell, and so is each sprite on the side. On a grid, this is the most frequent
+        // case.
         if sprite.flags & flag::MULTI_CELL == 0 && self.multi_cell_bits & side.bits == 0 {
             return self.overlapping_among(
                 self.cell_of(sprite),
@@ -193,8 +193,8 @@ impl World {
         let family = side.family;
         let sprites = family.tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum::<i32>();
         if cells > sprites {
-            // There are fewer sprites than cells from which sprites can reach into the rectangle, so the
-            // sprites are visited.
+            // The sprites are visited, because there are fewer sprites than cells from which a sprite can
+            // reach into the rectangle.
             let types = family.tree.iter().enumerate();
             let types = types.filter(|(at, stype)| usize::from(family.rank[stype.index()]) == *at);
             let all = types.flat_map(|(_, &stype)| self.slots(stype));

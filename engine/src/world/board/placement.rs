@@ -1,10 +1,10 @@
-//! The board's cells, counted with the surrounding ring, and the cell that contains a rectangle's corner.
+//! Placement of rectangles in the board's cells, which are counted with the ring around the board.
 
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World, flag};
 
-/// The cell of a sprite's top-left corner, and how the sprite lies in the cell: the flags of
-/// [`flag::PLACEMENT`].
+/// The cell of a sprite's top-left corner, with the flags in [`flag::PLACEMENT`], which describe how the
+/// sprite lies in the cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Located {
     pub(crate) column: i16,
@@ -41,8 +41,8 @@ impl World {
         ((columns + 2) * (rows + 2)) as usize
     }
 
-    /// Locates a rectangle. `column` and `row` are a guess that avoids a division, because most moves end in
-    /// the same cell or a neighbouring cell.
+    /// Locates a rectangle. `column` and `row` are a guess that usually saves a division, because most moves
+    /// end in the same cell or a neighbouring one.
     #[inline(always)]
     pub(crate) fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
         let block = self.block;
@@ -135,9 +135,9 @@ fn bit(on: bool, bit: u32) -> u32 {
     if on { bit } else { 0 }
 }
 
-/// Returns, along one axis, the cell of a pixel on the board, counted with the ring, if the cell is `guess`
-/// or next to `guess`. Also returns `true` if a sprite that starts at the pixel, and is no larger than a
-/// cell, reaches into the next cell.
+/// Returns, along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next
+/// to it. Also returns `true` if a sprite that starts at the pixel and is no larger than a cell reaches into
+/// the next cell.
 #[inline(always)]
 fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i16, bool)> {
     let mut cell = i32::from(guess) - 1;

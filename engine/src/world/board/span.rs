@@ -1,6 +1,6 @@
 //! The few cells covered by a sprite no larger than a cell.
 
-/// Up to four cells covered by a small sprite, within a square on the board that is [`SPAN`] cells wide.
+/// The up to four cells that a small sprite covers, within a square on the board that is [`SPAN`] cells wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
     /// The cell at the square's corner.
@@ -34,14 +34,15 @@ impl Span {
         })
     }
 
-    /// Returns two results: the cells of this span that are not in the other span, and the cells of the other
-    /// span that are not in this span. The other span's corner is `columns` and `rows` away.
+    /// Returns the cells that are only in this span, and those that are only in the other span, whose corner
+    /// is `columns` and `rows` away.
     #[inline(always)]
     pub(crate) fn apart(self, other: Span, columns: i32, rows: i32) -> (Span, Span) {
         if !(-1..2).contains(&columns) || !(-1..2).contains(&rows) {
             return (self, other);
         }
-        // Both spans fit into one square, whose corner is the upper left of the two corners.
+        // Both spans fit into one square, whose corner combines the smaller column and the smaller row of the
+        // two corners.
         let back = |by: i32| by.min(0).unsigned_abs() as usize;
         let cell = self.cell - back(columns) - back(rows) * self.stride;
         let shift = |columns: i32, rows: i32| columns.max(0) as u32 + rows.max(0) as u32 * SPAN;

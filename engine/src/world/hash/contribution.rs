@@ -1,10 +1,10 @@
-//! Hash contributions: the terms that sprites add to their state's hash, and the growth of these terms while
+//! Hash contributions: the terms that sprites add to their state's hash, and how these terms grow while
 //! sprites fly.
 //!
-//! A state's hash is a sum over its sprites. Each sprite adds a number times the sprite's own keys
-//! (`hash.rs`). The number is linear in the sprite's position and the tick of its last move. Sprites in
-//! flight therefore need no update. All sprites that move in the same ticks form one linear hash class, and
-//! the sum grows by the class's growth after each of their moves.
+//! A state's hash is a sum over its sprites. Each sprite adds the product of a number and its own keys
+//! (`hash.rs`). The number is linear in the sprite's position and the tick of its last move, so sprites in
+//! flight need no update. All sprites that move in the same ticks form one linear hash class, by whose growth
+//! the sum grows after each of their moves.
 
 use super::{KEYS, Products, SECRET, bits, fold, two};
 use crate::flat::bytes_of_fields;
@@ -13,7 +13,7 @@ use crate::numbers::geometry::Rect;
 use crate::world::sprites::moved::{Resized, last_of};
 use crate::world::{Overrides, Slot, Sprite, World, flag};
 
-/// The tables with the data that sprites do not contain themselves.
+/// The tables of data that sprites do not contain themselves.
 #[derive(Clone, Copy)]
 pub(crate) struct SideTables<'a> {
     pub(crate) overrides: &'a [Overrides],
@@ -28,8 +28,8 @@ impl World {
 
 /// Returns the hash of a sprite's rarely changed values.
 ///
-/// The last rectangle is only included for sprites that are not updated. For all other sprites, the current
-/// rectangle replaces the last rectangle before the next tick reads it.
+/// The last rectangle is only included for sprites that are not updated. For all others, the current
+/// rectangle replaces it before the next tick reads it.
 #[inline(always)]
 fn still_hash(sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> u64 {
     let last = sprite.is(flag::FROZEN).then(|| last_of(sprite, slot, tables.resized));
@@ -58,7 +58,7 @@ fn hash_of(sprite: &Sprite, overrides: &Overrides, last: Option<&Rect>) -> u64 {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Contribution {
     /// The position and all other values that change with movement, as one number. For a sprite in flight,
-    /// the number is the value before the first move from tick 0 on. The number is 0 if the slot is free.
+    /// this is the value before the first move from tick 0 on. It is 0 if the slot is free.
     pub(crate) word: u64,
     /// The growth of the word during flight.
     pub(crate) motion: FlightMotion,
@@ -68,8 +68,8 @@ pub(crate) struct Contribution {
 
 bytes_of_fields! { Contribution { word motion still } }
 
-/// The weights of a pixel down and of a later tick in [`Contribution::word`]. A pixel to the right has the
-/// weight 1.
+/// The weights of a pixel down and of a later tick in [`Contribution::word`]. A pixel to the right has a
+/// weight of 1.
 const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
 const LATER: u64 = 0xD1B5_4A32_D192_ED03;
 
@@ -78,7 +78,7 @@ fn point(x: i32, y: i32) -> u64 {
 }
 
 /// The motion of a sprite in flight as one number, which contains the displacement in pixels to the right and
-/// down, the period, the phase, and the `AGES` bit. The number is 0 for all other sprites.
+/// down, the period, the phase, and the `AGES` bit. It is 0 for all other sprites.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct FlightMotion(pub(crate) u64);
 
@@ -119,8 +119,8 @@ impl FlightMotion {
     }
 }
 
-/// Returns `true` if the tick of a sprite's last move matters, either as the sprite's age or for a cooldown
-/// that may delay the sprite.
+/// Returns `true` if the tick of a sprite's last move matters, either as its age or for a cooldown that may
+/// delay it.
 #[inline(always)]
 fn ages(sprite: &Sprite) -> bool {
     sprite.flags & (flag::NO_COOLDOWN | flag::FROZEN) != flag::NO_COOLDOWN
@@ -157,8 +157,8 @@ impl Contribution {
         }
     }
 
-    /// Returns `true` if [`Contribution::follow`] suffices (the most frequent case). The sprite neither was
-    /// nor is in flight, and no values have changed except those that change with movement.
+    /// Returns `true` if [`Contribution::follow`] suffices (the most frequent case). That is, the sprite
+    /// neither was nor is in flight, and only values that change with movement have changed.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
         let on_foot = self.motion == FlightMotion::NONE && !sprite.flies();
@@ -191,7 +191,7 @@ impl Contribution {
         Contribution { word: word.wrapping_sub(motion.growth().wrapping_mul(moves)), motion, still }
     }
 
-    /// Returns the keys. The keys are odd, so that no difference between two words is lost.
+    /// Returns the keys, which are odd, so that no difference between two words is lost.
     #[inline(always)]
     fn keys(self) -> Sum {
         [self.still | 1, (self.still ^ self.still >> 32).wrapping_mul(SECRET[0]) | 1]
@@ -282,7 +282,7 @@ fn update_classes(old: Contribution, new: Contribution, hash_classes: &mut Vec<H
     }
 }
 
-/// Returns the index of a motion's linear hash class, and adds the class if it does not exist yet.
+/// Returns the index of a motion's linear hash class, adding the class if it does not exist yet.
 fn class_of(motion: FlightMotion, hash_classes: &mut Vec<HashClass>) -> usize {
     let (period, phase) = (motion.period(), motion.phase());
     hash_classes.iter().position(|class| (class.period, class.phase) == (period, phase)).unwrap_or_else(

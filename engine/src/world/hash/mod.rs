@@ -45,7 +45,7 @@ macro_rules! hash_type {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<$name, D::Error> {
                 let text = String::deserialize(deserializer)?;
                 let number = u128::from_str_radix(&text, 16).ok();
-                // Each hash has exactly one spelling.
+                // Each hash has exactly one accepted spelling.
                 number.map($name).filter(|hash| hash.to_string() == text).ok_or_else(|| {
                     serde::de::Error::custom(format!("`{text}` is not 32 hexadecimal digits"))
                 })
@@ -55,8 +55,8 @@ macro_rules! hash_type {
 }
 
 hash_type! {
-    /// A state's hash. Equal states have equal hashes. Values that only matter for images or bookkeeping are
-    /// omitted.
+    /// A state's hash. Equal states have equal hashes. Omits values that only matter for images or
+    /// bookkeeping.
     StateHash
 }
 hash_type! {
@@ -101,13 +101,13 @@ pub(crate) fn two(a: i32, b: i32) -> u64 {
     u64::from(a as u32) << 32 | u64::from(b as u32)
 }
 
-/// Returns a double's bits. NaN has different bits on different machines, so a fixed NaN replaces it.
+/// Returns a double's bits. A fixed NaN replaces any NaN, whose bits differ between machines.
 pub(crate) fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
 
 /// A sum of products of words and keys (after NH by Black and others, "UMAC: fast and secure message
-/// authentication", 1999), with half the multiplications of [`Mixer`]. The result has to be mixed once more.
+/// authentication", 1999), with half the multiplications of [`Mixer`]. The result must be mixed once more.
 #[derive(Clone, Copy)]
 pub(crate) struct Products(u128);
 
@@ -125,7 +125,7 @@ impl Products {
     }
 }
 
-/// The keys for the products, by position. The keys are arbitrary constants: the fractions of the square
+/// The keys for the products, by position. They are arbitrary constants: the fractional parts of the square
 /// roots of the first primes.
 pub(crate) const KEYS: [[u64; 2]; 4] = [
     [0x6A09_E667_F3BC_C908, 0xBB67_AE85_84CA_A73B],
@@ -148,10 +148,11 @@ impl World {
         self.with_globals(sum, memory)
     }
 
-    /// Updates the running hash, so that [`World::state_hash`] does not process earlier changes again.
+    /// Updates the running hash, so that [`World::state_hash`] does not have to process earlier changes
+    /// again.
     ///
-    /// Stepping does not update the running hash, because planners need few hashes and should not pay for a
-    /// hash in every step. Cost: O(sprites changed since the last call).
+    /// Stepping does not update the running hash, because planners need few hashes and should not pay for one
+    /// in every step. Cost: O(sprites changed since the last call).
     pub(crate) fn settle_hash(&mut self) {
         let World { sprites, contributions, dirty, sum, hash_classes, overrides, resized, .. } = self;
         let (sprites, contributions, mut running) = (&mut sprites[..], &mut contributions[..], *sum);

@@ -1,10 +1,10 @@
-//! Sprites in flight, whose position is stored as a function of the tick. Sprites in flight move by the same
-//! displacement every `period` ticks. `rect`, `last_corner` and `moved_at` belong to an earlier move.
+//! Sprites in flight, whose position is stored as a function of the tick. They move by the same displacement
+//! every `period` ticks. `rect`, `last_corner` and `moved_at` describe an earlier move.
 
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World};
 
-/// Advances a sprite in flight to its last move up to a tick. Returns the displacement per move.
+/// Advances a sprite in flight to its last move at or before a tick. Returns the displacement per move.
 #[inline]
 fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
     let Sprite { rect, last_corner, moved_at, .. } = *sprite;
@@ -19,7 +19,7 @@ fn fly_to(sprite: &mut Sprite, tick: i32) -> (i32, i32) {
     (dx, dy)
 }
 
-/// Advances a sprite in flight to a tick.
+/// Gives a sprite in flight the values that it has at a tick.
 pub(crate) fn settle_in(sprite: &mut Sprite, tick: i32) {
     fly_to(sprite, tick);
     if sprite.moved_at != tick {
@@ -28,15 +28,16 @@ pub(crate) fn settle_in(sprite: &mut Sprite, tick: i32) {
 }
 
 impl World {
-    /// Advances a sprite in flight to its last move up to this tick, without changing the cells in which it
-    /// is recorded. Returns its rectangle and its displacement per move.
+    /// Advances a sprite in flight to its last move at or before this tick, without changing the cells in
+    /// which it is recorded. Returns its rectangle and its displacement per move.
     pub(crate) fn fly_on(&mut self, slot: Slot) -> (Rect, (i32, i32)) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let by = fly_to(sprite, self.tick);
         (sprite.rect, by)
     }
 
-    /// Returns a sprite's rectangle, whether in flight or not. For use in the event phase and between steps.
+    /// Returns a sprite's rectangle, whether or not it is in flight. Call only in the event phase and between
+    /// steps.
     pub(crate) fn rect(&self, sprite: &Sprite) -> Rect {
         if !sprite.flies() {
             return sprite.rect;
@@ -46,8 +47,8 @@ impl World {
         sprite.rect
     }
 
-    /// Returns a sprite's current values, whether in flight or not. For use in the event phase and between
-    /// steps.
+    /// Returns a sprite's current values, whether or not it is in flight. Call only in the event phase and
+    /// between steps.
     pub(crate) fn present(&self, slot: Slot) -> Sprite {
         let mut sprite = *self.sprite(slot);
         if sprite.flies() {
@@ -56,7 +57,7 @@ impl World {
         sprite
     }
 
-    /// Returns the number of further moves by (`dx`, `dy`) that leave the cells of a small sprite unchanged.
+    /// Returns the number of further moves by (`dx`, `dy`) that leave a small sprite in the same cells.
     pub(crate) fn moves_within(&self, sprite: &Sprite, (dx, dy): (i32, i32)) -> i32 {
         let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
         let along = |at: i32, size: i32, by: i32, cell: i32, cells: i32| {

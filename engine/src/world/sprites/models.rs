@@ -5,15 +5,15 @@ use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType, TypeInfo};
 use crate::world::{NO_HEADING, NONE, Overrides, Sprite, flag};
 
-/// The number of bits. If there are more types than bits, the remaining types share the last bit. The rules
-/// for these types are tested more often than needed, with the same results.
+/// The number of bits. If there are more types than bits, the remaining types share the last bit, and their
+/// rules are tested more often than needed, with the same results.
 const BITS: usize = 64;
 
-/// The part of a type needed by the world.
+/// The part of a type that the world needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub(crate) prototype: Sprite,
-    /// The values shared by sprites of the type.
+    /// The values that sprites of the type share.
     pub(crate) overrides: Overrides,
     /// `true` if a termination may count sprites of the type.
     pub(crate) counted: bool,
@@ -86,7 +86,7 @@ impl Models {
         all(&self.bits, types)
     }
 
-    /// Returns a type's bit, or 0 if the type may share the bit with other types.
+    /// Returns a type's bit, or 0 if the type may share it with other types.
     pub(crate) fn sole_bit(&self, stype: SpriteType) -> u64 {
         self.bit(stype) & !(1 << (BITS - 1))
     }

@@ -1,6 +1,6 @@
 //! Each sprite's rectangle at the start of its own last update, which the reference stores in each sprite.
 //!
-//! A sprite stores its earlier corner. A sprite's earlier size equals its current size, except for the few
+//! Each sprite stores its earlier corner. Its earlier size equals its current size, except for the few
 //! sprites that have been resized since.
 
 use crate::flat::bytes_of_fields;
@@ -45,7 +45,8 @@ impl World {
         last_of(self.sprite(slot), slot, &self.resized)
     }
 
-    /// Sets a sprite's rectangle at the start of its own update in this tick. The sprite counts as moved.
+    /// Sets a sprite's rectangle at the start of its own update in this tick. The sprite then counts as
+    /// moved.
     pub(crate) fn set_last(&mut self, slot: Slot, last: Rect) {
         let sprite = &mut self.sprites[usize::from(slot)];
         let (before, resized) = (sprite.flags, (sprite.rect.w, sprite.rect.h) != (last.w, last.h));
@@ -77,7 +78,7 @@ impl World {
         self.sprites[usize::from(slot)].moved_at = self.tick;
     }
 
-    /// Reduces the list of moved sprites to the sprites whose flag is still set.
+    /// Drops sprites whose flag is no longer set from the list of moved sprites.
     pub(crate) fn shorten_moved(&mut self) {
         let World { moved, sprites, .. } = self;
         moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
@@ -107,9 +108,9 @@ impl World {
         resized.retain(|one| stays(one.slot));
     }
 
-    /// Sets each sprite's last rectangle to its current rectangle. The reference does the same for every
-    /// sprite before the sprite's own update. The result differs only for sprites that have moved since, and
-    /// nothing reads another sprite's last rectangle before the events.
+    /// Sets each sprite's last rectangle to its current rectangle. The reference does this for each sprite
+    /// before its own update. The result differs only for sprites that have moved by then, and nothing reads
+    /// another sprite's last rectangle before the events.
     #[inline]
     pub(crate) fn settle_moved(&mut self) {
         let World { sprites, moved, resized, .. } = self;

@@ -1,8 +1,8 @@
 //! Copy-on-write overrides for sprites: orientation, speed, health and other values that seldom differ from
-//! the type's values.
+//! those of the type.
 //!
-//! Sprites share their type's values, and get their own overrides with the first change. Sharing keeps
-//! sprites small and copies of a state cheap.
+//! Sprites share their type's values until the first change gives them overrides of their own. Sharing keeps
+//! sprites small and state copies cheap.
 
 use crate::flat::{Bytes, bytes_of_fields};
 use crate::numbers::geometry::{Direction, Rect};
@@ -10,20 +10,20 @@ use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType};
 use crate::world::{NONE, Slot, Sprite, World};
 
-/// A sprite's rarely changed values: either its type's values or the sprite's own copy (copy on write).
+/// A sprite's rarely changed values: either those of its type or its own copy (copy on write).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overrides {
     pub(crate) orientation: Direction,
     pub(crate) speed: f64,
     pub(crate) health: i32,
     pub(crate) max_health: i32,
-    /// The tick of a spawner's first update, or −1 before that update.
+    /// The tick of a spawner's first update, or −1 before it.
     pub(crate) start: i32,
     /// The type that a spawner currently creates, which updateSpawnType changes.
     pub(crate) spawns: SpriteType,
     /// The index into `World::extras`, or `NONE`.
     pub(crate) extra: u16,
-    /// The sprite that owns the overrides, or `NONE` if the overrides belong to a type.
+    /// The sprite that owns the overrides, or `NONE` if they belong to a type.
     pub(crate) holder: Slot,
 }
 
@@ -39,14 +39,14 @@ pub(crate) struct Extra {
     pub(crate) facing: Direction,
     /// The tick of a WizardAvatar's last block.
     pub(crate) block_time: i32,
-    /// The target of a PathAltChaser, and the last position to which the PathAltChaser knew a path.
+    /// The target of a PathAltChaser, and the last target position to which it knew a path.
     pub(crate) target: Target,
     pub(crate) last_known: Option<(i32, i32)>,
 }
 
 bytes_of_fields! { Extra { holder rotation gravity facing block_time target last_known } }
 
-/// The target of a PathAltChaser. The reference keeps a reference to the object, so a removed target is
+/// The target of a PathAltChaser. The reference engine keeps a pointer to the target, so a removed target is
 /// chased to its last position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
@@ -94,7 +94,7 @@ impl World {
         self.overrides_of(self.sprite(slot))
     }
 
-    /// Returns a sprite's overrides for modification. Shared overrides are copied first.
+    /// Returns a sprite's overrides for modification. Copies shared overrides first.
     #[inline]
     pub(crate) fn edit_overrides(&mut self, slot: Slot) -> &mut Overrides {
         let at = usize::from(self.edit(slot).overrides);
@@ -120,7 +120,7 @@ impl World {
         }
     }
 
-    /// Completes [`World::face`] for a changed orientation.
+    /// Completes [`World::face`] if the orientation changes.
     #[inline(never)]
     pub(crate) fn turn_to(&mut self, slot: Slot, direction: Direction) {
         self.edit_overrides(slot).orientation = direction;
@@ -146,8 +146,7 @@ impl World {
         }
     }
 
-    /// Returns a sprite's extra values. If the sprite has no extra values yet, they are created from the
-    /// traits of the sprite's type.
+    /// Returns a sprite's extra values. If it has none yet, creates them from the traits of its type.
     pub(crate) fn extra(&mut self, rules: &Rules, slot: Slot) -> &mut Extra {
         if self.overrides(slot).extra == NONE {
             let info = &rules.types[self.sprite(slot).stype.index()];
@@ -169,7 +168,7 @@ impl World {
         &mut self.extras[usize::from(extra)]
     }
 
-    /// Returns a sprite's extra values, or `None` if the sprite has no extra values.
+    /// Returns a sprite's extra values, or `None` if it has none.
     pub(crate) fn extra_of(&self, sprite: &Sprite) -> Option<&Extra> {
         self.extras.get(usize::from(self.overrides_of(sprite).extra))
     }

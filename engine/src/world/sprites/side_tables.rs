@@ -1,5 +1,5 @@
-//! Side tables for data about single sprites: held resources, and changed entries in the list of types that a
-//! sprite creates. Few sprites have such data, so it is stored in two sorted lists in the state.
+//! Side tables for data about single sprites: held resources, and changed entries in lists of types to
+//! create. Few sprites have such data, so it is stored in two sorted lists in the state.
 
 use crate::flat::bytes_of_fields;
 use crate::rules::{Rules, SpriteType};
@@ -15,7 +15,7 @@ pub(crate) struct Held {
 
 bytes_of_fields! { Held { holder resource amount } }
 
-/// A replaced entry of a BomberRandomMissile's list.
+/// A replaced entry in a BomberRandomMissile's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Replaced {
     pub(crate) holder: Slot,
@@ -27,22 +27,23 @@ pub(crate) struct Replaced {
 bytes_of_fields! { Replaced { holder place stype } }
 
 impl World {
-    /// Finds the entry of a resource, or the index at which to insert it.
+    /// Finds the entry for a resource, or the index at which to insert it.
     fn find_held(&self, holder: Slot, resource: SpriteType) -> Result<usize, usize> {
         self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))
     }
 
-    /// Returns all resources held by sprites.
+    /// Returns the resources that all sprites hold.
     pub(crate) fn held(&self) -> &[Held] {
         &self.held
     }
 
-    /// Returns a sprite's held amount of a resource.
+    /// Returns the amount of a resource that a sprite holds.
     pub(crate) fn amount(&self, holder: Slot, resource: SpriteType) -> i32 {
         self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)
     }
 
-    /// Adds to the amount of a resource. The amount stays at 0 or above, and an entry is created even for 0.
+    /// Adds to the amount of a resource that a sprite holds. The amount stays at 0 or above, and even 0 gets
+    /// an entry.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         match self.find_held(holder, resource) {
             Ok(at) => self.held[at].amount = self.held[at].amount.wrapping_add(change).max(0),
@@ -50,7 +51,7 @@ impl World {
         }
     }
 
-    /// Subtracts from the amount of a resource that the sprite holds. The amount may drop below 0.
+    /// Subtracts from the amount of a resource that a sprite holds. The amount may drop below 0.
     pub(crate) fn overdraw(&mut self, holder: Slot, resource: SpriteType, cost: i32) {
         if let Ok(at) = self.find_held(holder, resource) {
             self.held[at].amount = self.held[at].amount.saturating_sub(cost);

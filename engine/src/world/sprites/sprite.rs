@@ -25,14 +25,14 @@ pub(crate) mod flag {
     pub(crate) const ORIENTED: u32 = 32;
     /// The sprite is in the kill list.
     pub(crate) const KILLED: u32 = 64;
-    /// The sprite is not updated, and `moved_at` contains its age. Its type is not in the update order, or
-    /// its class is an avatar class and the sprite is disabled or not the player's avatar.
+    /// The sprite is not updated, and `moved_at` contains its age. Either its type is not in the update
+    /// order, or it is a sprite of an avatar class that is disabled or not the player's avatar.
     pub(crate) const FROZEN: u32 = 128;
     /// The sprite is in `State::moved`, because its last rectangle differs, or may differ, from its current
     /// rectangle.
     pub(crate) const MOVED: u32 = 256;
-    /// The dirty flag. The sprite is in `State::dirty`, because the running hash may contain an older version
-    /// of the sprite.
+    /// The sprite is dirty: it is in `State::dirty`, because the running hash may contain an older version of
+    /// it.
     pub(crate) const DIRTY: u32 = 512;
     /// The slot is free.
     pub(crate) const FREE: u32 = 1024;
@@ -46,7 +46,7 @@ pub(crate) mod flag {
     pub(crate) const BIG: u32 = 16_384;
     /// The sprite covers, or may cover, more than one cell.
     pub(crate) const MULTI_CELL: u32 = RIGHT | BELOW | BIG;
-    /// The cooldown never delays the sprite, so the tick of its last move does not matter.
+    /// Its cooldown never delays the sprite, so the tick of its last move does not matter.
     pub(crate) const NO_COOLDOWN: u32 = 32_768;
     /// The hash contribution has changed in more than the values that change with movement.
     pub(crate) const CHANGED: u32 = 65_536;
@@ -56,15 +56,15 @@ pub(crate) mod flag {
     pub(crate) const PLACEMENT: u32 = MULTI_CELL | OFF;
     /// The sprite is a spawner that has been updated, and `Overrides::start` is the tick of its first update.
     pub(crate) const STARTED: u32 = 524_288;
-    /// The position of the highest bits. For an NPC, the highest bits contain the last drawn direction as an
-    /// index into the base directions, or 4 for no direction.
+    /// The position of the highest bits. For an NPC, these bits contain the direction drawn last, as an index
+    /// into the base directions, or 4 for no direction.
     pub(crate) const HEADING: u32 = 29;
     /// The bits that are part of the state. All other bits are bookkeeping and may differ between two equal
     /// states.
     pub(crate) const LASTING: u32 = 0xFF;
 }
 
-/// A sprite. Its size is the size of a cache line.
+/// A sprite, which has the size of a cache line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sprite {
     pub(crate) rect: Rect,
@@ -72,15 +72,15 @@ pub(crate) struct Sprite {
     pub(crate) last_corner: (i32, i32),
     /// The creation number, which is never reused.
     pub(crate) id: u32,
-    /// The tick of the last move. The reference's `lastmove` is the current tick minus this tick.
+    /// The tick of the last move. The reference's `lastmove` is the current tick minus this one.
     pub(crate) moved_at: i32,
     pub(crate) time_to_live: i32,
-    /// For a flicker, its age. For an NPC, the number of repetitions of the last direction. For a spawner, the number
-    /// of sprites that it has spawned.
+    /// For a flicker, its age. For an NPC, the number of times that the last direction was repeated. For a
+    /// spawner, the number of sprites spawned.
     pub(crate) count: i32,
     pub(crate) flags: u32,
     pub(crate) stype: SpriteType,
-    /// The index into `State::overrides` for the entry of the sprite's type, or for the sprite's own entry.
+    /// The index into `State::overrides` of the sprite's own entry or that of its type.
     pub(crate) overrides: u16,
     /// The schedule's note about what happened to the sprite in this tick.
     pub(crate) activity: u16,
@@ -106,7 +106,8 @@ impl Sprite {
         self.flags & flag != 0
     }
 
-    /// Returns an NPC's last drawn direction as an index into the base directions, or 4 for no direction.
+    /// Returns the direction that an NPC drew last, as an index into the base directions, or 4 for no
+    /// direction.
     #[inline(always)]
     pub(crate) fn heading(&self) -> u32 {
         self.flags >> flag::HEADING

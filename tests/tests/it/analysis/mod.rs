@@ -1,4 +1,5 @@
-//! Tests the analysis during play: its proofs hold on the corpus, and on the reference's games if available.
+//! Tests of the analysis during play: its proofs hold on the corpus, and on the reference's games if they are
+//! available.
 
 use base::{Sampler, Seed};
 use engine::analysis::{Attainable, Reach};
@@ -25,8 +26,8 @@ struct Case {
     levels: Vec<Level>,
 }
 
-/// Returns the loadable games in a folder's subfolders. If the folder is missing, prints a message and returns no
-/// games.
+/// Returns the games in a folder's subfolders that load. If the folder is missing, prints a message and
+/// returns no games.
 #[allow(clippy::print_stderr, reason = "a skipped test says so")]
 fn games(folder: &Path) -> Vec<Case> {
     let Ok(entries) = fs::read_dir(folder) else {
@@ -99,7 +100,7 @@ fn wander(
     }
 }
 
-/// Different seeds with the same actions give the same sprites once randomness no longer matters.
+/// With the same actions, different seeds give the same sprites once randomness no longer matters.
 #[test]
 fn deterministic_states_have_one_future() {
     let (mut certain, mut turned) = (0, 0);
@@ -124,8 +125,8 @@ fn deterministic_states_have_one_future() {
     assert!(certain > 100 && turned > 0, "{certain} states, {turned} of them in stochastic games");
 }
 
-/// In generated games, too, different seeds with the same actions give the same sprites once randomness no longer
-/// matters.
+/// In generated games too, different seeds with the same actions give the same sprites once randomness no
+/// longer matters.
 #[test]
 fn deterministic_generated_games_have_one_future() {
     let mut sampler = sweep::seed("one future").sampler();
@@ -165,7 +166,8 @@ fn deterministic_generated_games_have_one_future() {
     assert!(certain > 100 && drawn > 20, "{certain} states, {drawn} of them with draws");
 }
 
-/// Goals that can hold only from the start are not reached later, and goals that cannot hold at the start do not.
+/// Goals that can hold only from the start are not reached later, and goals that cannot hold at the start do
+/// not hold then.
 #[test]
 fn goals_are_attained_as_proved() {
     let mut holds: Vec<bool> = Vec::new();
@@ -195,8 +197,8 @@ fn goals_are_attained_as_proved() {
     });
 }
 
-/// Generated games are not won or lost after their first tick if such an outcome is proved impossible, and their
-/// sprites stay within their reach.
+/// Generated games are not won or lost after their first tick if that is proved impossible, and their sprites
+/// stay within their reach.
 #[test]
 fn any_game_ends_as_proved() {
     let mut sampler = sweep::seed("ends").sampler();
@@ -235,7 +237,7 @@ fn any_game_ends_as_proved() {
     assert!(proofs > games / 4 && ends > games / 80, "{proofs} proofs, {ends} ends of {games}");
 }
 
-/// In hand-written games, every sprite stays where its type can be, regardless of the actions.
+/// In hand-written games, every sprite stays where its type can be, whatever the actions.
 #[test]
 fn sprites_are_where_they_can_be() {
     let mut reach = None;
@@ -261,7 +263,7 @@ fn the_goals_of_the_corpus_are_in_reach() {
     }
 }
 
-/// In generated games, too, every sprite stays where its type can be.
+/// In generated games too, every sprite stays where its type can be.
 #[test]
 fn sprites_of_generated_games_are_where_they_can_be() {
     let (mut played, mut narrow) = (0, 0);
@@ -292,8 +294,8 @@ fn sprites_of_generated_games_are_where_they_can_be() {
     );
 }
 
-/// Checks that all sprites in a state are where their types can be, and that the game ends only as it can end. Returns
-/// the number of cells covered by the sprites.
+/// Checks that all sprites in a state are where their types can be, and that the game ends only in ways in
+/// which it can end. Returns the number of cells that the sprites cover.
 fn look(Case { name, game, .. }: &Case, reach: &Reach, level: &Level, state: &State) -> u64 {
     let lost = state.outcome() == Outcome::Lost && state.tick() < engine::MAX_TICKS;
     assert!(reach.can_win() || state.outcome() != Outcome::Won, "{name} is won\n{level}");

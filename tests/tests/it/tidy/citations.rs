@@ -10,7 +10,8 @@ use super::report;
 /// The folder with the specification's pages, `01-….md` and so on.
 const PAGES: &str = "docs/reference/spec";
 
-/// Notes from before the repository, which comments must not cite. The name is split so that this file does not match.
+/// Notes from before the repository existed, which comments must not cite. The name is split so that this
+/// file does not match.
 const NOTES: &str = concat!("design", ".md");
 
 #[test]
@@ -117,11 +118,11 @@ fn paths_that_lead_nowhere_are_found() {
 
 /// The possible targets of citations.
 struct Tree {
-    /// The specification's pages, by their two digits.
+    /// The specification's pages, by the two digits in their names.
     pages: BTreeMap<String, Page>,
     /// All files and folders in the repository.
     paths: BTreeSet<String>,
-    /// The decisions, by their four digits.
+    /// The decisions, by the four digits in their names.
     decisions: BTreeSet<String>,
 }
 
@@ -143,7 +144,7 @@ impl Tree {
         tree
     }
 
-    /// Returns the two digits in the name of a specification page; `None` for any other file.
+    /// Returns the two digits in a specification page's name; `None` for any other file.
     fn spec_page<'a>(&self, file: &'a str) -> Option<&'a str> {
         let name = file.strip_prefix(PAGES)?.strip_prefix('/')?;
         let digits = name.get(..2)?;
@@ -155,7 +156,8 @@ impl Tree {
         self.paths.contains(path.trim_end_matches('/'))
     }
 
-    /// Returns `true` if a path leads to a file or folder from the root, from the citing file, or from any crate.
+    /// Returns `true` if a path leads to a file or folder, starting at the root, at the citing file or at any
+    /// crate.
     fn finds(&self, path: &str, cited_in: &Path) -> bool {
         let from = |folder: &str| self.has(&format!("{folder}/{path}"));
         let own = cited_in.parent().map(|folder| folder.to_string_lossy().into_owned());
@@ -168,7 +170,7 @@ impl Tree {
     }
 }
 
-/// A page's sections by number, each with its text up to the next heading at the same or a higher level.
+/// The sections of a page by number, each with its text up to the next heading at the same or a higher level.
 struct Page {
     sections: BTreeMap<String, String>,
 }
@@ -218,7 +220,8 @@ enum CitationKind {
 }
 
 impl CitationKind {
-    /// Returns a hand-written file's kind of comments, by file name. Scripts have no extension.
+    /// Returns the kind of comments in a hand-written file, based on the file's name. Scripts have no
+    /// extension.
     fn of(file: &Path) -> Option<CitationKind> {
         let Some(extension) = file.extension() else {
             let script = file.starts_with("tools/scripts") || file.starts_with(".ci");
@@ -232,14 +235,14 @@ impl CitationKind {
         }
     }
 
-    /// Returns a line's comment; `None` if the line has no comment.
+    /// Returns the comment on a line; `None` if there is none.
     fn comment(self, line: &str) -> Option<&str> {
         let mark = match self {
             CitationKind::Slashes => "//",
             CitationKind::Hash => "#",
             CitationKind::Prose => return Some(line),
         };
-        // A comment mark in a string does not start a comment. Before a comment, quotes come in pairs.
+        // A comment mark in a string does not start a comment. Quotes before a comment come in pairs.
         let quotes = |before: &str| before.matches('"').count() - before.matches("\\\"").count();
         let mut starts = line.match_indices(mark).map(|(start, _)| start);
         let start = starts.find(|start| quotes(&line[..*start]).is_multiple_of(2))?;
@@ -279,14 +282,14 @@ impl Block {
         self.lines.iter().rev().find(|(start, _)| *start <= at).map_or(1, |(_, line)| *line)
     }
 
-    /// Returns the problems with the citations, each with its line. `own` is the specification page that contains the
-    /// block.
+    /// Returns the problems with the block's citations, each with its line. `own` is the specification page
+    /// that contains the block.
     fn problems(&self, tree: &Tree, own: Option<&str>) -> Vec<(usize, String)> {
         let mut problems = Vec::new();
         for (at, _) in self.text.match_indices("spec/") {
             let rest = &self.text[at + "spec/".len()..];
             let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
-            // A path to a page is checked elsewhere, as a path.
+            // A path to a page is checked elsewhere, together with other paths.
             if digits.len() == 2 && !rest[2..].starts_with('-') && !self.text[..at].ends_with(path_character)
             {
                 self.sections(tree, &digits, at + "spec/".len() + 2, &mut problems);
@@ -324,7 +327,8 @@ impl Block {
         problems
     }
 
-    /// Returns the nonexistent paths in backticks that begin with a top-level folder, each with its line.
+    /// Returns the paths in backticks that begin with a top-level folder but do not exist, each with its
+    /// line.
     fn missing_files(&self, tree: &Tree, cited_in: &Path) -> Vec<(usize, String)> {
         let mut problems = Vec::new();
         let mut at = 0;
@@ -385,8 +389,8 @@ impl Block {
         }
     }
 
-    /// Checks a specification page's references to its own sections, such as `§4.1`, and to sections in other pages,
-    /// such as `02 §15`.
+    /// Checks a specification page's references to its own sections, such as `§4.1`, and to sections of other
+    /// pages, such as `02 §15`.
     fn own_sections(&self, tree: &Tree, own: &str, problems: &mut Vec<(usize, String)>) {
         for (at, sign) in self.text.match_indices('§') {
             let Some((number, _)) = section(&self.text[at + sign.len()..]) else { continue };
@@ -449,7 +453,7 @@ fn marks(text: &str) -> Option<(Vec<String>, &str)> {
     None
 }
 
-/// Returns a text without the leading separators of list items.
+/// Returns a text without leading list separators.
 fn after_separators(mut text: &str) -> &str {
     loop {
         let shorter = text.trim_start_matches(|c: char| c.is_whitespace() || "`,;:–-".contains(c));

@@ -1,10 +1,10 @@
-//! The few files that read a clock. None of these files produces a game, a level, a verdict or a move.
+//! The few files that read a clock. None of them produces a game, a level, a verdict or a move.
 
 use tests::rust_files;
 
 use super::report;
 
-/// The files that read a clock, each with the purpose for which the time is used.
+/// The files that read a clock, each with the purpose of reading it.
 const READERS: &[(&str, &str)] = &[
     ("crates/agents/benches/batch.rs", "a benchmark"),
     ("crates/cli/src/console.rs", "seconds in remarks"),

@@ -4,7 +4,7 @@ use super::{manifests, name_of, report};
 use std::collections::{BTreeMap, BTreeSet};
 use tests::{read, rust_files};
 
-/// Our crates, each with its allowed dependencies. Imports may go in one direction only.
+/// Our crates, each with the dependencies that it may have. Imports go in one direction only.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("base", &[]),
     ("disk", &[]),
@@ -222,7 +222,7 @@ fn confined_crates_stay_where_they_belong() {
     report(problems);
 }
 
-/// Returns `true` if `goal` is `start` or one of its direct or indirect dependencies.
+/// Returns `true` if `goal` is `start` itself, or one of its direct or indirect dependencies.
 fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> bool {
     let mut seen = BTreeSet::from([start]);
     let mut open = vec![start];
@@ -236,7 +236,7 @@ fn reaches(edges: &BTreeMap<&str, BTreeSet<&str>>, start: &str, goal: &str) -> b
     false
 }
 
-/// A crate without doctests declares this in its manifest, which saves a compilation. A crate with this
+/// A crate without doctests declares so in its manifest, which saves a compilation. A crate with this
 /// declaration must not contain doctests.
 #[test]
 fn doctests_are_looked_for_where_there_are_some() {

@@ -10,7 +10,7 @@ use super::{get, manifest, manifests, name_of, report};
 
 const TABLE: &str = "docs/lab/decisions/0002-dependencies.md";
 
-/// The folder with its own workspace.
+/// The folder that has a workspace of its own.
 const APART: &str = "tools/fuzz";
 
 #[test]
@@ -24,7 +24,7 @@ fn versions_are_stated_once() {
     let mut problems = Vec::new();
     let members = manifests();
     for member in &members {
-        // Our own crates may be declared by path, because `tests` uses them under the names of their packages.
+        // Our own crates may be declared by path, because `tests` uses them under their package names.
         let is_ours = |package: &str| package.starts_with("infinite-arcade");
         let stated = member.dependencies.iter().filter(|dependency| !dependency.inherited);
         for dependency in stated.filter(|dependency| !is_ours(&dependency.package)) {
@@ -68,7 +68,7 @@ fn named(page: &str) -> Vec<(String, usize)> {
     named
 }
 
-/// Returns the external crates declared in any manifest, each with one manifest that declares it.
+/// Returns the external crates that any manifest declares, each with one such manifest.
 fn declared() -> BTreeMap<String, String> {
     let source = read("Cargo.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("Cargo.toml: {error}"));
@@ -95,7 +95,7 @@ fn declared() -> BTreeMap<String, String> {
     declared
 }
 
-/// Returns the problems: first missing rows, and then rows without a dependency.
+/// Returns the problems: first missing rows, then rows without a dependency.
 fn differences(named: &[(String, usize)], declared: &BTreeMap<String, String>) -> Vec<String> {
     let rows: BTreeSet<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
     let missing = declared.iter().filter(|(name, _)| !rows.contains(name.as_str()));

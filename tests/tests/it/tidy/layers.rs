@@ -1,4 +1,4 @@
-//! Imports between the engine's layers go in one direction.
+//! Imports between the layers of the engine go in one direction.
 
 use super::report;
 use tests::rust_files;
@@ -8,14 +8,14 @@ const ENGINE: &str = "engine/src/";
 /// The layers, from bottom to top. Modules outside all layers are above them.
 const LAYERS: [&[&str]; 5] = [&["syntax"], &["rules", "compile"], &["world"], &["tick"], &["schedule"]];
 
-/// The modules that do not depend on games and may be used by every layer.
+/// The modules that do not depend on games, and that every layer may use.
 const VALUES: [&str; 6] = ["diagnostic", "flat", "keywords", "limits", "meanings", "numbers"];
 
 fn layer(module: &str) -> Option<usize> {
     LAYERS.iter().position(|modules| modules.contains(&module))
 }
 
-/// Returns the engine modules referred to in a line of code by `crate::`.
+/// Returns the engine modules to which a line of code refers through `crate::`.
 fn named(line: &str) -> impl Iterator<Item = &str> {
     line.split("crate::").skip(1).filter_map(|rest| {
         let end =

@@ -22,7 +22,7 @@ use toml::de::{DeTable, DeValue};
 /// The maximum length of a Rust file, in lines.
 const RUST_LINES: usize = 1000;
 
-/// The pages in the root folder. Their links are checked in the same way as links in `docs/`.
+/// The pages in the root folder. Their links are checked like those in `docs/`.
 const PAGES: [&str; 4] = ["ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "README.md"];
 
 #[test]
@@ -40,12 +40,12 @@ fn rust_files_are_short() {
     report(problems);
 }
 
-/// This test relies on the formatting, which places only the first line of each item at the left margin.
+/// This test relies on the formatting, which puts only the first line of each item at the left margin.
 #[test]
 fn lib_files_hold_docs_and_declarations_only() {
     let mut problems = Vec::new();
     for (file, text) in rust_files() {
-        // The helpers of this crate are few and have no other users, so they stay in the crate's lib.rs.
+        // This crate's helpers are few and have no other users, so they stay in its lib.rs.
         if !file.ends_with("src/lib.rs") || file.starts_with(crates::ABOVE_ALL) {
             continue;
         }
@@ -118,7 +118,8 @@ fn nothing_is_left_unfinished() {
     report(problems);
 }
 
-/// Home and work folders are rejected everywhere. `/tmp` may appear in tests, like other absolute paths.
+/// Paths to home and work folders are rejected everywhere. `/tmp` may appear in tests, like other absolute
+/// paths.
 #[test]
 fn no_path_leads_out_of_the_repository() {
     let homes = ["home", "root", "Users", "work"];
@@ -263,7 +264,7 @@ impl Manifest {
         format!("{}/Cargo.toml", self.folder)
     }
 
-    /// Returns the last component of the folder: the crate's name.
+    /// Returns the last component of the folder, which is the crate's name.
     fn name(&self) -> &str {
         self.folder.rsplit('/').next().expect("a folder has a name")
     }
@@ -273,14 +274,14 @@ impl Manifest {
 struct Dependency {
     /// The real package name, even if the dependency is renamed.
     package: String,
-    /// `true` if the dependency is used only by tests, examples and benches.
+    /// `true` if only tests, examples and benches use the dependency.
     development: bool,
     /// `true` if the version comes from `[workspace.dependencies]`.
     inherited: bool,
     line: usize,
 }
 
-/// Returns all members' manifests, in workspace order.
+/// Returns the manifests of all members, in workspace order.
 fn manifests() -> Vec<Manifest> {
     let source = read("Cargo.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("Cargo.toml: {error}"));
@@ -323,7 +324,7 @@ fn manifest(folder: &str, shared: Option<&DeTable<'_>>) -> Manifest {
     Manifest { folder: folder.to_owned(), package: package.to_owned(), dependencies }
 }
 
-/// Returns a dependency's `package = "..."`; `None` if the dependency is not renamed.
+/// Returns the `package = "..."` of a dependency; `None` if the dependency is not renamed.
 fn renamed<'a>(dependency: &'a DeValue<'_>) -> Option<&'a str> {
     dependency.as_table().and_then(|table| get(table, "package")).and_then(DeValue::as_str)
 }
@@ -343,7 +344,8 @@ fn name_of<'a>(manifests: &'a [Manifest], package: &str) -> Option<&'a str> {
     manifests.iter().find(|manifest| manifest.package == package).map(Manifest::name)
 }
 
-/// Returns `true` if a line in a formatted `lib.rs` belongs to docs, an attribute or an allowed declaration.
+/// Returns `true` if a line in a formatted `lib.rs` belongs to documentation, an attribute or an allowed
+/// declaration.
 fn is_declaration(line: &str) -> bool {
     let continued = line.is_empty() || line.starts_with([' ', '}', ')', ']']);
     let item = line.strip_prefix("pub(crate) ").or_else(|| line.strip_prefix("pub ")).unwrap_or(line);
@@ -353,7 +355,7 @@ fn is_declaration(line: &str) -> bool {
     continued || module || constant || starts.iter().any(|start| item.starts_with(start))
 }
 
-/// Returns `true` if a line contains an absolute path below the given top-level folder in the file system.
+/// Returns `true` if a line contains an absolute path below the given top-level folder of the file system.
 fn names_absolute(line: &str, folder: &str) -> bool {
     let prefix = format!("/{folder}/");
     line.match_indices(&prefix).any(|(start, _)| {
@@ -362,8 +364,8 @@ fn names_absolute(line: &str, folder: &str) -> bool {
     })
 }
 
-/// Returns a Markdown page's links, except URLs and anchors in the same page, without fragments and with line numbers.
-/// Skips code.
+/// Returns the links in a Markdown page without their fragments, each with its line number. URLs, anchors in
+/// the same page, and code are skipped.
 fn relative_links(page: &str) -> Vec<(usize, String)> {
     let mut links = Vec::new();
     let mut fenced = false;
@@ -393,7 +395,7 @@ fn relative_links(page: &str) -> Vec<(usize, String)> {
     links
 }
 
-/// Fails if there are any problems, with one line per problem.
+/// Fails if there are any problems, and lists them with one line each.
 #[track_caller]
 fn report(problems: Vec<String>) {
     assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));

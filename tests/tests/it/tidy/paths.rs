@@ -1,4 +1,4 @@
-//! Paths in messages. File names may contain line breaks, so messages never write a path unescaped.
+//! Paths in messages. Messages never write a path unescaped, because file names may contain line breaks.
 
 use super::report;
 use tests::rust_files;

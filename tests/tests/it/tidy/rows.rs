@@ -1,5 +1,5 @@
-//! One row for each VGDL keyword. Few files mention an effect, and matches over effects, sprite classes or conditions
-//! have no catch-all arm.
+//! One row for each VGDL keyword. Few files mention an effect, and matches on effects, sprite classes or
+//! conditions have no catch-all arm.
 
 use std::collections::BTreeMap;
 
@@ -10,15 +10,15 @@ use super::report;
 /// The file that declares the effects.
 const EFFECTS: &str = "engine/src/rules/effects/mod.rs";
 
-/// The maximum number of files that may mention an effect. These files execute, build, summarise and describe the
-/// effect.
+/// The maximum number of files that may mention an effect: the files that execute, build, summarise and
+/// describe it.
 const FILES: usize = 4;
 
-/// The enums for which matches list every variant, with their short names.
+/// The enums whose matches must list every variant, with their short names.
 const EXHAUSTIVE: [&str; 6] =
     ["Effect::", "EffectSummary::", "SpriteClass::", "C::", "Condition::", "Written::"];
 
-/// Returns a file's numbered lines, without test-only items.
+/// Returns the lines of a file with their numbers, without test-only items.
 fn code(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut in_test = false;
     (1..).zip(text.lines()).filter(move |(_, line)| {
@@ -74,8 +74,8 @@ fn few_files_name_an_effect() {
     );
 }
 
-/// Returns the lines with a catch-all arm in a match over one of the exhaustive enums. The code is formatted, so the
-/// arms are indented one step deeper than the match.
+/// Returns the lines with a catch-all arm in a match on one of the exhaustive enums. The code is formatted,
+/// so the arms are indented one step deeper than the match.
 fn fall_throughs(text: &str) -> Vec<usize> {
     let lines: Vec<(usize, &str)> = code(text).collect();
     let indent = |line: &str| line.len() - line.trim_start().len();

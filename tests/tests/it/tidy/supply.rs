@@ -1,5 +1,6 @@
-//! The origin of everything that is built. External crates come from one registry, each with a checksum and with
-//! licences allowed in `deny.toml`. Our crates contain no unsafe code. `cargo deny check`, if installed, checks more.
+//! The origin of everything that is built. External crates come from one registry, each with a checksum and
+//! with licences that `deny.toml` allows. Our crates contain no unsafe code. `cargo deny check`, if
+//! installed, checks more.
 
 use super::{get, manifests, report};
 use std::collections::BTreeSet;
@@ -32,7 +33,7 @@ fn crates_of_others_come_from_one_registry() {
     report(problems);
 }
 
-/// Checks the crates for this platform, with the features used by tests.
+/// Checks the crates for this platform, with the features that tests use.
 #[test]
 fn licences_are_allowed() {
     let allowed = allowed();
@@ -63,7 +64,7 @@ fn licences_are_allowed() {
     report(problems);
 }
 
-/// Returns the licences allowed by the policy.
+/// Returns the licences that the policy allows.
 fn allowed() -> BTreeSet<String> {
     let source = read("deny.toml");
     let root = DeTable::parse(&source).unwrap_or_else(|error| panic!("deny.toml: {error}"));
@@ -80,8 +81,8 @@ fn host() -> String {
     text.lines().find_map(|line| line.strip_prefix("host: ")).expect("a host").to_owned()
 }
 
-/// Returns `true` if allowed licences can satisfy a licence expression. The expression uses SPDX syntax, or `/` for
-/// `OR` as in older manifests.
+/// Returns `true` if the allowed licences can satisfy a licence expression. The expression uses SPDX syntax,
+/// or `/` for `OR` as in older manifests.
 fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
     let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let tokens: Vec<&str> = spaced.split_whitespace().collect();
@@ -89,7 +90,8 @@ fn is_allowed(expression: &str, allowed: &BTreeSet<String>) -> bool {
     any(&mut rest, allowed) == Some(true) && rest.is_empty()
 }
 
-/// Evaluates alternatives. `OR` binds less tightly than `AND`. Returns `None` if the expression ends early.
+/// Evaluates alternatives. `OR` binds less tightly than `AND`. Returns `None` if the expression ends
+/// prematurely.
 fn any(rest: &mut &[&str], allowed: &BTreeSet<String>) -> Option<bool> {
     let mut holds = all(rest, allowed)?;
     while let ["OR", after @ ..] = rest {

@@ -1,5 +1,5 @@
 //! `cargo xtask agreement` prints random inputs for the functions in `statistics`, with their results.
-//! `tools/scripts/agreement.py` compares the results with other libraries' results.
+//! `tools/scripts/agreement.py` compares the results with those of other libraries.
 
 mod scale;
 
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Draws an integer from 0 to `most`, inclusive.
+/// Draws an integer from 0 to `most` inclusive.
 fn up_to(draws: &mut Sampler, most: u64) -> u64 {
     draws.below(most as usize + 1) as u64
 }
@@ -70,13 +70,13 @@ fn share(draws: &mut Sampler) -> f64 {
     draws.unit()
 }
 
-/// Draws a number of successes and a number of trials. There is at least one trial.
+/// Draws a number of successes and a number of trials, which is at least one.
 fn counts(draws: &mut Sampler) -> (u64, u64) {
     let trials = 1 + up_to(draws, 60);
     (up_to(draws, trials), trials)
 }
 
-/// Draws a list of numbers. In half of the lists, numbers often repeat.
+/// Draws a list of numbers. In half of the lists, many numbers are equal.
 fn numbers(draws: &mut Sampler, count: u64) -> Vec<f64> {
     let coarse = draws.below(2) == 0;
     (0..count).map(|_| if coarse { up_to(draws, 6) as f64 } else { share(draws) * 20.0 - 5.0 }).collect()

@@ -1,4 +1,4 @@
-//! Simulates a calibration and its results, for `tools/scripts/scale.py`.
+//! Simulates a calibration and its results for `tools/scripts/scale.py`.
 
 use serde_json::{Value, json};
 use statistics::scale::simulated::{AbilityCase, Plan, Simulator};
@@ -6,7 +6,7 @@ use statistics::scale::{
     Calibration, Dimension, Estimated, GamePlays, MismatchPrior, Month, PlayedGame, Spreads, ability,
 };
 
-/// Returns two months of a few games, their calibration, and a player's ability.
+/// Returns two months with a few games each, their calibration, and a player's ability.
 pub(super) fn calibration(seed: u64) -> anyhow::Result<Value> {
     let spreads = Spreads { game: 1.6, level: 1.4, family: 1.2, ..Spreads::default() };
     let plan = Plan {

@@ -1,4 +1,4 @@
-//! Plays a trace's actions, and compares every recorded field at every tick.
+//! Plays the actions in a trace, and compares every recorded field at every tick.
 
 use super::trace::{Line, Tick, Trace};
 use engine::{Action, Chance, Game, Level, Outcome, SpriteRecord, State};
@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The maximum number of differences shown per tick. The first of these is the first divergence.
+/// The maximum number of differences shown per tick. The first of them is the first divergence.
 const SHOWN: usize = 6;
 
 /// The first tick at which the engine and the trace differ.
@@ -17,9 +17,9 @@ pub(crate) struct Difference {
     action: Option<Action>,
     /// The state of the game's random generator before the tick.
     chance_before: u64,
-    /// The first differing fields in the tick, up to [`SHOWN`].
+    /// The first fields that differ in the tick, up to [`SHOWN`].
     fields: Vec<Field>,
-    /// The number of further differing fields.
+    /// The number of further fields that differ.
     more: usize,
 }
 
@@ -47,7 +47,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Returns the first differing tick, or `None` if all ticks are equal.
+/// Returns the first tick that differs, or `None` if all ticks are equal.
 pub(crate) fn compare(game: &Game, level: &Level, trace: &Trace) -> Option<Difference> {
     let mut state = game.start_with(level, Chance::from_java(trace.header.seed));
     let mut expected: BTreeMap<u32, SpriteRecord> =
@@ -110,7 +110,7 @@ impl Check<'_> {
         self.equal("block_size", header.block_size, state.block());
         self.equal("width", header.width, columns * state.block());
         self.equal("height", header.height, rows * state.block());
-        // NIL is ignored, because it is always possible, but not every avatar lists it.
+        // NIL is ignored, because it is always possible although not every avatar lists it.
         let nil = Some(Action::Nil);
         let mut actions: Vec<_> = header.actions.iter().map(|name| Action::from_reference(name)).collect();
         actions.retain(|action| *action != nil);
@@ -118,8 +118,8 @@ impl Check<'_> {
         let own = game.actions(state).iter().copied().map(Some).filter(|action| *action != nil);
         self.equal("actions", actions, own.collect());
         self.equal("avatar", header.avatar, state.avatar_id());
-        // The second of the two messages about a missing avatar is logged when the run starts, so a trace may
-        // lack it.
+        // The second of the two messages about a missing avatar is logged at the start of the run, so a trace
+        // may lack it.
         let messages = state.messages() as usize;
         let late = header.avatar.is_none() && header.log.len() < messages;
         self.equal("log", header.log.len(), messages - usize::from(late));
@@ -153,8 +153,8 @@ impl Check<'_> {
         }
     }
 
-    /// Applies a tick's changes to the expected sprites. If the trace contradicts itself, a difference is
-    /// recorded.
+    /// Applies a tick's changes to the expected sprites. Records a difference if the trace contradicts
+    /// itself.
     fn apply(&mut self, tick: &Tick, expected: &mut BTreeMap<u32, SpriteRecord>) {
         for id in &tick.line.del {
             let gone = expected.remove(id);
@@ -230,8 +230,8 @@ impl Check<'_> {
     }
 }
 
-/// Returns a value's bits, for comparison with a trace. −0.0 and 0.0 are different values, but all NaNs are
-/// equal.
+/// Returns the bits of a value, for comparison with a trace. −0.0 and 0.0 are different values, but all NaNs
+/// are equal.
 fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }

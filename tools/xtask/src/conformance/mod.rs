@@ -94,7 +94,7 @@ fn say(report: &Report) {
     println!("identical: {} of {} episodes", report.identical, report.episodes);
 }
 
-/// Returns all traces, sorted. Each trace is given by its game's name and its path.
+/// Returns all traces, sorted. Each trace is identified by the name of its game and its path.
 fn find_traces(args: &Args) -> anyhow::Result<Vec<(String, PathBuf)>> {
     let mut names = sorted_entries(&args.traces)?;
     names.retain(|path| path.is_dir());
@@ -143,7 +143,8 @@ struct Subject {
 }
 
 impl Subject {
-    /// Reads the game with the given name: a folder, or a file with its levels in the same folder.
+    /// Reads the game with the given name, which is either a folder or a file with its levels in the same
+    /// folder.
     fn read(games: &Path, name: &str) -> anyhow::Result<Subject> {
         let places =
             [name.to_owned(), format!("{name}.vgdl"), format!("{name}.txt")].map(|name| games.join(name));
@@ -171,7 +172,7 @@ impl Subject {
         Ok(Subject { source, game })
     }
 
-    /// Returns the path of the given level's file.
+    /// Returns the path of the file of the given level.
     fn level(&self, number: usize) -> anyhow::Result<PathBuf> {
         let names = file_names(self.source.parent().unwrap_or(Path::new(".")))?;
         let own = self.source.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -189,8 +190,8 @@ fn file_names(folder: &Path) -> anyhow::Result<Vec<String>> {
     Ok(files.filter_map(|path| Some(path.file_name()?.to_str()?.to_owned())).collect())
 }
 
-/// Replays a trace. Returns the number of ticks played and, if the engine differs, the episode's entry in the
-/// report.
+/// Replays a trace. Returns the number of ticks played and, if the engine differs from the trace, the
+/// episode's entry in the report.
 fn replay(
     args: &Args,
     subject: &Subject,
@@ -204,7 +205,7 @@ fn replay(
     if trace.header.game != name {
         bail!("{}: a trace of `{}` in the folder of `{name}`", path.display(), trace.header.game);
     }
-    // A game that the reference could not load must fail to load in this engine too, or must stop before it
+    // A game that the reference could not load must also fail to load in this engine, or stop before it
     // starts.
     let broken = trace.header.engine_error.is_some();
     let game = match &subject.game {

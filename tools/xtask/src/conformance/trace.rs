@@ -1,4 +1,4 @@
-//! The trace format `vgdl-trace/1`: a gzipped file of JSON lines that contains one episode.
+//! The trace format `vgdl-trace/1`: a gzipped file of JSON lines with one episode.
 
 use engine::{Action, Rect, SpriteRecord};
 use flate2::read::GzDecoder;
@@ -69,7 +69,7 @@ pub(crate) struct Line {
     pub(crate) engine_error: Option<String>,
 }
 
-/// A tick with its action and its new or changed sprites.
+/// A tick, with its action and its new or changed sprites.
 pub(crate) struct Tick {
     pub(crate) line: Line,
     pub(crate) action: Action,
@@ -84,7 +84,7 @@ pub(crate) struct Trace {
 }
 
 impl Trace {
-    /// Reads a trace, either compressed with gzip or plain.
+    /// Reads a trace, which may be compressed with gzip or plain.
     ///
     /// # Errors
     ///
@@ -118,7 +118,7 @@ impl Trace {
 
 type NumberedLine = Result<(usize, String), String>;
 
-/// Returns a reader's lines with their numbers. A line longer than [`MAX_LINE`] is an error.
+/// Returns a reader's lines with their numbers. Lines longer than [`MAX_LINE`] are errors.
 fn numbered(mut reader: impl BufRead) -> impl Iterator<Item = NumberedLine> {
     let mut number = 0;
     std::iter::from_fn(move || {
@@ -153,7 +153,7 @@ fn double(value: &Value) -> Option<f64> {
     }
 }
 
-/// A sprite recorded in the form `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`. An object `{"res": …,
+/// A sprite, recorded in the form `[id, type, x, y, w, h, ox, oy, speed, hp, flags]`. An object `{"res": …,
 /// "rot": …}` may follow.
 #[derive(Deserialize)]
 struct Record(u32, u16, i32, i32, i32, i32, Value, Value, Value, i32, u16, #[serde(default)] Extra);

@@ -8,7 +8,7 @@ use statistics::{Memoriser, Spread};
 const ALPHA: f64 = 0.01;
 
 /// Simulates two kinds of players: players that replay the published witness on a fraction of the levels, and
-/// players without memory that play worse after renaming.
+/// players without memory that play worse after a renaming.
 pub(super) fn memory(args: &Args) -> Table {
     let trials = args.trials.unwrap_or(10_000);
     let cases: Vec<(f64, f64)> = [(0.0, 0.0), (0.0, 0.7), (0.0, 1.0), (0.0, 2.0)]

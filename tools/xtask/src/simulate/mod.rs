@@ -71,8 +71,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns one table row per case in `cases`. The rows are computed in parallel, and each row has its own
-/// random stream.
+/// Returns one table row per case in `cases`. The rows are computed in parallel, each with its own random
+/// stream.
 fn rows<T: Copy + Sync>(
     args: &Args,
     cases: &[T],

@@ -9,9 +9,10 @@ use statistics::scale::simulated::{
 };
 use statistics::scale::{Dimension, Spreads};
 
-/// The number of players per case on one pair of months.
+/// The number of players per case, on one pair of months.
 const PERSONS: usize = 40;
-/// The number of bootstrap replicates for correcting the spreads' bias. `arcade study calibrate` uses 40.
+/// The number of bootstrap replicates with which the bias of the spreads is corrected. `arcade study
+/// calibrate` uses 40.
 const REPLICATES: u64 = 4;
 
 fn plan(families: Vec<usize>, runs: u32) -> Plan {
@@ -28,7 +29,7 @@ fn plan(families: Vec<usize>, runs: u32) -> Plan {
     }
 }
 
-/// Returns the results of all trials with a successful calibration. Each trial has its own seed.
+/// Returns the results of all trials whose calibration succeeded. Each trial has its own seed.
 fn trials<T: Send>(args: &Args, trials: u64, case: usize, one: impl Fn(u64) -> Option<T> + Sync) -> Vec<T> {
     let seed = args.seed * 1_000_003 + case as u64 * 10_007;
     (0..trials).into_par_iter().filter_map(|trial| one(seed + trial)).collect()
@@ -134,7 +135,7 @@ pub(super) fn drift(args: &Args) -> Table {
     let mut table = Table::new("drift", "Drift as anchors see it", &note, &columns);
     for (case, (games, anchors, drift)) in cases.into_iter().enumerate() {
         let plan = Plan { games, anchors, anchor_runs: 1, ..plan(vec![1; 8], 2) };
-        // The months with drift and without drift are otherwise the same.
+        // The months with and without drift are otherwise the same.
         let found: Vec<LinkTrial> = trials(args, count, case / 2, |seed| link_trial(&plan, 0.3, drift, seed));
         let flagged = found.iter().filter(|trial| trial.drift.0.abs() > statistics::Z95 * trial.drift.1);
         let flagged = flagged.count() as f64 / found.len() as f64;
@@ -147,8 +148,8 @@ pub(super) fn drift(args: &Args) -> Table {
     table
 }
 
-/// Returns a table with the number of episodes needed by an adaptive choice to reach the error of a design
-/// that spreads episodes over the games.
+/// Returns a table of the number of episodes that an adaptive choice needs to reach the same error as a
+/// design that spreads episodes over the games.
 pub(super) fn adaptive(args: &Args) -> Table {
     const EPISODES: usize = 200;
     const PLAYERS: usize = 20;

@@ -67,7 +67,7 @@ pub(crate) struct Args {
     png: Option<PathBuf>,
 }
 
-/// The fraction columns, each with its section and key in the report on levels.
+/// The columns with fractions, each with its section and key in the report on levels.
 const SHARES: [(&str, &str, &str); 7] = [
     ("solved", "solvability", "solved"),
     ("impossible", "solvability", "impossible"),
@@ -78,7 +78,7 @@ const SHARES: [(&str, &str, &str); 7] = [
     ("copies", "novelty", "copies"),
 ];
 
-/// The measures for which new levels should be within the range of the game's own levels.
+/// The measures for which new levels should lie within the range of the game's own levels.
 const FIT: [&str; 3] = ["columns", "rows", "cover"];
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -142,7 +142,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns the fraction of new levels for which a measure is within the range of the game's own levels.
+/// Returns the fraction of new levels for which a measure lies within the range of the game's own levels.
 fn within(report: &LevelSetReport, measure: &str) -> Option<Share> {
     report.fits.iter().find(|fit| fit.measure == measure).map(|fit| fit.within)
 }
@@ -151,7 +151,7 @@ fn percent(share: Option<f64>) -> TableCell {
     TableCell::number(share.map(|share| 100.0 * share), 0)
 }
 
-/// Returns the levels generated for one game, and the maximum time for generating a level, in milliseconds.
+/// Returns the levels generated for one game, and the maximum time that one of them took, in milliseconds.
 /// Uses one thread, so that the time covers a single level.
 fn make(name: &str, analysis: &Analysis, own: &[Level], args: &Args) -> anyhow::Result<(Vec<Level>, f64)> {
     let own = if args.unlearnt { &[] } else { own };
@@ -212,7 +212,7 @@ fn judge(
     Ok(LevelSetReport::of(&sample))
 }
 
-/// The number of levels per row on a contact sheet.
+/// The number of levels per row of a contact sheet.
 const COLUMNS: usize = 5;
 /// The length of a level's longer side on a contact sheet, in pixels.
 const SIDE: u32 = 300;

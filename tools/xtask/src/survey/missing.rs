@@ -4,7 +4,7 @@ use engine::analysis::{Condition, Reason, Role};
 use engine::{Analysis, Level, SpriteType};
 use std::collections::BTreeSet;
 
-/// Returns the names of types required by the goals or the placed sprites but missing from the level.
+/// Returns the names of the types that the goals or the placed sprites require but the level lacks.
 pub(super) fn missing(analysis: &Analysis, level: &Level) -> Vec<String> {
     let game = analysis.game();
     let count = |stype: SpriteType| {

@@ -134,9 +134,9 @@ fn gates(args: &Args, groups: &[(&str, Vec<PathBuf>)], seed: Seed) -> anyhow::Re
     Ok(())
 }
 
-/// Returns a level and its winning episode, if the folder contains one.
+/// Returns a level and its winning episode, if the folder contains such an episode.
 fn won(folder: &Path, number: usize, game: &Game, level: Level) -> (Level, Option<Episode>) {
-    /// The required fields of a witness file.
+    /// The fields of a witness file that are needed.
     #[derive(Deserialize)]
     struct Witness {
         episode: Episode,
@@ -150,8 +150,8 @@ fn won(folder: &Path, number: usize, game: &Game, level: Level) -> (Level, Optio
     (level, win)
 }
 
-/// Returns a random sample of up to `most` game folders in a folder, sorted by name. The sample depends on
-/// the seed and on the names in the folder.
+/// Returns a random sample of a folder's game folders, up to `most` of them, sorted by name. The sample
+/// depends on the seed and on the names in the folder.
 fn draw(folder: &Path, most: usize, seed: Seed) -> anyhow::Result<Vec<PathBuf>> {
     let mut folders = folders(folder)?;
     seed.child("sample", 0).sampler().shuffle(&mut folders);
@@ -179,8 +179,8 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Returns the rows for a group of games. New rows are printed and written to the file as soon as they
-    /// are available.
+    /// Returns the rows for a group of games. Each new row is printed and written to the file as soon as it
+    /// is available.
     fn group(&mut self, folders: &[PathBuf]) -> anyhow::Result<Vec<GameRow>> {
         let mut rows = Vec::new();
         for folder in folders {
@@ -203,7 +203,7 @@ impl Judge<'_> {
     }
 }
 
-/// Reads a file's rows, by digest. Returns no rows if the file does not exist.
+/// Reads the rows in a file, by digest. Returns no rows if the file does not exist.
 fn read(path: &Path) -> anyhow::Result<BTreeMap<Digest, GameRow>> {
     if !path.exists() {
         return Ok(BTreeMap::new());

@@ -6,8 +6,8 @@ use base::Seed;
 use engine::{Analysis, Episode, Game, Level, Outcome};
 
 base::named_enum! {
-    /// The length of the longest plan, in actions played without observing the game again, with which a planner wins a
-    /// level. A shorter length is more demanding.
+    /// The length of the longest plans with which a planner still wins a level. The length is the number of
+    /// actions played without observing the game again. The shorter it is, the more demanding the level.
     pub enum Commitment {
         /// No planner wins, even when observing the game before every action.
         None = "none",
@@ -28,7 +28,8 @@ base::named_enum! {
     }
 }
 
-/// The planners of the portfolio that play. Each plays in open loop, that is, without observing the game during a plan.
+/// The portfolio's planners that play. Each plays in open loop, that is, without observing the game during a
+/// plan.
 const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
 /// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(200);
@@ -36,9 +37,9 @@ const DECISION: Budget = Budget(200);
 const CALLS: u64 = 100_000;
 
 impl Commitment {
-    /// Runs every planner once for each commitment, from shortest to longest, until no planner wins. On a deterministic
-    /// level, observing again does not change a plan, so one round of episodes is enough. Cost: at most 2.1 million
-    /// forward-model calls.
+    /// Runs every planner once for each commitment, from shortest to longest, until none of them wins. On a
+    /// deterministic level, observing again does not change a plan, so a single round of episodes is enough.
+    /// Cost: at most 2.1 million forward-model calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Commitment {
         let game = analysis.game();
         let is_certain = analysis.is_deterministic_from(&game.start(level, seed));
@@ -62,7 +63,7 @@ impl Commitment {
         longest
     }
 
-    /// Returns a plan's number of actions; `None` for [`Commitment::None`].
+    /// Returns the number of actions in a plan, or `None` for [`Commitment::None`].
     pub fn actions(self) -> Option<u64> {
         Some(match self {
             Commitment::None => return None,

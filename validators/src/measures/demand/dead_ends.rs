@@ -7,13 +7,13 @@ use engine::{Analysis, Episode, Level, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// States one or two actions off a win, with the results of a bounded search from each state.
+/// The states one or two actions off a win, counted by the result of a bounded search from each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeadEnds {
     /// The number of distinct states.
     pub states: usize,
-    /// The number of states from which winning is proved impossible, including lost states.
+    /// The number of states from which winning is proven impossible, including lost states.
     pub dead: usize,
     /// The number of states from which a win was found. All other states are undecided.
     pub won: usize,
@@ -25,9 +25,9 @@ const TICKS: usize = 40;
 const CALLS: u64 = 3000;
 
 impl DeadEnds {
-    /// Departs from the win at up to [`TICKS`] of its ticks, by every other action followed by a random action. States
-    /// in the win itself do not count. Returns `None` if the level is stochastic. Cost: up to 320 searches of [`CALLS`]
-    /// calls.
+    /// Departs from the win at up to [`TICKS`] of its ticks, by each other action and then a random action.
+    /// States in the win itself do not count. Returns `None` if the level is stochastic. Cost: up to 320
+    /// searches of [`CALLS`] calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Option<DeadEnds> {
         let game = analysis.game();
         let start = game.start(level, win.seed);
@@ -84,7 +84,7 @@ impl DeadEnds {
         self.dead += usize::from(is_won == Some(false));
     }
 
-    /// Returns the fraction of states proved dead.
+    /// Returns the fraction of states that are proven dead.
     pub fn share(&self) -> f64 {
         self.dead as f64 / self.states.max(1) as f64
     }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 pub struct Deception {
     /// The number of episodes by both players.
     pub plays: u64,
-    /// The number of episodes not won within twice the win's ticks plus twenty.
+    /// The number of episodes not won within twice the known win's ticks plus twenty.
     pub lost: u64,
     /// The avatar's maximum distance from the win's route, in cells, averaged over the episodes.
     pub astray: f64,
@@ -23,7 +23,7 @@ pub struct Deception {
 const PLAYS: u64 = 4;
 
 impl Deception {
-    /// Plays the episodes. Cost: the ticks of eight episodes times the number of actions.
+    /// Plays the episodes. Cost: the number of ticks in eight episodes times the number of actions.
     pub(super) fn of(
         analysis: &Analysis,
         level: &Level,

@@ -19,22 +19,23 @@ use engine::{Action, Analysis, Episode, Level, Outcome};
 use route::Route;
 use serde::{Deserialize, Serialize};
 
-/// A level's demands on its player, measured on a known win. The same arguments give the same numbers on every machine
-/// and any number of threads. All counts are exact for that win, and all other values are seeded samples.
+/// A level's demands on its player, measured on a known win. The same arguments give the same numbers on
+/// every machine, with any number of threads. All counts are exact for that win, and all other values are
+/// sampled with a seed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Demand {
     /// The number of ticks in the win.
     pub ticks: usize,
-    /// The number of ticks in the win with a key press, that is, with an action other than nil.
+    /// The number of ticks in the win in which a key is pressed, that is, with an action other than nil.
     pub decisions: usize,
     /// The number of pushes in the win that move or remove a sprite.
     pub pushes: usize,
-    /// `true` if the win is proved to be the shortest.
+    /// `true` if the win is proven to be the shortest.
     pub shortest: bool,
     /// The longest commitment with which a planner still wins.
     pub commitment: Commitment,
-    /// The dead ends near the win; `None` for a stochastic level, because no search can then prove dead ends.
+    /// The dead ends near the win, or `None` for a stochastic level, on which no search can prove dead ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dead_ends: Option<DeadEnds>,
     /// The number of self-moving sprites that enter or come next to a cell on the win's route.
@@ -44,8 +45,8 @@ pub struct Demand {
 }
 
 impl Demand {
-    /// Measures a level with a win. Returns `None` if the episode does not win. `shortest` means that the win is proved
-    /// to be the shortest.
+    /// Measures a level with a win. Returns `None` if the episode does not win. `shortest` means that the win
+    /// is proven to be the shortest.
     ///
     /// Cost: at most 2.1 million forward-model calls for commitments, 1 million for dead ends, and the ticks of a few
     /// episodes. The typical cost is a tenth of the maximum.
@@ -78,7 +79,8 @@ impl Demand {
     }
 }
 
-/// Returns the maximum number of ticks of an episode on a level with a known win, twice the win's ticks plus twenty.
+/// Returns the maximum number of ticks in an episode on a level with a known win: twice the win's ticks plus
+/// twenty.
 fn patience(win: &Episode) -> usize {
     2 * win.actions.len() + 20
 }
@@ -115,7 +117,8 @@ mod tests {
 
     #[test]
     fn pushes_that_cannot_be_undone_are_dead_ends() {
-        // The path to the winning push is to the left of the avatar. A push to the right or down ends at the wall.
+        // The way to the winning push is to the left of the avatar. A push to the right or downwards ends at
+        // the wall.
         let demand = check("wwwwwww\nw     w\nw oc  w\nw  A  w\nwwwwwww\n");
         let found = demand.dead_ends.unwrap();
         assert!(found.dead > 0 && found.won > 0 && found.states >= found.dead + found.won, "{found:?}");

@@ -13,7 +13,7 @@ pub(super) struct Route {
 }
 
 impl Route {
-    /// Computes the route. Costs two replays of the win, with an inspection of all sprites in each tick.
+    /// Computes the route. Costs two replays of the win, inspecting all sprites in each tick.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode) -> Route {
         let game = analysis.game();
         let moves = |stype: SpriteType| {
@@ -47,7 +47,7 @@ impl Route {
     }
 }
 
-/// Returns the avatar's cell; `None` if the avatar is dead.
+/// Returns the avatar's cell, or `None` if the avatar is dead.
 pub(super) fn avatar_cell(state: &State) -> Option<(i32, i32)> {
     let block = state.block();
     state.avatar_place().map(|(x, y)| (x.div_euclid(block), y.div_euclid(block)))

@@ -6,11 +6,12 @@ use engine::{Analysis, Episode, Level, Outcome};
 
 /// The planners that play.
 const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
-/// The number of episodes, played by the planners in turn.
+/// The number of episodes, which the planners play in turn.
 const PLAYS: u64 = 6;
 /// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(2000);
-/// The minimum length of a known win, in ticks, at which a shorter win might put its level in a different tier.
+/// The minimum length, in ticks, of a known win for which a shorter win might put the level in a different
+/// tier.
 const LEAST: usize = 20;
 
 /// Searches for a win with fewer ticks than a known win in a stochastic game. In such a game, no search can prove
@@ -95,7 +96,7 @@ mod tests {
         assert_eq!((episode.outcome, episode.actions.len()), (Outcome::Won, 3));
     }
 
-    /// On deterministic levels, a systematic search performs better.
+    /// Checks that nothing is played on deterministic levels, on which a systematic search performs better.
     #[test]
     fn without_chance_nothing_is_played() {
         assert!(shorter("wwwwww\nwA..ow\nwwwwww\n").is_none());

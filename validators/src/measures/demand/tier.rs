@@ -1,4 +1,4 @@
-//! Four tiers of levels, according to their demands.
+//! Four tiers of levels, by their demands.
 
 use super::{Commitment, Demand};
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ pub enum Tier {
     Four = 4,
 }
 
-/// The minimum demands for a level in a tier.
+/// The minimum demands of a level in a tier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TierBounds {
     /// The tier with these bounds.
@@ -37,13 +37,13 @@ pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::Four, decisions: 120, traps: 3 },
 ];
 
-/// The maximum plan length with which a planner may win for foresight to count as a trap.
+/// The longest commitment at which foresight counts as a trap.
 const FORESIGHT: Commitment = Commitment::Five;
-/// The minimum fraction of dead ends among the states near the win for dead ends to count as a trap.
+/// The minimum fraction of dead ends, among the states near the win, that counts as a trap.
 const DEAD_ENDS: f64 = 0.03;
-/// The minimum number of self-moving sprites next to the route for movers to count as a trap.
+/// The minimum number of self-moving sprites next to the route that counts as a trap.
 const MOVERS: usize = 3;
-/// The minimum fraction of episodes lost by greedy players for greed to count as a trap.
+/// The minimum fraction of episodes lost by greedy players that counts as a trap.
 const LOSSES: f64 = 0.75;
 
 impl Demand {
@@ -67,7 +67,7 @@ impl Tier {
     /// All tiers, from lowest to highest.
     pub const ALL: [Tier; 4] = [Tier::One, Tier::Two, Tier::Three, Tier::Four];
 
-    /// Returns the highest tier with all demands met.
+    /// Returns the highest tier all of whose demands are met.
     pub(super) fn of(demand: &Demand) -> Tier {
         let traps = demand.traps().into_iter().filter(|&there| there).count();
         let met = |bounds: &&TierBounds| demand.decisions >= bounds.decisions && traps >= bounds.traps;

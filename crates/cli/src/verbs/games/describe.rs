@@ -1,4 +1,4 @@
-//! `arcade describe`: a game's rules in plain English, its kind, and the provable properties of a level.
+//! `arcade describe`: a game's rules in plain English, its kind, and a level's provable properties.
 
 use crate::console::Console;
 use crate::diagnostics::Named;
@@ -27,7 +27,7 @@ pub(crate) struct Args {
     as_reference: bool,
 }
 
-/// A level's proved properties.
+/// A level's provable properties.
 #[derive(Serialize)]
 struct Prospects {
     level: String,

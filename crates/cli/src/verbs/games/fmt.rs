@@ -56,7 +56,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let source = input.source;
     let (description, problems) = syntax::parse(&source.text);
     if Diagnostics::has_errors(&problems) {
-        // A line that cannot be parsed has no canonical form, and printing only the other lines would lose it.
+        // A line that cannot be parsed has no canonical form, so printing only the other lines would lose it.
         return Err(diagnostics::failure(&source, &problems));
     }
     let text = syntax::print(&description);
@@ -121,7 +121,7 @@ fn convert(args: &Args, console: &Console) -> Answer {
     Ok(left.is_empty())
 }
 
-/// Returns a game's text in a different dialect, with the levels beside it.
+/// Converts a game's text from a different dialect, together with the levels beside it.
 fn dialect_source(name: &str) -> Result<(Named, Vec<String>), Failure> {
     let path = Path::new(name);
     if path.is_file() {

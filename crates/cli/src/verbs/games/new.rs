@@ -1,4 +1,4 @@
-//! `arcade new`: a starting point for a new game.
+//! `arcade new`: creates a starting point for a new game.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -59,7 +59,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Rejects a name that is unsuitable for a game folder, or that the suggested next commands could not accept.
+/// Rejects a name that is unsuitable for a game folder, or that the suggested next commands would not accept.
 fn check_name(folder: &Path) -> Result<(), Failure> {
     let shown = folder.in_message();
     let Some(name) = folder.file_name().map(OsStr::to_string_lossy) else {

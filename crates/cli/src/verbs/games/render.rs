@@ -14,7 +14,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// The maximum length in pixels of a GIF's longer side, unless the user specifies a scale.
+/// The maximum length of a GIF's longer side, in pixels, unless the user specifies a scale.
 const GIF_SIDE: u32 = 480;
 
 /// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the extension of the file.
@@ -99,7 +99,7 @@ struct Subject<'a> {
     symbols: Symbols,
     game: &'a Game,
     level: &'a Level,
-    /// The episode's actions up to the last tick in the image. Empty without an episode.
+    /// The episode's actions up to the last tick in the image, or empty without an episode.
     actions: &'a [engine::Action],
     seed: Seed,
 }
@@ -228,7 +228,7 @@ impl Subject<'_> {
     fn gif(&self, args: &Args, console: &Console) -> Result<Vec<u8>, Failure> {
         let mut state = self.start();
         let draw = |state: &State| self.picture(args, Format::Gif, state);
-        // Draw the legend as well, so that the palette has the colours of types that appear later.
+        // The legend is drawn as well, so that the palette includes the colours of types that appear later.
         let style = Style { legend: true, ..self.style(args, Format::Gif) };
         let legend = render::picture(&self.looks, &state, &style).map_err(failed)?;
         let specimens = [draw(&state)?, draw(&self.last())?, legend];
@@ -245,7 +245,7 @@ impl Subject<'_> {
     }
 }
 
-/// Converts a rendering error into a malformed question. Only an invalid size can cause a rendering error.
+/// Converts a rendering error into a malformed question, because only an invalid size can cause one.
 fn failed(error: RenderError) -> Failure {
     let help = "--scale sets the pixels of a cell";
     match error {

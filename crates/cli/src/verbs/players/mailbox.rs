@@ -1,4 +1,4 @@
-//! `arcade mailbox`: shows an evaluation's open prompts, and delivers the user's typed answers.
+//! `arcade mailbox`: shows an evaluation's open prompts, and delivers the answers that the user types.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -16,8 +16,8 @@ use std::time::Duration;
 /// The pause between checks of the mailbox.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// The number of checks for the next prompt of the same episode before a different episode is shown. All
-/// checks together take two seconds.
+/// The number of checks for the same episode's next prompt before a different episode is shown. Together, the
+/// checks take two seconds.
 const PATIENCE: u32 = 20;
 
 /// Shows the prompts that wait in the mailbox of an evaluation, one at a time, and answers them with the lines that you type.
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 struct Session<'a> {
     desk: Desk,
     console: &'a Console,
-    /// The only episode to answer, or `None` if the user did not specify an episode.
+    /// The only episode to answer, or `None` for any episode.
     only: Option<String>,
     /// The episodes whose rules have been shown.
     introduced: BTreeSet<String>,
@@ -81,7 +81,7 @@ struct Session<'a> {
 enum Typed {
     /// The prompt has an answer, or will not be answered now.
     Done,
-    /// The session needs a further line.
+    /// The session needs another line.
     Again,
     Quit,
 }
@@ -102,7 +102,7 @@ impl Session<'_> {
         Ok(view.finished.is_some())
     }
 
-    /// Waits for a prompt. Returns `None` if no more prompts will arrive.
+    /// Waits for the next prompt. Returns `None` if no more prompts will arrive.
     fn next(&mut self) -> Result<Option<OpenPrompt>, Failure> {
         let mut looks = 0;
         loop {
@@ -207,7 +207,7 @@ impl Session<'_> {
         }
     }
 
-    /// Prints a prompt for typing a line, if standard input is a terminal.
+    /// Prints an input prompt, if standard input is a terminal.
     fn invite(&self, open: &OpenPrompt) {
         if std::io::stdin().is_terminal() {
             let mut stderr = std::io::stderr();
@@ -272,7 +272,7 @@ say TEXT: answers with the text as it is
 show: shows the turn again; rules: the rules, the legend and the format
 list: shows the prompts that are waiting; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
 
-/// Returns the number of terminal columns, or `None` if the output is not a terminal or the number is
+/// Returns the terminal's width in columns, or `None` if the output is not a terminal or the width is
 /// unknown.
 fn columns() -> Option<usize> {
     #[cfg(feature = "terminal")]
@@ -305,7 +305,7 @@ fn wrapped(text: &str, width: usize) -> String {
         .join("\n")
 }
 
-/// Returns the action specified by a line: by its full name, its first letters or an arrow key.
+/// Returns the action that a line specifies by its full name, its first letters or an arrow key.
 fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
     let typed = match line {
         // The escape sequences of a terminal's arrow keys.
@@ -320,12 +320,12 @@ fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
     exact.or_else(|| found.next().filter(|_| found.next().is_none())).map(String::as_str)
 }
 
-/// Returns `true` if a line already has the format requested by prompts.
+/// Returns `true` if a line is already in the format that prompts request.
 fn is_formatted(line: &str) -> bool {
     line.get(..7).is_some_and(|start| start.eq_ignore_ascii_case("action:"))
 }
 
-/// Returns an action in the format requested by the prompt.
+/// Returns an action in the format that the prompt requests.
 fn formatted(open: &OpenPrompt, action: &str) -> String {
     // Prompts in the reference composition number their actions.
     let number = open.prompt.messages.iter().flat_map(|message| message.text.lines()).find_map(|line| {

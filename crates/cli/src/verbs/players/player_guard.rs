@@ -19,7 +19,7 @@ pub(crate) struct Args {
 }
 
 /// Returns a guard's command line, which runs the current program even if its file has been replaced in the
-/// meantime. The command line is empty on non-Unix systems, and if the program cannot be found.
+/// meantime. It is empty on non-Unix systems, or if the program cannot be found.
 pub(crate) fn command() -> Vec<OsString> {
     let own = PathBuf::from("/proc/self/exe");
     let program = if own.exists() { Some(own) } else { std::env::current_exe().ok() };

@@ -36,7 +36,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    // An output folder that already has content is reported before the work starts.
+    // A non-empty output folder is reported before the work starts.
     if std::fs::read_dir(&args.out).is_ok_and(|mut entries| entries.next().is_some()) {
         let mut names = (2..).map(|number| PathBuf::from(format!("{}-{number}", args.out.display())));
         let free = names.find(|free| !free.exists()).unwrap_or_default();

@@ -61,7 +61,7 @@ pub(crate) struct Args {
 struct Subject {
     title: String,
     game: Game,
-    /// The levels, with their numbers.
+    /// The levels and their numbers.
     levels: Vec<(usize, Level)>,
 }
 
@@ -107,7 +107,7 @@ struct Report<'a> {
     rows: Vec<Row<'a>>,
 }
 
-/// One game's episodes that the engine stopped for the same reason.
+/// The episodes of one game that the engine stopped for the same reason.
 #[derive(Serialize)]
 struct Stopped<'a> {
     game: &'a str,
@@ -200,7 +200,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(report.stopped.is_empty())
 }
 
-/// Returns the episodes stopped by the engine, by game and reason.
+/// Returns the episodes stopped by the engine, grouped by game and reason.
 fn stopped<'a>(lines: &[Line<'a>]) -> Vec<Stopped<'a>> {
     let mut stops: Vec<Stopped<'a>> = Vec::new();
     for line in lines {
@@ -213,7 +213,7 @@ fn stopped<'a>(lines: &[Line<'a>]) -> Vec<Stopped<'a>> {
     stops
 }
 
-/// Rejects a planner specified twice with the same budget, because its episodes would be counted twice.
+/// Rejects a planner specified twice with the same budget, because its episodes would count twice.
 fn reject_duplicates(args: &Args, planners: &[PlannerSpec]) -> Result<(), Failure> {
     let mut seen = BTreeMap::new();
     for planner in planners {
@@ -243,8 +243,8 @@ fn subjects(args: &Args, inputs: Vec<GameInput>) -> Result<Vec<Subject>, Failure
     Ok(subjects)
 }
 
-/// Plays an episode. The episode's seed depends only on the game, level, planner and run, so adding a game or a planner
-/// does not change any other episode.
+/// Plays an episode. The episode's seed depends only on the game, level, planner and run, so adding a game or
+/// a planner does not affect other episodes.
 fn play_entry<'a>(args: &Args, entry: &'a Entry<'a>) -> Line<'a> {
     let Entry { subject, level, planner, run } = *entry;
     let (number, level) = &subject.levels[level];
@@ -382,7 +382,7 @@ fn table(rows: &[Row<'_>]) -> String {
     text
 }
 
-/// Serialises a text in a form that spreadsheets do not interpret as a formula.
+/// Serialises a text so that spreadsheets do not interpret it as a formula.
 fn field<S: Serializer>(text: &str, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&report::in_csv(text))
 }

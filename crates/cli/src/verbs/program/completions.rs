@@ -39,8 +39,8 @@ mod tests {
         for &shell in Shell::value_variants() {
             let script = script(shell);
             usage::tests::for_each_verb(&mut |path, verb| {
-                // clap_complete's scripts for fish support two levels of commands, such as `arcade trust log`, and no
-                // deeper levels.
+                // clap_complete's scripts for fish support two levels of commands, such as `arcade trust
+                // log`, but no deeper levels.
                 if shell == Shell::Fish && path.split(' ').count() > 3 {
                     return;
                 }

@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     found(&pages, &wanted, about_verb, console)
 }
 
-/// The pages about subcommands without a page of their own name, most relevant first.
+/// The pages about subcommands that have no page of their own name, most relevant first.
 const VERBS: [(&str, &[&str]); 23] = [
     ("calibrate", &["calibrate", "scale"]),
     ("clean", &["command-line"]),
@@ -81,7 +81,7 @@ const VERBS: [(&str, &[&str]); 23] = [
 /// The maximum number of pages listed by a search.
 const SHOWN: usize = 8;
 
-/// Lists the pages about a word other than a page name.
+/// Lists the pages about a word that is not a page name.
 fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -> Answer {
     let of_verb = about_verb.iter().filter_map(|name| pages.iter().find(|page| page.name == *name));
     let of_verb = of_verb.map(|page| (page, page.title().to_owned()));
@@ -108,7 +108,7 @@ fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -
 /// The width of name lists, in columns.
 const COLUMNS: usize = 100;
 
-/// Returns the table of contents: the pages of each section with their titles, and nested pages by name.
+/// Returns the table of contents: each section's pages with their titles, and nested pages by name only.
 fn list(pages: &[Page]) -> String {
     let is_titled = |page: &Page| page.depth == 0;
     let width = pages.iter().filter(|page| is_titled(page)).map(|page| page.name.len()).max().unwrap_or(0);

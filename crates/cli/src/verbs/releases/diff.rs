@@ -43,7 +43,7 @@ pub(crate) struct Args {
     trust: TrustArgs,
 }
 
-/// The maximum number of a distribution's values to list, most frequent first.
+/// The maximum number of a distribution's values to list. The most frequent values are listed first.
 const MAX_LISTED: usize = 12;
 /// The maximum number of kept and changed items to list.
 const MAX_RETURNED: usize = 20;
@@ -128,8 +128,8 @@ fn counts(changes: &Changes) -> String {
     format!("{new} new, {kept} kept, {changed} kept with a different theme, {gone} removed")
 }
 
-/// Describes a distance, and whether it may be due to chance. If a side has no values, there is no distance
-/// to describe.
+/// Describes a distance, and states whether it may be due to chance. If a side has no values, there is no
+/// distance to describe.
 fn verdict(distance: Option<f64>, p: Option<f64>, unmeasured: Unmeasured) -> String {
     let partly = match unmeasured {
         Unmeasured { before: 0, after: 0 } => String::new(),
@@ -182,8 +182,8 @@ fn number(shift: &NumberShift, console: &Console) {
     ));
 }
 
-/// Rounds a figure to three significant digits, but keeps all digits before the decimal point. Omits trailing
-/// zeros.
+/// Rounds a figure to three significant digits, but keeps all digits before the decimal point and omits
+/// trailing zeros.
 fn rounded(figure: f64) -> String {
     let decimals = match figure.abs() {
         size if size >= 100.0 => 1,

@@ -80,7 +80,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.solutions && matches!(args.format, FormatName::Games) {
         bail!("folders of games contain no solutions: omit --solutions, or choose --format jsonl");
     }
-    // An output folder that already has content is reported before the work starts.
+    // A non-empty output folder is reported before the work starts.
     let draft = Draft::create(&args.out)?;
     let released = match Released::read(&args.snapshot) {
         Ok(released) => released,
@@ -126,7 +126,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Writes the release itself as one file.
+/// Exports the release itself as one archive file.
 fn archive(args: &Args, console: &Console) -> Answer {
     if args.twin.is_some() || args.solutions {
         bail!(
@@ -170,8 +170,7 @@ fn archive(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Reports a snapshot that fails verification. The report is an answer that lists all problems, not a
-/// failure.
+/// Reports a snapshot that fails verification. The report lists all problems. It is an answer, not a failure.
 pub(crate) fn unsound(error: ReleasedError, console: &Console) -> Answer {
     match error {
         ReleasedError::Unsound(verification) => {

@@ -85,7 +85,7 @@ fn show(name: &str, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// The recipe written by `arcade recipes new`, with `NAME` in place of the name.
+/// The recipe that `arcade recipes new` writes, with the placeholder `NAME` for its name.
 const NEW: &str = include_str!("new-recipe.toml");
 
 fn new(path: &Path, console: &Console) -> Answer {

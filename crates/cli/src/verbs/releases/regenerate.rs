@@ -1,4 +1,4 @@
-//! `arcade regenerate`: checks that the recipe reproduces a snapshot.
+//! `arcade regenerate`: checks that a snapshot's recipe reproduces it.
 
 use crate::console::Console;
 use crate::failure::Answer;
@@ -122,11 +122,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     answer(args, &Answered { manifest: &minted.manifest, compared: &compared, minted: true }, console)
 }
 
-/// A regenerated release, with its comparison to the original.
+/// A regenerated release, compared with the original.
 struct Answered<'a> {
     manifest: &'a Manifest,
     compared: &'a Compared,
-    /// `false` if an earlier run wrote the new snapshot.
+    /// `false` if the new snapshot was already written by an earlier run.
     minted: bool,
 }
 

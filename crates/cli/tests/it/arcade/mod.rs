@@ -1,4 +1,4 @@
-//! Helpers that run the binary as a user does.
+//! Helpers that run the binary the way a user does.
 
 use snapshots::{Recipe, Secret};
 use std::collections::BTreeMap;
@@ -8,19 +8,20 @@ use std::process::{Child, Command, Output};
 use std::sync::{LazyLock, Mutex, PoisonError};
 use tempfile::TempDir;
 
-/// A folder with one mint of the recipe `tiny` in `tiny`. Tests share the folder if they only read or copy it.
+/// A folder with one mint of the recipe `tiny`, in its subfolder `tiny`. Tests that only read or copy the
+/// folder share it.
 pub(crate) static TINY: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), &["release", "tiny", "--out", "tiny", "--jobs", "2"], 0);
     folder
 });
 
-/// A recipe of four jobs, each of which takes less than a second. With this seed, few candidates fail.
+/// A recipe with four jobs that each take less than a second. With this seed, few candidates fail.
 pub(crate) const SLICES_RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'pieces'\n[generated]\ngames = 1\n\
     levels = 1\ncandidates = 2.0\n[corpus]\ngames = 1\nlevels = 1\ncandidates = 2.0\n[criteria]\ndecision = 100\n\
     budget = 80000\ndepths = [10, 25]\nrandom_plays = 10\n";
 
-/// A folder with one undisturbed mint of [`SLICES_RECIPE`] in `slices`, shared like [`TINY`].
+/// A folder with one uninterrupted mint of [`SLICES_RECIPE`] in its subfolder `slices`, shared like [`TINY`].
 pub(crate) static SLICES: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("slices.toml"), SLICES_RECIPE).unwrap();
@@ -28,7 +29,7 @@ pub(crate) static SLICES: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
-/// Returns a copy of the shared mint of `tiny`, to tamper with.
+/// Returns a copy of the shared mint of `tiny` for tests that tamper with it.
 pub(crate) fn copy_of_tiny() -> (TempDir, PathBuf) {
     copy_of(&TINY, "tiny")
 }
@@ -57,15 +58,16 @@ pub(crate) fn arcade(folder: &Path) -> Command {
     command
 }
 
-/// Ends a program like `kill`, which gives it the exit status 143. A shell's background jobs ignore SIGINT, and so
-/// would the program.
+/// Ends a program like the command `kill`, which gives the program the exit status 143. SIGINT would not
+/// work, because a shell's background jobs ignore it.
 #[cfg(unix)]
 pub(crate) fn terminate(child: &Child) {
     let done = Command::new("kill").arg(child.id().to_string()).status().unwrap();
     assert!(done.success());
 }
 
-/// Runs the binary with these arguments and expects this exit status. Shows the output if the status differs.
+/// Runs the binary with the given arguments, and expects the given exit status. Shows the output if the
+/// status differs.
 #[track_caller]
 pub(crate) fn run(folder: &Path, args: &[&str], status: i32) -> Output {
     let output = arcade(folder).args(args).output().expect("the binary starts");
@@ -77,7 +79,8 @@ pub(crate) fn run(folder: &Path, args: &[&str], status: i32) -> Output {
     output
 }
 
-/// Returns the commands that an output suggests, in backticks, or after a colon to the end of the line.
+/// Returns the commands that an output suggests: text in backticks, or text from a colon to the end of the
+/// line.
 fn suggested(said: &str) -> Vec<Vec<String>> {
     let mut found = Vec::new();
     for line in said.lines() {
@@ -89,7 +92,7 @@ fn suggested(said: &str) -> Vec<Vec<String>> {
                 _ if before.ends_with(": ") || before.ends_with("; ") => rest.split("; ").next(),
                 _ => None,
             };
-            // `arcade [OPTIONS] <COMMAND>` is a usage line, and excerpts of pages end with an ellipsis.
+            // `arcade [OPTIONS] <COMMAND>` is a usage line, and excerpts from pages end with an ellipsis.
             let command = command.filter(|command| !command.contains('<') && !command.ends_with('…'));
             found.extend(command.and_then(shlex::split));
         }
@@ -97,8 +100,8 @@ fn suggested(said: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// Checks that a suggested command has an existing subcommand, flags of that subcommand, and existing pages of the
-/// manual.
+/// Checks that a suggested command has an existing subcommand, valid flags of that subcommand, and existing
+/// manual pages.
 #[track_caller]
 fn check_suggested(command: &[String]) {
     static HELP: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
@@ -137,9 +140,9 @@ fn check_suggested(command: &[String]) {
     }
 }
 
-/// Commits to a recipe like `--commit`, but with the same secret in every run, because it depends on the seed whether
-/// such a small recipe finds enough levels. `recipe` returns the recipe for a commitment. The function writes
-/// `NAME.toml` and `NAME.secret.json`.
+/// Commits to a recipe like `--commit`, but with the same secret in every run, because such a small recipe
+/// finds enough levels only with some seeds. `recipe` returns the recipe for a commitment. The function
+/// writes `NAME.toml` and `NAME.secret.json`.
 pub(crate) fn commit(folder: &Path, recipe: &dyn Fn(&str) -> String) -> Secret {
     let open = Recipe::to_commit(&recipe(&"0".repeat(64))).unwrap();
     let secret = Secret::draw(&open.name, open.committed(), [7; 64]);
@@ -154,7 +157,7 @@ pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// Returns all files of a folder with their content.
+/// Returns all files in a folder with their contents.
 pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -172,7 +175,7 @@ pub(crate) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// Copies a folder, to tamper with it.
+/// Copies a folder, for a test that tampers with it.
 pub(crate) fn copy_tree(from: &Path, to: &Path) {
     for (name, content) in files(from) {
         let path = to.join(name);

@@ -1,5 +1,5 @@
 //! Tests of `arcade evaluate` as users run it, with built-in players, and with a model behind a server that
-//! misbehaves, is killed and resumed.
+//! misbehaves. Evaluations are also killed and resumed.
 
 mod servers;
 
@@ -14,7 +14,7 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
-/// A deterministic model. The same prompt gives the same answer, which is sometimes unusable.
+/// A deterministic model. Equal prompts get equal answers, some of which are unusable.
 fn answer(_: usize, asked: &ReceivedRequest) -> Response {
     let messages = &asked.json()["messages"];
     let draw = Digest::of(messages.to_string().as_bytes()).to_string().as_bytes()[0] % 6;
@@ -23,7 +23,7 @@ fn answer(_: usize, asked: &ReceivedRequest) -> Response {
     Response::completion(words[usize::from(draw)])
 }
 
-/// Returns the logs of a results folder, without times.
+/// Returns the logs in a results folder, with all times removed.
 fn logs(folder: &Path) -> BTreeMap<String, Vec<Event>> {
     let names = files(&folder.join("episodes")).into_keys();
     let timeless = |name: &String| {
@@ -39,7 +39,7 @@ fn json(output: &std::process::Output) -> Value {
 
 const STEPS: &str = "12";
 
-/// Returns the arguments of an evaluation of a model on two small levels.
+/// Returns the arguments for evaluating a model on two small levels.
 fn asking<'a>(url: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let mut args = vec!["--json", "evaluate", "hailglass", "--levels", "0,1", "--model", "scripted"];
     args.extend(["--base-url", url, "--max-steps", STEPS, "--out", "results"]);
@@ -99,7 +99,7 @@ fn players_commit_to_plans() {
     assert!(text(&report.stdout).contains("mcts:20 (commit=3)"), "{}", text(&report.stdout));
 }
 
-/// A person at a terminal sees the prompts of a model, and may leave in the middle of an episode.
+/// A person at a terminal sees the same prompts as a model, and may leave in the middle of an episode.
 #[test]
 fn human_players_resume() {
     use std::io::Write;
@@ -206,7 +206,7 @@ fn malformed_requests_are_reported() {
     let told = keyless.output().unwrap();
     assert_eq!(told.status.code(), Some(2));
     assert!(text(&told.stderr).contains("OPENAI_API_KEY is not set") && !home.path().join("k").exists());
-    // The folder holds the results of a different question.
+    // The folder holds the results of a different evaluation.
     run(home.path(), &["evaluate", "hailglass", "--levels", "0", "--player", "random", "--out", "r"], 0);
     let other = ["hailglass", "--levels", "0", "--player", "nil", "--out", "r", "--resume"];
     assert!(refusal(&other).contains("a different player, model, prompt or decoding"));
@@ -243,7 +243,7 @@ fn edited_logs_are_not_certified() {
     assert_eq!(logs(&home.path().join("r")).len(), 2);
 }
 
-/// Each planner may be named only once, and a table that cannot be written does not lose the answer.
+/// Each planner may be specified only once, and the answer is not lost if its table cannot be written.
 #[test]
 fn runs_are_refused_before_they_are_played() {
     let home = tempfile::tempdir().unwrap();
@@ -298,12 +298,13 @@ fn archives_are_played_like_folders() {
     }
 }
 
-/// A game whose first tick the engine stops, because its PathChaser has no `obs=`.
+/// A game that the engine stops in its first tick, because its PathChaser has no `obs=`.
 const STOPPED: &str = "BasicGame\n SpriteSet\n  ghost > PathChaser stype=hero\n  gem > Immovable\n  hero > MovingAvatar\n \
                        LevelMapping\n  G > ghost\n  g > gem\n  H > hero\n InteractionSet\n  gem hero > killSprite\n \
                        TerminationSet\n  SpriteCounter stype=gem win=True\n";
 
-/// Episodes that the engine stops are not losses of the players. Every table states this with the reason.
+/// Episodes that the engine stops are not counted as losses of the players. Every table states this, with the
+/// reason.
 #[test]
 fn episodes_stopped_by_the_engine_are_reported() {
     let home = tempfile::tempdir().unwrap();
@@ -351,7 +352,8 @@ fn players_that_cannot_read_the_prompt_are_refused() {
     with(&["--rules", "vgdl", "--games", "quiet-jars"], 0);
 }
 
-/// A limit of steps below the known wins of a release is told before it is paid for, and in the report.
+/// A step limit below a release's known wins is reported before anything is paid for, and again in the
+/// report.
 #[test]
 fn limits_below_known_wins_are_told() {
     let (home, _) = copy_of_tiny();

@@ -1,4 +1,4 @@
-//! `arcade evaluate` with a model behind a server that misbehaves, is killed and resumed.
+//! `arcade evaluate` with a model behind a server that misbehaves. Evaluations are also killed and resumed.
 
 use super::*;
 
@@ -33,8 +33,8 @@ fn model_answers_are_recorded_and_counted() {
     }
 }
 
-/// Killed at many moments and resumed: the logs equal those of an undisturbed run, and no recorded answer is
-/// requested again.
+/// Evaluations are killed at many moments and resumed. Their logs equal those of an undisturbed run, and no
+/// recorded answer is requested again.
 #[test]
 fn killed_evaluations_lose_nothing() {
     let slow = |number: usize, asked: &ReceivedRequest| {
@@ -62,7 +62,7 @@ fn killed_evaluations_lose_nothing() {
             .stderr(Stdio::null());
         let mut child = command.spawn().unwrap();
         let answered = server.received().len();
-        // The moment depends on progress, so that slow machines are killed in the same places.
+        // The moment depends on progress, so that runs on slow machines are killed at the same points.
         while server.received().len() < answered + 1 + kill % 7 && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(1));
         }
@@ -78,7 +78,8 @@ fn killed_evaluations_lose_nothing() {
     assert!(asked <= needed + 2 * kills, "{asked} requests for {needed} answers");
 }
 
-/// An evaluation of a model without a single usable answer stops, unless the user insists; one with some is warned of.
+/// An evaluation of a model without a single usable answer stops, unless the user insists. An evaluation with
+/// too few usable answers gets a warning.
 #[test]
 fn useless_answers_stop_the_evaluation() {
     let server = Server::start(|_, _| Response::completion("I would rather not."));
@@ -113,7 +114,8 @@ fn useless_answers_stop_the_evaluation() {
     assert!(told.contains("warning: 16 of 48 decisions have no usable answer (16 invalid)"), "{told}");
 }
 
-/// Server failures are not the model's fault: the episode stays open, no step is lost, and --resume continues the episode.
+/// Server failures are not the model's fault: the episode stays open, no step is lost, and `--resume`
+/// continues the episode.
 #[test]
 fn failing_servers_leave_episodes_open() {
     let bad: [fn() -> Response; 5] = [
@@ -140,7 +142,7 @@ fn failing_servers_leave_episodes_open() {
             .filter(|event| matches!(event, Event::Halt { reason, .. } if reason == "infrastructure"));
         assert!(halts.count() >= 1, "{kind}");
         drop(failing);
-        // The server is back, at another port: its address has no influence on the answers of a model on this
+        // The server is back on a different port. The address does not affect the answers of a model on this
         // machine.
         let server = Server::start(answer);
         let url = server.base_url();
@@ -165,7 +167,7 @@ fn caps_hold_and_can_be_raised() {
     let capped = json(&run(home.path(), &asking(&url, &["--max-requests", "7"]), 1));
     assert_eq!(capped["spent"]["requests"], 7);
     assert_eq!(server.received().len(), 7);
-    // All counts of them agree, even if several episodes reach the cap at once.
+    // All counts of open episodes agree, even if several episodes reach the cap at once.
     assert_eq!(capped["tally"]["halted"], "the next request would exceed --max-requests 7");
     let told = json(&run(home.path(), &["--json", "report", "results", "--out", "capped"], 0));
     let player = &told["players"][0];
@@ -189,7 +191,7 @@ fn dry_runs_send_nothing_and_print_the_forecast() {
     let forecast = json(&run(home.path(), &asking(&server.base_url(), &["--dry-run"]), 0));
     assert_eq!((&forecast["episodes"], &forecast["requests"]), (&2.into(), &24.into()));
     assert!(forecast["input_tokens"].as_u64().unwrap() > 24 * 300);
-    // As planned, and as many episodes on as many games.
+    // The planned evaluation, and one with the same number of episodes on as many games.
     assert_eq!(forecast["power"].as_array().unwrap().len(), 2);
     assert_eq!((&forecast["answer_tokens"], &forecast["max_output_tokens"]), (&100.into(), &Value::Null));
     let url = server.base_url();
@@ -198,7 +200,7 @@ fn dry_runs_send_nothing_and_print_the_forecast() {
     assert_eq!((&forecast["output_tokens"], &forecast["max_output_tokens"]), (&2400.into(), &96_000.into()));
     let said = text(&run(home.path(), &bounded[1..], 0).stdout);
     assert!(said.contains("assuming 100 tokens per answer; at most 0.10 M"), "{said}");
-    // A Timeout of the game bounds the steps, whatever --max-steps says.
+    // A game's Timeout bounds the steps, regardless of --max-steps.
     let unbounded =
         ["--json", "evaluate", "hailglass", "--levels", "0", "--model", "openai:gpt-4o", "--dry-run"];
     assert_eq!(json(&run(home.path(), &unbounded, 0))["requests"], 401);
@@ -227,7 +229,7 @@ fn impossible_token_counts_are_rejected() {
     run(home.path(), &["report", "results", "--out", "told"], 0);
 }
 
-/// A wrong name of a model leaves no folder that could never be resumed.
+/// A wrong model name leaves no results folder behind, because the evaluation could never be resumed.
 #[test]
 fn rejected_models_leave_no_results() {
     let home = tempfile::tempdir().unwrap();
@@ -240,7 +242,7 @@ fn rejected_models_leave_no_results() {
     assert!(home.path().join("results").exists());
 }
 
-/// A game that a server rejects is left open, and the others are played.
+/// A game that the server rejects is left open, and the other games are played.
 #[test]
 fn games_that_a_server_rejects_do_not_end_the_run() {
     let home = tempfile::tempdir().unwrap();
@@ -267,7 +269,7 @@ fn models_can_have_names() {
     assert!(told.contains("--levels, --games or --max-requests"), "{told}");
 }
 
-/// A full disk, simulated by a limit on the size of files. It is an environment failure, and with room again the
+/// A full disk, simulated by a file size limit, is an environment failure. Once there is room again, the
 /// episode continues.
 #[cfg(target_os = "linux")]
 #[test]

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Expects exit status 2, and a message with the file, the line and these words.
+/// Expects exit status 2, and a message that contains the file, the line and the given words.
 #[track_caller]
 fn malformed(game: &str, level: &str, place: &str, words: &[&str]) {
     let folder = folder(game, level);
@@ -167,7 +167,7 @@ fn consequences_of_other_faults_are_skipped() {
         assert!(said.contains(words), "`{words}` is not in\n{said}");
     }
     assert!(!said.contains("remove the rule"), "{said}");
-    // Lost in its first tick, whatever the player does.
+    // The level is lost in its first tick, regardless of the player's action.
     let over = folder(&GAME.replace("stype=avatar limit=0", "stype=avatar limit=1"), LEVEL);
     let said = text(&run(over.path(), &["validate", ".", "--budget", "2000"], 1).stdout);
     assert!(said.contains("FAILS well-formed: the game is lost in its first tick"), "{said}");
@@ -267,7 +267,7 @@ fn warnings_about_files_follow_the_verdict() {
         place(
             "removes the player's `avatar`, but the game continues: add `SpriteCounter stype=avatar win=False`",
         );
-        // The requirement stands beside each verdict that is not a pass.
+        // Each verdict other than a pass is shown with the requirement.
         place("asks: ");
     }
 }

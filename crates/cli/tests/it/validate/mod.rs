@@ -60,7 +60,7 @@ fn a_good_level_passes_and_its_witness_replays() {
     assert_eq!(document["passes"], true);
 }
 
-/// Returns the judgement of the first level on a criterion.
+/// Returns the judgement on the first level for a criterion.
 fn judgement(document: &Value, criterion: &str) -> Value {
     let judgements = document["levels"][0]["judgements"].as_array().unwrap();
     judgements.iter().find(|judgement| judgement["criterion"] == criterion).unwrap().clone()
@@ -104,7 +104,7 @@ fn unfound_wins_are_unknown() {
 
 #[test]
 fn game_criteria_cover_all_levels() {
-    // Each level alone lacks something, but together the levels have everything.
+    // Each level alone lacks a required element, but together the levels have all of them.
     let folder = folder(GAME, "wwwwwwwwww\nwA.t...t.w\nw.....t..w\nw.t.....nw\nwn...t...w\nwwwwwwwwww\n");
     fs::write(folder.path().join("lvl1.txt"), "wwwwwwwww\nwA..n...w\nw.n...n.w\nwwwwwwwww\n").unwrap();
     let judgements = |args: &[&str], status| {
@@ -114,7 +114,7 @@ fn game_criteria_cover_all_levels() {
     };
     let together: Vec<Value> = judgements(&["--json", "validate", "."], 1);
     assert_eq!(together, ["pass", "pass"]);
-    // Random keys win the second level alone, so it does not judge the game.
+    // Random keys win the second level, so that level alone cannot judge the game.
     let alone: Vec<Value> = judgements(&["--json", "validate", ".", "1"], 1);
     assert!(alone.is_empty());
 }
@@ -253,7 +253,7 @@ fn planners_play_and_report() {
     assert_eq!((&rows[2]["planner"], &rows[2]["budget"]), (&"olets".into(), &50.into()));
     assert_eq!((&rows[1]["plays"], &rows[1]["level"]), (&3.into(), &Value::Null));
 
-    // The results do not depend on other planners in the run.
+    // The results do not depend on the other planners in the run.
     let alone = run(folder.path(), &["run", ".", "--planner", "mcts:200", "--runs", "3", "--json"], 0);
     let alone: Value = serde_json::from_slice(&alone.stdout).unwrap();
     assert_eq!(alone["rows"][0], rows[1]);
@@ -346,7 +346,7 @@ fn counts_of_nothing_are_refused() {
 
 #[test]
 fn a_small_budget_is_a_small_piece_of_work() {
-    // No player needs less than 300 ticks, and no player decides with fewer calls than its minimum.
+    // No player needs fewer than 300 ticks, and no player decides with fewer calls than its minimum.
     let game = GAME
         .replace("        avatar > Mov", "        bee > RandomNPC\n        avatar > Mov")
         .replace("        A > floor", "        b > floor bee\n        A > floor")

@@ -8,11 +8,11 @@ use serde_json::{Value, json};
 /// The API version, sent in a header with every request.
 pub(super) const VERSION: &str = "2023-06-01";
 
-/// The default token limit for an answer. The API requires a limit.
+/// The default token limit for an answer. The API requires one.
 pub(super) const MAX_TOKENS: u32 = 8192;
 
-/// Returns a request's body. The system message is constant throughout an episode, so its end is marked as
-/// the end of the prefix to cache.
+/// Returns a request's body. The system message is constant throughout an episode, so its end marks the end
+/// of the cached prefix.
 pub(super) fn body(model: &str, request: &ChatRequest) -> Value {
     let decoding = &request.decoding;
     let of_system = |message: &&ChatMessage| message.role == Role::System;

@@ -5,7 +5,7 @@ use crate::client::chat::{ChatMessage, ChatReply, ChatRequest, Decoding, Finish,
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// Returns a request's body. The body omits the model, which is part of the URL.
+/// Returns a request's body. The model is not in the body, because it is part of the URL.
 pub(super) fn body(request: &ChatRequest) -> Value {
     let of_system = |message: &&ChatMessage| message.role == Role::System;
     let system: Vec<Value> = request.messages.iter().filter(of_system).map(|m| text(&m.text)).collect();
@@ -20,7 +20,7 @@ pub(super) fn body(request: &ChatRequest) -> Value {
 }
 
 fn generation(decoding: &Decoding) -> Value {
-    // Models without thinking reject a request for thoughts.
+    // Models without thinking reject requests that ask for thoughts.
     let thinking = decoding.reasoning_effort.as_deref().map(|effort| match effort.parse::<u32>() {
         Ok(tokens) => json!({ "thinkingBudget": tokens, "includeThoughts": tokens > 0 }),
         Err(_) if effort == "none" => json!({ "thinkingBudget": 0 }),
@@ -133,7 +133,7 @@ fn usage(counts: Counts) -> Usage {
         input_tokens: counts.prompt_token_count,
         cached_input_tokens: counts.cached_content_token_count,
         cache_write_tokens: None,
-        // A server that reports counts omits every field whose value is 0.
+        // When the server reports counts, it omits every field whose value is 0.
         output_tokens: match (answer, thoughts) {
             (None, None) => counts.prompt_token_count.map(|_| 0),
             _ => Some(answer.unwrap_or(0).saturating_add(thoughts.unwrap_or(0))),

@@ -1,4 +1,4 @@
-//! Model server APIs. Each API has a module that builds request bodies and parses reply bodies.
+//! The APIs of model servers. For each API, a module builds request bodies and parses reply bodies.
 
 mod anthropic;
 mod gemini;
@@ -56,7 +56,7 @@ impl Provider {
         }
     }
 
-    /// Returns the decoding to send: the requested settings plus the provider's required settings.
+    /// Returns the decoding to send: the requested settings plus those that the provider requires.
     ///
     /// # Errors
     /// Returns an error if the request uses a setting that the provider does not support, or an out-of-range
@@ -120,7 +120,7 @@ impl Provider {
     }
 }
 
-/// Rejects numbers that samplers do not accept.
+/// Rejects numbers outside the ranges that samplers accept.
 fn check_ranges(decoding: &Decoding) -> Result<(), String> {
     let in_range = |flag: &str, value: Option<f64>, most: f64| match value {
         Some(value) if !(0.0..=most).contains(&value) => {
@@ -136,8 +136,8 @@ fn check_ranges(decoding: &Decoding) -> Result<(), String> {
     }
 }
 
-/// The text sent in place of an empty message, for APIs that reject empty messages. The placeholder shows a
-/// model that its answer was empty.
+/// The text sent in place of an empty message, because some APIs reject empty messages. It shows the model
+/// that its answer was empty.
 const PLACEHOLDER: &str = "(no words)";
 
 /// Returns the text, or [`PLACEHOLDER`] if the text is empty.
@@ -183,8 +183,8 @@ mod tests {
         assert_eq!(Provider::Compatible.decoding(&fine).unwrap(), fine);
     }
 
-    /// Implausible counts are dropped. Otherwise, sums would overflow, and a server's mistake could exhaust
-    /// the caps.
+    /// Implausible counts are dropped, because they would make sums overflow, and a server's mistake could
+    /// exhaust the caps.
     #[test]
     fn implausible_counts_are_left_out() {
         let body = r#"{"choices":[{"message":{"content":"up"},"finish_reason":"stop"}],

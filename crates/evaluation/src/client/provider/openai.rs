@@ -9,9 +9,10 @@ use serde_json::{Value, json};
 /// The dialects of the chat-completions API.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
-    /// The dialect of OpenAI's own servers, whose reasoning models accept only the token limit's newer name.
+    /// The dialect of OpenAI's own servers. Their reasoning models accept only the newer name of the token
+    /// limit.
     Own,
-    /// The dialect of other servers, some of which accept only the token limit's older name.
+    /// The dialect of other servers, some of which accept only the older name of the token limit.
     Compatible,
 }
 
@@ -68,7 +69,7 @@ struct Message {
     reasoning: Option<String>,
 }
 
-/// The content of a message: a single text, or a list of parts. Parts such as images have no text.
+/// The content of a message: a single text, or a list of parts. Some parts, such as images, have no text.
 #[derive(Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Content {
@@ -98,8 +99,8 @@ struct Counts {
     total_tokens: Option<u64>,
     prompt_tokens_details: Option<InputDetails>,
     completion_tokens_details: Option<OutputDetails>,
-    /// The number of cached prompt tokens, in the field used by DeepSeek. Other servers report this number in
-    /// the details.
+    /// The number of cached prompt tokens, in the field used by DeepSeek. Other servers report it in the
+    /// token details.
     prompt_cache_hit_tokens: Option<u64>,
 }
 
@@ -142,8 +143,8 @@ fn usage(counts: Counts) -> Usage {
     let cached = counts.prompt_tokens_details.and_then(|details| details.cached_tokens);
     let reasoning = counts.completion_tokens_details.and_then(|details| details.reasoning_tokens);
     let mut output = counts.completion_tokens;
-    // Some servers count the reasoning in addition to the answer, and others count it as a part of the
-    // answer. The total shows which of the two applies.
+    // Some servers count the reasoning in addition to the answer, and others as part of it. The total shows
+    // which of the two applies.
     if let (Some(input), Some(answer), Some(reasoning), Some(total)) =
         (counts.prompt_tokens, output, reasoning, counts.total_tokens)
         && reasoning > 0

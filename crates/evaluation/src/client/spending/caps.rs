@@ -31,10 +31,10 @@ pub struct Spent {
 
 /// Enforces an evaluation's limits.
 ///
-/// A request is allowed if its prompt, the prompts in flight and the amounts spent do not exceed the limits
-/// in total. The request is charged once, by the usage in its reply, or by a local count of its text if the
-/// reply reports no usage. An answer's cost is not known in advance, so the answers in flight can exceed a
-/// limit after it is reached. Failed tries are not charged, because their cost is not reported.
+/// A request is allowed if the total of its prompt, the prompts in flight and the amounts spent does not
+/// exceed the limits. The request is charged once, by the usage in its reply, or by a local count of its text
+/// if the reply reports no usage. An answer's cost is not known in advance, so the answers in flight can
+/// exceed a limit after it is reached. Failed tries are not charged, because their cost is not reported.
 #[derive(Debug)]
 pub struct Caps {
     limits: Limits,
@@ -50,7 +50,7 @@ struct Ledger {
 }
 
 impl Caps {
-    /// Creates caps with the given limits. `price` is the model's price, if known.
+    /// Creates caps with the given limits. `price` is the model's price, or `None` if it is unknown.
     pub fn new(limits: Limits, price: Option<Price>) -> Caps {
         Caps { limits, price, ledger: Mutex::default() }
     }
@@ -60,7 +60,7 @@ impl Caps {
         self.ledger().spent
     }
 
-    /// Charges the amounts that an episode's log records from earlier program runs. Cached answers are free.
+    /// Charges the amounts that an episode's log recorded in earlier program runs. Cached answers are free.
     pub fn charge_logged(&self, events: &[Event]) {
         let mut prompt = 0;
         for event in events {
@@ -79,7 +79,7 @@ impl Caps {
     /// Admits a request whose prompt has about `prompt` tokens.
     ///
     /// # Errors
-    /// Returns a message with the limit that forbids the request.
+    /// Returns a message stating the limit that the request would exceed.
     pub(in crate::client) fn reserve(&self, prompt: u64) -> Result<Reservation<'_>, String> {
         let usage = Usage { input_tokens: Some(prompt), output_tokens: Some(0), ..Usage::default() };
         let cost = self.price.as_ref().and_then(|price| price.cost(&usage)).unwrap_or_default();
@@ -117,7 +117,7 @@ impl Caps {
 }
 
 impl Limits {
-    /// Returns the limit that the given amounts would exceed, formatted as its command-line option.
+    /// Returns the limit that the given amounts would exceed, written as its command-line option.
     fn exceeded(&self, spent: &Spent) -> Option<String> {
         if let Some(limit) = self.cost.filter(|limit| spent.cost > *limit) {
             return Some(format!("--max-cost {limit}"));
@@ -129,7 +129,7 @@ impl Limits {
         Some(format!("--max-requests {limit}"))
     }
 
-    /// Returns the limit that an evaluation is estimated to exceed in total, formatted as its command-line
+    /// Returns the limit that an evaluation is estimated to exceed in total, written as its command-line
     /// option. Dry runs report this limit.
     pub fn exceeded_by_estimate(&self, estimate: &Estimate) -> Option<String> {
         let tokens = estimate.input_tokens.saturating_add(estimate.output_tokens);

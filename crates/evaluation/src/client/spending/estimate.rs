@@ -1,14 +1,14 @@
-//! Estimates requests' tokens and costs before they are sent.
+//! Estimates the tokens and costs of requests before they are sent.
 
 use super::prices::{Price, Usd};
 use crate::client::chat::{ChatMessage, ChatRequest, Usage};
 use crate::tokens;
 
-/// The token count assumed for an image of unreadable size.
+/// The token count assumed for an image whose size cannot be read.
 const PICTURE: u64 = 1000;
 
-/// Estimates the number of tokens in a request's prompt. The local count is only an estimate, because model
-/// vocabularies differ.
+/// Estimates the number of tokens in a request's prompt. A local count is only an estimate, because models
+/// have different vocabularies.
 pub(in crate::client) fn prompt_tokens(request: &ChatRequest) -> u64 {
     let picture =
         |png: &Vec<u8>| size(png).map_or(PICTURE, |(width, height)| tokens::of_picture(width, height));
@@ -29,7 +29,7 @@ fn size(png: &[u8]) -> Option<(u32, u32)> {
 pub struct Batch {
     /// The number of requests.
     pub requests: u64,
-    /// The number of tokens in the prefix shared by all prompts.
+    /// The number of tokens in the prefix common to all prompts.
     pub stable_tokens: u64,
     /// The average number of tokens per prompt after the common prefix.
     pub changing_tokens: u64,
@@ -40,18 +40,18 @@ pub struct Batch {
 /// The estimate for an entire evaluation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Estimate {
-    /// The number of requests, assuming no repeats.
+    /// The number of requests, assuming that none is repeated.
     pub requests: u64,
     /// The number of tokens in all prompts.
     pub input_tokens: u64,
-    /// The maximum number of prompt tokens served from the provider's cache. They are the prefixes of all
-    /// requests in a batch except the first.
+    /// The maximum number of prompt tokens served from the provider's cache. In each batch, these are the
+    /// prefixes of all requests except the first.
     pub cacheable_tokens: u64,
     /// The number of tokens in all answers.
     pub output_tokens: u64,
     /// The cost if the provider's cache is never used, or `None` if the price is unknown.
     pub cost: Option<Usd>,
-    /// The cost if the provider's cache is used as much as possible.
+    /// The cost if the provider's cache is used as much as possible, or `None` if the price is unknown.
     pub cost_if_cached: Option<Usd>,
 }
 

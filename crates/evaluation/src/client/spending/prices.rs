@@ -9,8 +9,8 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
-/// An amount of money in US dollars, stored as a multiple of 10⁻¹² dollars. Integers make sums independent of
-/// the order in which replies arrive.
+/// An amount of money in US dollars, stored as a multiple of 10⁻¹² dollars. Integer sums do not depend on the
+/// order in which replies arrive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Usd(u64);
 
@@ -20,11 +20,11 @@ const MAX_PRICES: usize = 1 << 20;
 /// The number of [`Usd`] units per dollar.
 const UNITS_PER_DOLLAR: f64 = 1e12;
 
-/// The maximum accepted amount, in dollars. Greater amounts are assumed to be typing errors.
+/// The maximum accepted amount, in dollars. Larger amounts are assumed to be typing errors.
 const MAX_DOLLARS: f64 = 1e6;
 
 impl Usd {
-    /// Converts an amount from dollars. Returns `None` unless the amount is between 0 and a million.
+    /// Converts an amount in dollars. Returns `None` unless the amount is between 0 and a million.
     pub fn from_dollars(dollars: f64) -> Option<Usd> {
         (0.0..=MAX_DOLLARS).contains(&dollars).then(|| Usd((dollars * UNITS_PER_DOLLAR).round() as u64))
     }
@@ -39,7 +39,7 @@ impl Usd {
         Usd(self.0.saturating_add(other.0))
     }
 
-    /// Subtracts an amount, saturating at 0.
+    /// Subtracts an amount. The difference saturates at 0.
     pub(in crate::client) fn minus(self, other: Usd) -> Usd {
         Usd(self.0.saturating_sub(other.0))
     }
@@ -77,7 +77,7 @@ pub struct Price {
     pub cache_write: f64,
     /// The price for output tokens, including reasoning.
     pub output: f64,
-    /// The date of the price, as given in the table.
+    /// The date of the price, as stated in the table.
     pub as_of: String,
 }
 
@@ -133,7 +133,7 @@ impl Prices {
         Prices { tables: vec![table] }
     }
 
-    /// Returns the price table from a file, followed by the embedded table.
+    /// Returns the price table in a file, followed by the embedded table.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read, or is not a price table.
@@ -173,8 +173,8 @@ fn read(text: &str) -> Result<Table, String> {
     Ok(table)
 }
 
-/// Returns `true` if a name in a table matches a model. `gpt-5` does not match `gpt-5-pro`, which costs ten times as
-/// much.
+/// Returns `true` if a name in a table matches a model. `gpt-5` does not match `gpt-5-pro`, which costs ten
+/// times as much.
 fn fits(name: &str, model: &str) -> bool {
     if let Some(start) = name.strip_suffix('*') {
         return model.starts_with(start);

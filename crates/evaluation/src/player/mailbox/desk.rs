@@ -24,7 +24,7 @@ pub struct Desk {
 pub struct View {
     /// The open prompts, sorted by episode.
     pub waiting: Vec<OpenPrompt>,
-    /// The number of answers that the evaluation has not read yet.
+    /// The number of answers that the evaluation has not yet read.
     pub answered: usize,
     /// The ended episodes, with their results.
     pub ended: Vec<(String, EpisodeResult)>,
@@ -39,7 +39,7 @@ pub struct View {
 pub struct OpenPrompt {
     /// The prompt to answer.
     pub prompt: PromptFile,
-    /// The problem with an earlier answer that was set aside.
+    /// The problem with an earlier answer to the prompt, which was set aside.
     pub problem: Option<String>,
 }
 
@@ -48,7 +48,7 @@ pub struct OpenPrompt {
 pub enum Delivery {
     /// The answer was written to the answer file.
     Delivered,
-    /// The prompt was already answered, or is no longer open.
+    /// The prompt already has an answer, or is no longer open.
     TooLate,
     /// The answer was rejected for the given reason.
     Refused(String),
@@ -61,8 +61,8 @@ impl Desk {
     /// Returns an error if the folder does not contain a mailbox, or if the mailbox has a newer format or is
     /// damaged.
     pub fn open(folder: &Path) -> Result<Desk, EvaluationError> {
-        // If the path is a file, the error for the marker below it would contain a path that the user did not
-        // give.
+        // If the path is a file, the error about the marker below it would contain a path that the user did
+        // not specify.
         let found = if folder.is_file() { None } else { marker(folder)? };
         match found {
             Some(marker) => Ok(Desk { folder: folder.to_owned(), player: marker.player }),
@@ -89,7 +89,7 @@ impl Desk {
     /// # Errors
     /// Returns an error if a file cannot be read or is damaged.
     pub fn view(&self) -> Result<View, EvaluationError> {
-        // The lock is checked first, so that an evaluation that ends in the meantime is not mistaken for an
+        // The lock is checked first, so that an evaluation that ends in between is not mistaken for an
         // interrupted one.
         let is_running = is_locked(&self.folder);
         let finished = read_data(&self.folder.join(FINISHED_FILE))?;

@@ -1,4 +1,4 @@
-//! The names and contents of mailbox files, with functions that read and write them.
+//! The names and contents of mailbox files, and the functions that read and write them.
 
 use crate::client::ChatMessage;
 use crate::error::EvaluationError;
@@ -19,7 +19,7 @@ pub(super) const LOCK_FILE: &str = ".lock";
 pub(super) const FINISHED_FILE: &str = "finished.json";
 /// The name of the file with an episode's last message.
 pub(super) const FINISHED_TEXT: &str = "finished.txt";
-/// The name of the file that describes the problem with the last answer that was set aside.
+/// The name of the file that describes the problem with the answer most recently set aside.
 pub(super) const PROBLEM_FILE: &str = "problem.txt";
 
 /// The maximum size of an answer, in bytes (256 KiB).
@@ -28,7 +28,7 @@ pub const MAX_ANSWER: usize = 1 << 18;
 pub(super) const MAX_FILE: u64 = 1 << 26;
 
 /// A prompt's address within its episode, such as `0007-0`. The names of the prompt's files are derived from
-/// the address.
+/// it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Address {
     /// The number of actions played before the decision.
@@ -139,7 +139,7 @@ pub(super) fn read_text(path: &Path) -> Result<Option<String>, EvaluationError> 
     match disk::read_no_follow(path, MAX_FILE) {
         Ok(None) => Err(EvaluationError::malformed(path, "not a file of a mailbox; remove the file")),
         Ok(Some(bytes)) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
-        // An evaluation may remove the files of answered prompts at any time.
+        // The evaluation may remove the files of answered prompts at any time.
         Err(error) if is_absent(&error) => Ok(None),
         Err(error) => Err(EvaluationError::io("read", path)(error)),
     }
@@ -149,7 +149,7 @@ pub(super) fn is_absent(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::NotFound
 }
 
-/// Returns the sorted names in a folder, except for hidden names and non-Unicode names.
+/// Returns the names in a folder, sorted. Hidden and non-Unicode names are omitted.
 pub(super) fn names(folder: &Path) -> Result<Vec<String>, EvaluationError> {
     let list = || -> io::Result<Vec<String>> {
         let mut names = Vec::new();

@@ -1,4 +1,4 @@
-//! Creates, locks and finishes a mailbox folder, on the evaluation's side.
+//! Creates, locks and finishes a mailbox folder on the evaluation's side.
 
 use super::MAILBOX_FORMAT;
 use super::files::{FINISHED_FILE, LOCK_FILE, MARKER_FILE, names, read_data, write_data};
@@ -14,8 +14,8 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-/// The number of tries to lock a mailbox. A [`Desk`](super::Desk) acquires the lock briefly to test whether
-/// an evaluation has locked the mailbox.
+/// The number of tries to lock a mailbox. Several tries are needed, because a [`Desk`](super::Desk) briefly
+/// holds the lock to test whether an evaluation has locked the mailbox.
 const TRIES: u32 = 20;
 /// The pause between tries to lock a mailbox.
 const PAUSE: Duration = Duration::from_millis(20);
@@ -53,7 +53,7 @@ pub struct Finished {
 
 impl Mailbox {
     /// Opens an evaluation's mailbox. The folder must be absent or empty. With `resume`, the folder may also
-    /// contain the same evaluation's mailbox. A mailbox without any episode can be used by every evaluation.
+    /// contain the same evaluation's mailbox. A mailbox without any episode can be used by any evaluation.
     ///
     /// # Errors
     /// Returns an error if the folder is unsuitable, cannot be written, or is used by a different evaluation.
@@ -108,7 +108,7 @@ impl Mailbox {
         &self.folder
     }
 
-    /// Stops all episodes from waiting for answers. Their prompts stay open for a resumed evaluation.
+    /// Makes all episodes stop waiting for answers. Their prompts stay open for a resumed evaluation.
     pub fn stop(&self, halt: &Halt) {
         self.stopped.lock().expect("no holder panics").get_or_insert_with(|| halt.clone());
     }
@@ -173,7 +173,7 @@ fn lock(folder: &Path) -> Result<Lock, EvaluationError> {
     Err(EvaluationError::malformed(folder, what))
 }
 
-/// Returns a digest of an evaluation's settings. Different evaluations have different digests.
+/// Returns a digest of an evaluation's settings. Distinct evaluations have distinct digests.
 fn digest(settings: &Settings) -> Digest {
     Digest::of(&serde_json::to_vec(settings).expect("settings are plain data"))
 }

@@ -2,8 +2,8 @@
 //!
 //! [`Mailbox`] is the evaluation's side of the folder, and [`MailboxPlayer`] plays an episode through it.
 //! [`Desk`] is the player's side, which lists open prompts and delivers answers. Files are written under a
-//! temporary name and then renamed, so every file is complete when it appears. A resumed evaluation depends
-//! only on the episodes' logs.
+//! temporary name and then renamed, so every file is complete when it appears. When an evaluation is resumed,
+//! only the episodes' logs matter, not the files in the mailbox.
 
 mod desk;
 mod files;
@@ -15,6 +15,6 @@ pub use files::{Address, MAX_ANSWER, PromptFile};
 pub use folder::{Finished, Mailbox, Notices};
 pub use player::{EpisodeResult, MailboxPlayer};
 
-/// The version of the mailbox file format. The version is incremented whenever readers of older files might
-/// misread newer files.
+/// The version of the mailbox file format. It is incremented whenever programs that read older files might
+/// misread newer ones.
 pub const MAILBOX_FORMAT: u32 = 1;

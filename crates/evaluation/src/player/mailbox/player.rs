@@ -29,8 +29,8 @@ use std::time::Duration;
 /// The pause between checks for an answer file.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// An agent whose prompts and answers are files in its episode's folder. The prompts, the feedback on invalid
-/// answers and the parser are the same as for a language model.
+/// An agent whose prompts and answers are files in its episode's folder. Prompts, feedback on invalid
+/// answers, and parsing are the same as for a language model.
 pub struct MailboxPlayer {
     player: ModelPlayer,
     prompter: Arc<Prompter>,
@@ -48,7 +48,7 @@ pub struct EpisodeResult {
     pub steps: u64,
 }
 
-/// An episode's folder, as a model. The model answers a request once the answer file has been written.
+/// An episode's folder, acting as a model. It answers a request once the answer file has been written.
 #[derive(Debug)]
 struct EpisodeFolder {
     mailbox: Arc<Mailbox>,
@@ -57,7 +57,7 @@ struct EpisodeFolder {
     open: Mutex<Open>,
 }
 
-/// The current prompt, or the prompt to be opened next.
+/// The current prompt, or the next prompt to open.
 #[derive(Debug, Default)]
 struct Open {
     address: Address,
@@ -171,7 +171,8 @@ impl EpisodeFolder {
             _ => false,
         };
         let mut removed: Vec<&String> = names.iter().filter(is_removed).collect();
-        // Answers are removed last, because a prompt without its answer would be mistaken for an open prompt.
+        // Answers are removed last, because a prompt whose answer is already gone would be mistaken for an
+        // open prompt.
         removed.sort_by_key(|name| name.ends_with(".answer.txt"));
         removed.into_iter().try_for_each(|name| remove(&self.path.join(name)))
     }
@@ -197,8 +198,8 @@ impl EpisodeFolder {
         write(&self.path, &address.prompt_text(), conversation(messages).as_bytes())
     }
 
-    /// Waits for the answer to the open prompt, or until the evaluation stops. Unsuitable files are set aside
-    /// with a notice.
+    /// Waits for the answer to the open prompt, or until the evaluation stops. Unsuitable answer files are
+    /// set aside with a notice.
     fn wait(&self, address: Address) -> Result<String, EvaluationError> {
         let (mut last, mut is_told) = (None, false);
         loop {

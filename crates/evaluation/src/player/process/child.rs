@@ -16,26 +16,26 @@ use tempfile::TempDir;
 /// The maximum length of a line from a process, in bytes (1 MiB).
 pub(super) const MAX_LINE: usize = 1 << 20;
 
-/// The number of trailing bytes retained from standard error.
+/// The number of bytes to keep from the end of standard error.
 const STDERR_TAIL: usize = 2000;
 
 /// The number of unread lines after which a process's writes block.
 const MAX_QUEUED_LINES: usize = 16;
 
-/// The time allowed for a process to exit after being notified of the end.
+/// The time allowed for a process to exit after it is notified of the end.
 pub(super) const EXIT_TIME: Duration = Duration::from_secs(2);
 
 /// The time allowed for the reader threads to deliver a dead process's remaining output.
 const DRAIN_TIME: Duration = Duration::from_millis(500);
 
-/// The number of polls within which a guard must kill its program and exit. With the pauses between polls,
-/// the total time is at most ten seconds.
+/// The maximum number of polls for a guard to kill its program and exit. Including the pauses between polls,
+/// this takes at most ten seconds.
 const POLLS: u32 = 2000;
 /// The pause between polls for a guard.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// The environment variables that every process inherits if they are set. The variables contain the locations
-/// of programs, libraries and caches, and the language. None of the variables contain an API key.
+/// The environment variables that every process inherits if they are set. They specify the locations of
+/// programs, libraries and caches, and the language. None of them contains an API key.
 const ENVIRONMENT: &[&str] = &[
     "PATH",
     "HOME",
@@ -54,7 +54,7 @@ const ENVIRONMENT: &[&str] = &[
 /// and removes the folder.
 #[derive(Debug)]
 pub(super) struct LineProcess {
-    /// The process, or its guard, if any.
+    /// The process itself, or its guard if it has one.
     child: Child,
     is_guarded: bool,
     /// The channel for sending lines, or `None` once the input is closed.
@@ -99,7 +99,7 @@ impl LineProcess {
     ) -> std::io::Result<LineProcess> {
         let place = std::path::absolute(std::env::temp_dir())?;
         let mut builder = tempfile::Builder::new();
-        // The files that players write to the folder must not be readable by other users.
+        // Files that players write to the folder must not be readable by other users.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
         let folder = builder.prefix("arcade-player-").tempdir_in(place)?;
@@ -151,7 +151,7 @@ impl LineProcess {
     pub(super) fn send_line(&self, mut line: Vec<u8>) {
         line.push(b'\n');
         if let Some(input) = &self.input {
-            // If the process does not read the line, it will not answer it either.
+            // A process that does not read the line will not answer it either.
             let _ = input.send(line);
         }
     }
@@ -177,11 +177,11 @@ impl LineProcess {
         }
     }
 
-    /// Kills the process and all its descendants. Returns the exit status, if the process has already exited,
+    /// Kills the process and all its descendants. Returns the exit status, if the process had already exited,
     /// and the last part of its standard error.
     pub(super) fn kill(mut self) -> (Option<ExitStatus>, String) {
         if matches!(self.receive(Duration::ZERO), Err(NoLine::Closed)) {
-            // The process is already exiting, and will have its own exit status after a moment.
+            // The process is already exiting, and will have its own exit status in a moment.
             thread::sleep(DRAIN_TIME / 10);
         }
         let status = self.end().filter(|status| status.code().is_some());
@@ -199,8 +199,8 @@ impl LineProcess {
         self.child.wait().ok()
     }
 
-    /// Makes the guard terminate its program, and kills the remaining process group. The process ID cannot be
-    /// reused until the process is reaped. Until then, `end_all` waits for the returned lock.
+    /// Makes the guard terminate its program, and kills the remaining process group. While the returned lock
+    /// is held, `end_all` waits, so the process ID cannot be reused before the process is reaped.
     #[cfg(unix)]
     fn end_group(&self) -> Option<std::sync::MutexGuard<'static, super::running::Running>> {
         use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, kill_process_group, waitid};
@@ -258,8 +258,8 @@ fn spawn(command: &mut Command, is_guarded: bool) -> std::io::Result<Child> {
     }
 }
 
-/// Resolves a word so that it has the same meaning in any folder. If the word names an existing file, returns
-/// the file's absolute path.
+/// Resolves a word so that it has the same meaning in any folder: returns the absolute path if the word names
+/// an existing file.
 fn resolved(word: &str, may_be_file: bool) -> OsString {
     let path = Path::new(word);
     let absolute = || std::path::absolute(path).ok();

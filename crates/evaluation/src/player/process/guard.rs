@@ -2,15 +2,15 @@
 //! terminates the program when `arcade` has exited.
 //!
 //! `arcade` can be killed by a signal that it cannot handle, and a program can start processes that leave its
-//! process group (`setsid`). The guard relays the messages of `arcade` to the program. The message stream
-//! closes when the episode is over or `arcade` no longer exists. The guard then kills the program and all its
-//! descendants, and removes the folder in which the program ran. The program's standard output and standard
-//! error go directly to `arcade`.
+//! process group (`setsid`). Therefore, the guard relays messages from `arcade` to the program. When the
+//! episode is over or `arcade` no longer exists, the message stream closes. The guard then kills the program
+//! and all its descendants, and removes the folder in which the program ran. The program's standard output
+//! and standard error go directly to `arcade`.
 //!
 //! On Linux, the guard is the reaper of its descendants (`PR_SET_CHILD_SUBREAPER`). A process that outlives
-//! its parent stays a descendant of the guard, in any group or session, and can be found. On other systems,
-//! processes that have left the program's group escape. A control group would not catch more processes:
-//! processes started through an external service (`systemd-run`, `docker`) escape both mechanisms.
+//! its parent remains a descendant of the guard in any group or session, so it can be found. On other
+//! systems, processes that have left the program's group escape. A control group would not catch more
+//! processes: processes started through an external service (`systemd-run`, `docker`) escape both mechanisms.
 
 use super::child::EXIT_TIME;
 use rustix::io::Errno;
@@ -28,10 +28,10 @@ use std::time::Duration;
 /// The guard's exit status if its program could not be started.
 pub(super) const NOT_STARTED: i32 = 126;
 
-/// The beginning of the guard's last message if its program could not be started. The reason follows.
+/// The beginning of the guard's last message if its program could not be started. The reason follows it.
 pub(super) const NOT_STARTED_BECAUSE: &str = "arcade player-guard: not started: ";
 
-/// The maximum number of rounds for killing all remaining descendants.
+/// The maximum number of rounds in which all remaining descendants are killed.
 const ROUNDS: u32 = 1000;
 
 /// The pause after each round of killing descendants.
@@ -41,7 +41,7 @@ enum Event {
     /// A signal: `SIGCHLD`, or a request to exit.
     Signal(i32),
     InputEnded,
-    /// The time for the program to exit voluntarily is over.
+    /// The time allowed for the program to exit voluntarily is over.
     TimeUp,
 }
 
@@ -158,8 +158,8 @@ impl Program {
     }
 }
 
-/// Closes the guard's standard output and standard error, so that `arcade` sees the end of the output when
-/// the program closes its own.
+/// Closes the guard's standard output and standard error, so that `arcade` sees the end of the output as soon
+/// as the program closes its own.
 fn release_output() {
     if let Ok(nowhere) = std::fs::File::options().write(true).open("/dev/null") {
         let _ = rustix::stdio::dup2_stdout(&nowhere);
@@ -167,9 +167,9 @@ fn release_output() {
     }
 }
 
-/// Relays standard input to the program. Reading never waits for writing, so the guard notices the end of
-/// input even if the program never reads. The buffer contains only messages that `arcade` sent without
-/// waiting for an answer.
+/// Relays standard input to the program. Reading never waits for writing, so the guard notices the end of its
+/// input even if the program never reads. The buffer stays small, because it contains only messages that
+/// `arcade` sent without waiting for an answer.
 fn relay(mut to: ChildStdin, sender: Sender<Event>) {
     let (pass, passed) = channel::<Vec<u8>>();
     thread::spawn(move || {
@@ -204,8 +204,8 @@ fn descendants() -> Vec<Pid> {
     found.into_iter().skip(1).filter_map(Pid::from_raw).collect()
 }
 
-/// Parses the parent process ID in a line of `/proc/<pid>/stat`. The ID is the second field after the process
-/// name. The name is in parentheses and may contain any byte.
+/// Parses the parent process ID in a line of `/proc/<pid>/stat`. It is the second field after the process
+/// name, which is in parentheses and may contain any byte.
 #[cfg(target_os = "linux")]
 fn parent(stat: &[u8]) -> Option<i32> {
     let end = stat.iter().rposition(|&byte| byte == b')')?;
@@ -232,7 +232,7 @@ mod tests {
         assert_eq!(parent(b""), None);
     }
 
-    /// Other tests run concurrently in the same process, so descendants are identified by their IDs.
+    /// Other tests run concurrently in the same process, so this test identifies descendants by their IDs.
     #[test]
     fn children_are_found() {
         let mut command = Command::new("sh");

@@ -1,4 +1,4 @@
-//! The messages to an external program, each encoded as one line of JSON (`docs/how-to/agents.md`).
+//! The messages to an external program. Each message is one line of JSON (`docs/how-to/agents.md`).
 
 use crate::commitment::Commitment;
 use crate::direction::direction_name;
@@ -8,14 +8,14 @@ use engine::{Action, MoverView, Observation, Outcome};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The protocol version. The version is incremented whenever agents for an older version might misread a
+/// The protocol version. It is incremented whenever agents written for an older version might misread a
 /// message.
 pub const PROTOCOL: u32 = 1;
 
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(super) enum Message<'a> {
-    /// The first message, with the facts about the entire episode. No answer is expected.
+    /// The first message, with the facts that apply to the entire episode. No answer is expected.
     Hello {
         /// The protocol version: [`PROTOCOL`].
         protocol: u32,
@@ -41,7 +41,7 @@ pub(super) enum Message<'a> {
         turn: u64,
         kinds: Vec<&'a str>,
     },
-    /// The current observation. Unless the turn was played before an interruption, an answer is expected:
+    /// The current observation. An answer is expected, unless the turn was played before an interruption:
     /// `{"action": …}`, or `{"actions": […]}` if the player commits to several actions.
     Turn {
         /// The number of actions played before this decision.
@@ -69,7 +69,7 @@ pub(super) enum Message<'a> {
     },
 }
 
-/// The marker for a turn played before an interruption.
+/// The marker of a turn played before an interruption.
 #[derive(Debug, Serialize)]
 pub(super) struct Past {
     /// Always `true`. A past turn expects no answer.
@@ -84,7 +84,7 @@ pub(super) struct Past {
 #[derive(Debug, Serialize)]
 pub(super) struct Tick {
     action: Action,
-    /// `true` if the action was available. Otherwise, the player did nothing in this tick.
+    /// `true` if the action was available. If it was not, the player did nothing in this tick.
     available: bool,
     cell: Option<(i32, i32)>,
     reward: f64,
@@ -117,7 +117,7 @@ pub(super) struct Seen<'a> {
 #[derive(Debug, Serialize)]
 struct Sprites<'a> {
     name: &'a str,
-    /// The column and row of each cell overlapped by the sprites, row by row. A cell is listed once per
+    /// The column and row of each cell that the sprites overlap, row by row. A cell is listed once per
     /// sprite.
     cells: Vec<(usize, usize)>,
 }

@@ -53,20 +53,20 @@ const MAX_REASKS: u32 = 1;
 /// The time after an unanswered `invalid` message at which a notice is shown.
 const NOTICE_AFTER: Duration = Duration::from_secs(10);
 
-/// The maximum total size of stale answers (to earlier turns) skipped while waiting for an answer, in bytes
-/// (1 MiB).
+/// The maximum total size, in bytes, of stale answers (answers to earlier turns) skipped while waiting for an
+/// answer (1 MiB).
 const MAX_STALE: usize = 1 << 20;
 
-/// The configuration for an external process.
+/// The configuration of an external process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProcessConfig {
-    /// The time limit for an answer. For the first answer, the limit includes the start of the process.
+    /// The time limit for an answer. For the first answer, the limit includes the time to start the process.
     pub timeout: Duration,
     /// The names of environment variables that the process inherits in addition to the default variables.
     pub inherited: Vec<String>,
     /// The command for a guard: a program that calls [`guard`](guard()) with its remaining arguments. The
     /// arguments are the folder, `--`, and the words of the player's command. If the guard command is empty,
-    /// the process is started directly, and survives if this program is killed.
+    /// the process is started directly, and outlives this program if this program is killed.
     pub guard: Vec<OsString>,
 }
 
@@ -76,8 +76,8 @@ impl Default for ProcessConfig {
     }
 }
 
-/// A player implemented as an external program. The program is started at an episode's first turn, and killed
-/// at the end of the episode.
+/// A player implemented as an external program. The program is started at the first turn of an episode, and
+/// killed at the end of the episode.
 #[derive(Debug)]
 pub struct Process {
     command: String,
@@ -107,8 +107,8 @@ struct Running {
 }
 
 impl Process {
-    /// Creates a player from a command line. The command line is split into words by shell rules, but no
-    /// shell is run.
+    /// Creates a player from a command line. The command line is split into words by the rules of shells, but
+    /// no shell is run.
     ///
     /// # Errors
     /// Returns an error if the command line is empty, or if its quotes do not match.
@@ -138,8 +138,8 @@ impl Process {
         self
     }
 
-    /// Checks that the command line's program exists, and the script if the program is an interpreter. The
-    /// check runs before any other work depends on the program.
+    /// Checks that the command line's program exists, and also its script if the program is an interpreter.
+    /// Call this before any other work depends on the program.
     ///
     /// # Errors
     /// Returns an error if the check shows that the program cannot be started. The message suggests the name
@@ -154,7 +154,7 @@ impl Process {
         &self.command
     }
 
-    /// Returns the process. If necessary, starts the process and sends the `hello` message.
+    /// Returns the process. Starts it and sends the `hello` message if necessary.
     fn running(&mut self, turn: &Turn<'_>) -> Result<&mut Running, Halt> {
         let running = match self.running.take() {
             Some(running) => running,
@@ -187,7 +187,7 @@ impl Process {
         Halt::Rejected(format!("`{}` cannot be started: {why}", self.command))
     }
 
-    /// Handles a player failure by killing the process and reporting its last output.
+    /// Handles a failure of the player: kills the process, and reports its last output.
     fn failed(&mut self, no_line: NoLine, turn: &Turn<'_>, attempt: u32) -> Halt {
         let number = turn.number;
         let what = match no_line {
@@ -420,8 +420,8 @@ struct Addressed {
 
 /// Returns the next answer to the given turn.
 ///
-/// Answers to an earlier turn are skipped, so that an agent that states its turns cannot get out of sync. The
-/// timeout includes the skipped answers. Calls `notice` once, after `notice_after`.
+/// Answers to an earlier turn are skipped, so an agent that states its turns cannot get out of sync. Skipped
+/// answers count towards the timeout. Calls `notice` once, after `notice_after`.
 fn receive(
     process: &LineProcess,
     timeout: Duration,
@@ -451,7 +451,7 @@ fn receive(
     }
 }
 
-/// Returns an answer's actions, up to the number due, or a message about the problem with the answer.
+/// Returns an answer's actions, up to the number due, or a message stating the problem with the answer.
 fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     if let Ok(Addressed { turn: addressed }) = serde_json::from_slice(answer)
         && addressed > turn.number
@@ -488,7 +488,7 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     }
 }
 
-/// Returns an answer's predictions, or a message about the problem with the answer. `names` maps the names
+/// Returns an answer's predictions, or a message stating the problem with the answer. `names` maps the names
 /// sent to the process to the game's own names.
 fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<Predicted, String> {
     const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with \

@@ -1,5 +1,5 @@
-//! Checks a command's program before starting it, so that a misspelt name is reported before a results folder
-//! is created.
+//! Checks that a command's program exists before it is started, so that a misspelt name is reported before a
+//! results folder is created.
 
 use base::MessagePath;
 use itertools::Itertools;
@@ -7,7 +7,7 @@ use std::ffi::OsStr;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-/// The file extensions of scripts that an interpreter runs as its first argument.
+/// The file extensions of scripts that an interpreter takes as its first argument.
 const SCRIPTS: [&str; 9] = ["py", "sh", "js", "mjs", "ts", "rb", "pl", "lua", "jl"];
 
 /// Checks that the program in the first word exists. If the second word looks like a script, checks that the

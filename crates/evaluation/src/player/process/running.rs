@@ -1,4 +1,4 @@
-//! A registry of all players' running processes, so that an exiting program can kill them first.
+//! A registry of all players' running processes, so that a program that is exiting can kill them first.
 
 use rustix::process::{Pid, Signal, kill_process, kill_process_group};
 use std::collections::BTreeMap;
@@ -8,8 +8,8 @@ use std::time::Duration;
 
 static RUNNING: Mutex<Running> = Mutex::new(Running { is_over: false, players: BTreeMap::new() });
 
-/// The maximum number of polls until all players have exited. With the pauses between polls, the total time
-/// is at most three seconds.
+/// The maximum number of polls until all players have exited. Including the pauses between polls, this takes
+/// at most three seconds.
 const POLLS: u32 = 600;
 /// The pause between polls for running players.
 const PAUSE: Duration = Duration::from_millis(5);
@@ -18,9 +18,8 @@ const PAUSE: Duration = Duration::from_millis(5);
 pub(super) struct Running {
     /// `true` once no more players may start.
     pub(super) is_over: bool,
-    /// The running players by process ID, with `true` for players that have a guard. A player is inserted
-    /// while it starts, and removed before it is reaped, because its ID may then be reused by a different
-    /// process.
+    /// The running players by process ID, each with `true` if it has a guard. A player is inserted while it
+    /// starts. It is removed before it is reaped, because afterwards a different process may reuse its ID.
     pub(super) players: BTreeMap<u32, bool>,
 }
 
@@ -29,7 +28,7 @@ pub(super) fn running() -> MutexGuard<'static, Running> {
     RUNNING.lock().expect("nothing panics while it holds this lock")
 }
 
-/// Kills all of this program's players and prevents new players from starting, so that the program can exit.
+/// Kills all of this program's players and prevents new ones from starting, so that the program can exit.
 ///
 /// Episodes in progress are left in the same state as after an interruption. The function returns when all
 /// players have exited, or after at most three seconds.

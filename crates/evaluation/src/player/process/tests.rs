@@ -23,7 +23,7 @@ struct Board {
 }
 
 impl Board {
-    /// Starts an episode with a `sh` script as the player, and with a time limit for its answers.
+    /// Starts an episode with a `sh` script as the player, and with a time limit for the script's answers.
     fn with(script: &str, timeout: Duration) -> Board {
         Board::playing(GAME, script, timeout)
     }
@@ -107,7 +107,7 @@ impl Board {
     }
 }
 
-/// Reads the messages that a script copied to a file.
+/// Reads the messages that a script has copied to a file.
 fn heard(path: &std::path::Path) -> Vec<Value> {
     let text = std::fs::read_to_string(path).unwrap();
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
@@ -133,7 +133,7 @@ fn an_episode_is_played_in_lines() {
     assert_eq!((&hello["columns"], &hello["rows"], &hello["step_limit"]), (&6.into(), &4.into(), &30.into()));
     assert!(hello["rules"].as_str().unwrap().contains("You win when no goal is left."));
     assert!(!hello["rules"].as_str().unwrap().contains("characters"));
-    // The step limit applies before the game's Timeout.
+    // The step limit is reached before the game's Timeout.
     assert!(hello["rules"].as_str().unwrap().contains("Play stops at tick 30"));
     assert!(!hello["rules"].as_str().unwrap().contains("tick 90"));
     assert_eq!(hello["legend"]["w"], serde_json::json!(["wall"]));
@@ -156,7 +156,7 @@ fn an_episode_is_played_in_lines() {
     }
 }
 
-/// As in model prompts, the use key is omitted for an avatar that could shoot but has nothing to shoot.
+/// As in model prompts, the use key is not offered to an avatar that could shoot but has nothing to shoot.
 #[test]
 fn the_use_key_is_offered_where_it_does_something() {
     let folder = tempfile::tempdir().unwrap();
@@ -252,7 +252,7 @@ fn late_answers_are_skipped() {
     assert_eq!(board.decide().map(|choice| choice.action(0)), Ok(Action::Right));
 }
 
-/// An answer to a later turn is invalid. Otherwise, all further answers would be out of sync.
+/// An answer to a later turn is invalid, because accepting it would put all further answers out of sync.
 #[test]
 fn answers_to_future_turns_are_invalid() {
     let mut board = Board::of(
@@ -284,7 +284,7 @@ fn late_answers_do_not_extend_the_timeout() {
     assert!(message.contains("more than 1024 KiB of answers to earlier steps at step 1"), "{message}");
 }
 
-/// Before the timeout, the user is notified that the agent ignores `invalid` messages.
+/// The user is notified before the timeout that the agent ignores `invalid` messages.
 #[test]
 fn silence_after_an_invalid_answer_is_reported() {
     let script = "read hello; read turn; echo '{\"action\":\"fly\"}'; exec sleep 600";
@@ -339,7 +339,7 @@ fn a_missing_program_stops_the_evaluation() {
 
 #[test]
 fn processes_and_folders_are_removed() {
-    // The child of the process survives its parent's end of input, and is killed together with the process.
+    // The process's child survives the end of its parent's input, and is killed together with the process.
     let folder = tempfile::tempdir().unwrap();
     let pid = folder.path().join("pid");
     let mut board = Board::of(&format!(
@@ -355,7 +355,7 @@ fn processes_and_folders_are_removed() {
     assert!(!path.exists());
     let gone = |id: i32| test_kill_process(Pid::from_raw(id).unwrap()).is_err();
     assert!(gone(own.cast_signed()));
-    // The child is orphaned at this point, and the process that adopts it may need a moment to reap it.
+    // At this point, the child is orphaned, and the process that adopts it may need a moment to reap it.
     let dead = || {
         let status = std::fs::read_to_string(format!("/proc/{child}/stat")).unwrap_or_default();
         gone(child) || status.contains(") Z ")

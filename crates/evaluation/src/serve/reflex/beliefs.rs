@@ -1,5 +1,5 @@
-//! Interprets the rules' sentences in order to choose a target. Only sentences written by `engine::describe`
-//! are understood.
+//! Interprets the sentences of the rules in order to choose a target. Understands only sentences written by
+//! `engine::describe`.
 
 use engine::EffectFamily;
 use engine::analysis::{EffectSummary, Precondition, Side};
@@ -20,9 +20,9 @@ pub(super) struct Beliefs<'a> {
     pub(super) blocks: BTreeSet<&'a str>,
     /// The sprites that the player can push.
     pub(super) pushed: BTreeSet<&'a str>,
-    /// The sprites that kill the player when touched, if the condition on a resource is satisfied.
+    /// The sprites that kill the player when touched, each with the condition on a resource, if any.
     kills: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
-    /// The sprites removed when touched, if the condition on a resource is satisfied.
+    /// The sprites removed when touched, each with the condition on a resource, if any.
     taken: Vec<(&'a str, Option<ResourceCondition<'a>>)>,
     /// The sprites with any other effect when touched, whether on the player's type, on its resources, or
     /// elsewhere.
@@ -33,7 +33,7 @@ pub(super) struct Beliefs<'a> {
     /// The sprites whose removal loses the game.
     pub(super) must_keep: BTreeSet<&'a str>,
     pub(super) moves: BTreeSet<&'a str>,
-    /// Pairs of sprites. The first sprite of a pair is removed when it touches the second.
+    /// Pairs of sprites of which the first is removed when it touches the second.
     removals: Vec<(&'a str, &'a str)>,
     /// The sprite created by the use key.
     pub(super) shot: Option<Shot<'a>>,
@@ -54,7 +54,7 @@ pub(super) struct Shot<'a> {
     /// `true` if the sprite appears at the player's position rather than ahead of it.
     pub(super) at_player: bool,
     pub(super) ammo: Vec<&'a str>,
-    /// `Some` if the sprite moves by itself. The inner value is the direction, if it is always the same.
+    /// `Some` if the sprite moves by itself. The inner value is the direction, if it is constant.
     pub(super) flight: Option<Option<&'a str>>,
 }
 
@@ -69,7 +69,7 @@ enum Subject {
     Group,
     Win,
     Lose,
-    /// The first party cannot enter the cell of the second party.
+    /// The first party cannot enter the second party's cell.
     Block,
     /// The first party is removed when it touches the second party.
     End,
@@ -84,8 +84,9 @@ enum Subject {
     Motion,
 }
 
-/// The sentence patterns, of which the first match counts. The patterns for touches come from the templates
-/// in `engine::describe`. Templates with more fixed text come first, because they are more specific.
+/// The sentence patterns. The first pattern that matches counts. The patterns for touches come from the
+/// templates in `engine::describe`. Templates with more fixed text come first, because they are more
+/// specific.
 static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {
     use Subject::{Block, Group, Lose, Motion, Win};
     let others = [
@@ -174,12 +175,12 @@ fn subject(template: &Template) -> Option<Subject> {
             | Does::Collect
             | Does::Shield { .. } => false,
         };
-        // Delayed effects and effects elsewhere are not listed among the effects of a template.
+        // A template's effects do not include delayed effects and effects elsewhere.
         (template.effects.is_empty() || template.effects.iter().any(changes)).then_some(Subject::Change)
     }
 }
 
-/// The words that refer to the player's resources in conditions.
+/// The words with which conditions refer to the player's resources.
 const YOU_HOLD: &str = "you hold";
 
 /// The use key's effect in the description of the keys.
@@ -245,7 +246,7 @@ impl<'a> Beliefs<'a> {
         self.wins.contains(name) || self.wins.contains(plural(name).as_str())
     }
 
-    /// Returns `true` if a shot removes the named sprite.
+    /// Returns `true` if a shot would remove the named sprite.
     pub(super) fn is_shot(&self, name: &str) -> bool {
         self.shot.as_ref().is_some_and(|shot| self.removals.contains(&(name, shot.name)))
     }

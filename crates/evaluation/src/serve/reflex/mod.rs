@@ -1,9 +1,9 @@
 //! A player that reads the board and the rules from the prompt, and takes the shortest path to a good target.
 //!
-//! The player does not look ahead. A plan leads from one target to the next, as if nothing else moved, and
-//! avoids deadly sprites. The best targets are sprites whose removal wins the game. Next come sprites that
-//! can be collected or change something, followed by sprites with no known harm. The player shoots at sprites
-//! that its shots remove.
+//! The player does not look ahead. Its plan leads from one target to the next as if nothing else moved,
+//! avoiding deadly sprites. The best targets are sprites whose removal wins the game. Next come sprites that
+//! can be collected or that change something, followed by sprites not known to be harmful. The player shoots
+//! at sprites that its shots remove.
 
 mod beliefs;
 
@@ -22,8 +22,8 @@ const DANGER_COST: u32 = 8;
 /// The cost of pushing a sprite, in steps.
 const PUSH_COST: u32 = 20;
 
-/// The reciprocal of the probability of a random step. Because the player has no memory, it could otherwise
-/// repeat a useless path forever.
+/// The reciprocal of the probability of a random step. The player has no memory, so without random steps it
+/// could repeat a useless path forever.
 const RANDOM_STEP_ODDS: usize = 16;
 
 /// Chooses the next steps, up to the number of actions due.
@@ -80,8 +80,8 @@ struct Reflex<'a> {
 }
 
 impl Reflex<'_> {
-    /// Returns the cell that a step would enter. For each sprite in the cell, the list states whether the
-    /// sprite would be taken. Other moves and pushes are ignored.
+    /// Returns the cell that a step would enter, with `true` for each sprite in the cell that would be taken.
+    /// Other moves and pushes are ignored.
     fn imagine(&self, action: Action) -> Option<(usize, Vec<bool>)> {
         let (_, way) = DIRECTIONS.into_iter().find(|(known, _)| *known == action)?;
         let cell = self.board.beside(self.you.cell, way).filter(|&cell| !self.is_blocked(cell))?;
@@ -145,8 +145,8 @@ impl Reflex<'_> {
         Some(1 + near)
     }
 
-    /// Returns the use key if a target is in the line of fire. Otherwise, returns a turn towards a target in
-    /// a different line, if any.
+    /// Returns the use key if a target is in the line of fire. If there is no such target, returns a turn
+    /// towards a target in a different line, if any.
     fn fire(&self) -> Option<Action> {
         let shot = self.beliefs.shot.as_ref()?;
         let has_ammo = |ammo: &&str| {
@@ -173,7 +173,7 @@ impl Reflex<'_> {
             .into_iter()
             .filter(|(action, _)| self.shown.actions.contains(action) && always.is_none());
         let mut seen = turns.filter_map(|(action, way)| Some((self.target(way, reach)?, action)));
-        // A target in the next cell is skipped, because it is too close for a turn.
+        // A target in the adjacent cell is skipped, because it is too close for a turn.
         seen.find(|(distance, _)| *distance > 1).map(|(_, action)| action)
     }
 
@@ -196,7 +196,7 @@ impl Reflex<'_> {
         None
     }
 
-    /// Returns the first step to the best reachable target. The nearest of several equally good targets is
+    /// Returns the first step to the best reachable target. Among equally good targets, the nearest is
     /// chosen.
     fn go(&self, choices: &mut Sampler) -> Option<Action> {
         let enter = |cell: usize, way| self.entry_cost(cell, way);

@@ -13,8 +13,8 @@ use statistics::{
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The comparisons of pairs of players. Each of the three lists is a separate family for the
-/// Benjamini–Hochberg correction. A family includes every pair with episodes on both sides, even if the
-/// results are equal, so that it does not depend on the results.
+/// Benjamini–Hochberg correction. A family includes every pair with episodes on both sides, even if their
+/// results are equal, so that its size does not depend on the results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Contrasts {
     /// Each pair's comparison on each level.
@@ -51,7 +51,7 @@ pub struct Comparison {
 /// A comparison of two players on all levels that both played.
 ///
 /// The difference, its interval, h, p and q are computed from the same two rates. Each rate is a mean over
-/// games, and each game's value is a mean over its levels. The results apply to similar games.
+/// games, where a game's value is the mean over its levels. The results apply to similar games.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverallComparison {
     /// The two players' indices in the study.
@@ -68,19 +68,20 @@ pub struct OverallComparison {
     pub rates: [f64; 2],
     /// The first player's rate minus the second player's.
     pub difference: f64,
-    /// The difference between the rates, with the interval from the paired t test over games. `None` with
-    /// fewer than two games.
+    /// The difference between the rates, with the interval from the paired t test over games. `None` if there
+    /// are fewer than two games.
     pub over_games: Option<Estimate>,
-    /// The bounds of the difference, computed as if one player had lost all its aborted episodes and the
-    /// other player had won all of its own. `None` if no episode was aborted.
+    /// The bounds of the difference, computed as if one player had lost all of its aborted episodes and the
+    /// other had won all of its own. `None` if no episode was aborted.
     pub bounds: Option<[f64; 2]>,
-    /// The two-sided p-value of the paired t test over games. `None` with fewer than two games.
+    /// The two-sided p-value of the paired t test over games. `None` if there are fewer than two games.
     pub p: Option<f64>,
     /// The p-value corrected for all pairs in the list with a p-value (Benjamini–Hochberg).
     pub q: Option<f64>,
     /// Cohen's h, computed from the two players' rates.
     pub h: f64,
-    /// The exact test within levels, which applies to exactly the played levels rather than to other games.
+    /// The exact test within levels, which is valid for exactly the played levels rather than for similar
+    /// games.
     pub within_levels: WithinLevels,
 }
 
@@ -145,8 +146,8 @@ impl Contrasts {
     }
 
     /// Compares models in the same mode with each other, and with players that are not models. A model is
-    /// also compared with itself under different conditions. A model's modes and aids are compared by
-    /// [`Contrasts::modes`] and [`Contrasts::aids`].
+    /// also compared with itself under different conditions. [`Contrasts::modes`] and [`Contrasts::aids`]
+    /// compare a model's modes and aids.
     pub(crate) fn pairs(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.tuple_combinations().filter(|((_, ours), (_, theirs))| {
@@ -174,15 +175,15 @@ impl Contrasts {
         Contrasts::of(study, &pairs)
     }
 
-    /// Compares each model without an aid and with the aid, in the same mode. The variant without the aid
-    /// comes first.
+    /// Compares each model without and with an aid, in the same mode. The variant without the aid comes
+    /// first.
     pub(crate) fn aids(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.clone().cartesian_product(players).filter(|((_, without), (_, with))| {
             let of = |player: &crate::study::Player| {
                 (player.name.clone(), player.mode.clone(), player.conditions.clone())
             };
-            // A track is not an aid, so its results stay separate.
+            // A track is not an aid, so the results of different tracks stay separate.
             let same = of(without) == of(with) && without.track() == with.track();
             let more = with.aids.len() == without.aids.len() + 1;
             same && more && without.aids.iter().all(|aid| with.aids.contains(aid))
@@ -345,9 +346,8 @@ fn by_game(
     games.into_values().map(mean).collect()
 }
 
-/// Returns the bounds of the difference on the levels that both players started. The bounds assume that all
-/// aborted episodes went against the first player, or in its favour. Returns `None` if no episode was
-/// aborted.
+/// Returns the bounds of the difference on the levels that both players started, assuming that all aborted
+/// episodes went against the first player or in its favour. Returns `None` if no episode was aborted.
 fn bounds(results: [&Results; 2]) -> Option<[f64; 2]> {
     let levels: Vec<(usize, usize)> =
         results[0].keys().filter(|level| results[1].contains_key(level)).copied().collect();

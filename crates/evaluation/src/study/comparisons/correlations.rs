@@ -17,8 +17,8 @@ pub const CORRELATED: [&str; 4] = ["win", "meaningful", "steps", "distance"];
 pub struct Correlations {
     /// The number of episodes with known values for all four variables.
     pub episodes: u64,
-    /// The number of episodes excluded because of a missing value. An episode without steps or without an
-    /// avatar lacks a value.
+    /// The number of episodes excluded because a value is missing. For example, episodes without steps or
+    /// without an avatar lack a value.
     pub excluded: u64,
     /// The correlations for all six pairs of variables.
     pub pairs: Vec<Correlation>,
@@ -40,7 +40,7 @@ pub struct Correlation {
 pub struct Test {
     /// The coefficient, from −1 to 1.
     pub r: f64,
-    /// The two-sided p-value. Episodes are treated as independent.
+    /// The two-sided p-value. It treats episodes as independent.
     pub p: f64,
     /// The p-value corrected for the number of pairs (Bonferroni).
     pub adjusted: f64,

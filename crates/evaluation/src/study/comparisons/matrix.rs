@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 
 base::named_enum! {
-    /// A measure that a heat map can show.
+    /// A measure shown in heat maps.
     pub enum Measure {
         /// The number of wins divided by the number of episodes.
         WinRate = "win_rate",
@@ -38,8 +38,8 @@ impl Measure {
         }
     }
 
-    /// Returns `true` if higher values are better, and `false` if lower values are better. Returns `None` if
-    /// neither direction is better.
+    /// Returns `true` if higher values are better, `false` if lower values are better, and `None` if neither
+    /// is better.
     pub fn higher_is_better(self) -> Option<bool> {
         match self {
             Measure::Steps => None,
@@ -92,14 +92,14 @@ impl Scope {
 /// The scores of all players on all games or levels. Every heat map is drawn from these scores.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Matrix {
-    /// The scope, which determines the included players.
+    /// The scope, which determines which players are included.
     pub scope: Scope,
     /// The matrix rows.
     pub rows: Vec<MatrixRow>,
     /// The matrix columns.
     pub columns: Vec<MatrixColumn>,
-    /// The scores of each row's players on each column's levels, in row-major order. `None` if no episode was
-    /// played.
+    /// The scores of each row's players on each column's levels, in row-major order. `None` if no episodes
+    /// were played.
     pub cells: Vec<Vec<Option<Scores>>>,
 }
 
@@ -169,7 +169,7 @@ impl Matrix {
         let title = format!("{} by {grain}, {scope}", measure.title());
         let note = if measure == Measure::WinRate { "With Wilson's 95% interval." } else { "" };
         let names = self.rows.iter().map(|row| row.label.as_str());
-        // The table of steps by level also shows the optimum.
+        // The table of steps by level also has a column with the optimum.
         let with_optimum =
             measure == Measure::Steps && self.columns.iter().any(|column| column.level.is_some());
         let optimum = with_optimum.then_some("fewest to win (proved)");

@@ -1,4 +1,4 @@
-//! The statistical power of a plan with given numbers of games, levels and runs. The plan may be a future
+//! The statistical power of a plan with given numbers of games, levels and runs. A plan may be a future
 //! evaluation, or the episodes already played.
 
 use crate::study::Study;
@@ -7,7 +7,7 @@ use report::{Table, TableCell};
 use serde::Serialize;
 use statistics::{Design, Spread};
 
-/// A plan's power, computed for the test over games at the 5% level ([`statistics::paired_over_games`]) and
+/// A plan's power, computed for the test over games at the 5% level ([`statistics::paired_over_games`]) with
 /// the standard deviations in [`Spread::default`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PowerRow {
@@ -27,7 +27,7 @@ pub struct PowerRow {
     pub from_half: Option<f64>,
 }
 
-/// Returns a plan's power and, for comparison, the power of plans with no more episodes.
+/// Returns a plan's power and, for comparison, the power of plans with at most as many episodes.
 ///
 /// ```
 /// use infinite_arcade_evaluation::study::power;

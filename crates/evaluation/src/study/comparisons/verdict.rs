@@ -8,17 +8,17 @@ use crate::study::{OverallComparison, Study, TaxonomyRow};
 use itertools::Itertools;
 use std::cmp::Reverse;
 
-/// The maximum number of players with described failures.
+/// The maximum number of players whose failures are described.
 const TOLD: usize = 6;
-/// The number of kinds of game listed as won most often, and the number listed as won least often.
+/// The number of game kinds listed as won most often, and also the number listed as won least often.
 const KINDS: usize = 3;
 
 impl Study {
     /// Summarises the results in plain words. Returns an empty list if no episode has ended.
     ///
     /// The first paragraph is about the best model, or the best player if there is no model. It states the
-    /// player's win rate, compares the player with the next player, and lists the kinds of game that the
-    /// player wins. Each further paragraph describes how one player failed.
+    /// player's win rate, compares the player with the next best, and lists the kinds of game that the player
+    /// wins. Each further paragraph describes how one player failed.
     pub fn verdict(&self) -> Vec<String> {
         let tested = |row: &&LeaderRow| !self.players[row.player].is_reference();
         let played = || self.leaderboard.iter().filter(|row| row.scores.episodes > 0);
@@ -49,8 +49,8 @@ impl Study {
             };
             self.leaderboard.iter().filter(is_other)
         };
-        // A higher win rate may come from easier levels, so the other player may be ahead on the levels that
-        // both players played.
+        // A higher win rate may come from easier levels, so the other player may be ahead on the levels
+        // played by both.
         let is_ahead = |other: &LeaderRow| {
             let found =
                 self.comparison(row, other).and_then(|(sign, found)| Some(sign * found.over_games?.value));
@@ -70,7 +70,7 @@ impl Study {
         format!("{label} {won}: {value}% ({wins} of {episodes} episodes); {about}, {low} to {high}%.")
     }
 
-    /// Returns the comparison of two players, with a sign. Multiplied by the sign, the differences are the
+    /// Returns the comparison of two players and a sign. Multiplied by the sign, the differences are the
     /// first player's values minus the second player's.
     fn comparison(&self, one: &LeaderRow, other: &LeaderRow) -> Option<(f64, &OverallComparison)> {
         let all = [&self.pairs, &self.modes, &self.aids].into_iter().flat_map(|contrasts| &contrasts.overall);

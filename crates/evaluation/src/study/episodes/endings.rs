@@ -1,4 +1,4 @@
-//! Groups the episodes without a win by cause: the sprite and the rule that ended them. Also computes the
+//! Groups the episodes without a win by cause: the sprite and the rule that ended them. Also computes their
 //! distance from a win.
 
 use crate::metrics::{EndingKind, GoalDistance};
@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A player's episodes on a game that ended with the same cause.
+/// A player's episodes on one game that ended for the same reason.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EndingRow {
     /// The player's index in the study.
@@ -26,7 +26,7 @@ pub struct EndingRow {
     pub rule: Option<String>,
     /// The number of episodes with this cause.
     pub episodes: u64,
-    /// The numbers of the levels with these episodes.
+    /// The numbers of the levels on which these episodes were played.
     pub levels: BTreeSet<usize>,
     /// The smallest distance from a win among the episodes with this cause.
     pub nearest: Option<GoalDistance>,
@@ -80,7 +80,7 @@ fn of_player(study: &Study, player: usize) -> Vec<EndingRow> {
     rows.into_values().sorted_by_key(|row| Reverse(row.episodes)).collect()
 }
 
-/// Returns the smallest distance. Returns the first one if several are equal.
+/// Returns the smallest distance, or the first one among equals.
 pub(crate) fn nearest<'a>(distances: impl Iterator<Item = &'a GoalDistance>) -> Option<&'a GoalDistance> {
     distances.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
 }
@@ -100,11 +100,11 @@ pub(crate) fn summaries(study: &Study) -> Vec<EndingSummary> {
 
 impl Study {
     /// Returns up to `count` of a player's most informative episodes. Losses come before wins. Each cause is
-    /// represented once, by its episode nearest to a win, before any cause is repeated. The most frequent
-    /// cause of each kind comes before the kind's other causes. Aborted episodes come last.
+    /// represented once, by its episode nearest to a win, before any cause is repeated. Each kind's most
+    /// frequent cause comes before its other causes. Aborted episodes come last.
     pub fn telling(&self, player: usize, count: usize) -> Vec<&StudyEpisode> {
         let causes: Vec<&EndingRow> = self.endings.iter().filter(|row| row.player == player).collect();
-        // `numbers` holds the index of each cause among the causes of its kind, and `seen` the number of its
+        // `numbers` holds each cause's index among the causes of its kind, and `seen` the number of its
         // episodes so far.
         let of_kind = |at: usize| causes[..at].iter().filter(|row| row.kind == causes[at].kind).count();
         let numbers: Vec<usize> = (0..causes.len()).map(of_kind).collect();

@@ -18,11 +18,11 @@ base::named_enum! {
         MaxBumps = "max_bumps",
         /// The bump rate in the last quarter of the steps.
         LateBumpRate = "late_bump_rate",
-        /// The fraction of steps that returned to the avatar's cell from two steps before.
+        /// The fraction of steps that returned to the cell where the avatar was two steps before.
         OscillationRate = "oscillation_rate",
         /// The number of distinct cells visited by the avatar.
         UniqueCells = "unique_cells",
-        /// The number of distinct cells visited divided by the area of the cells' bounding rectangle.
+        /// The number of distinct cells visited, divided by the area of their bounding rectangle.
         Coverage = "coverage",
     }
 }
@@ -54,8 +54,8 @@ impl FailureMeasure {
     }
 }
 
-/// A metric's values in won episodes and in other episodes of models. If there are no models, all players are
-/// included.
+/// A metric's values in the won episodes and in the other episodes of models. If there are no models, all
+/// players are included.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FailureMode {
     /// The failure-mode metric.
@@ -64,7 +64,7 @@ pub struct FailureMode {
     pub won: Vec<f64>,
     /// The values in all other episodes.
     pub lost: Vec<f64>,
-    /// The number of episodes excluded because the metric has no value.
+    /// The number of episodes excluded because they have no value for the metric.
     pub excluded: u64,
     /// Welch's test of the difference between the means, won minus other episodes. `None` if either side has
     /// fewer than two values, or if there is no variance.
@@ -78,9 +78,9 @@ pub struct WelchTest {
     pub t: f64,
     /// The degrees of freedom.
     pub df: f64,
-    /// The two-sided p-value. Episodes are treated as independent.
+    /// The two-sided p-value. It treats episodes as independent.
     pub p: f64,
-    /// The p-value corrected for the six metrics (Bonferroni). The paper omits the correction.
+    /// The p-value corrected for the six metrics (Bonferroni). The paper makes no such correction.
     pub adjusted: f64,
 }
 
@@ -123,7 +123,7 @@ pub struct OscillationRow {
 }
 
 /// Returns the levels on which models oscillate, highest rate first. If there are no models, all players are
-/// included. Levels without oscillation are omitted.
+/// included. Levels with a rate of zero are omitted.
 pub(crate) fn oscillations(study: &Study) -> Vec<OscillationRow> {
     let mut groups: BTreeMap<(usize, usize, usize), Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.tested() {

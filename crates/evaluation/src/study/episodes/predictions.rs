@@ -14,7 +14,8 @@ pub struct PredictionRow {
     pub answers: u64,
     /// The number of correct predictions.
     pub right: u64,
-    /// The number of gradable predictions: the pairs of sprite types and facts that the rules determine.
+    /// The number of predictions that can be graded: the pairs of sprite types and facts that the rules
+    /// determine.
     pub of: u64,
     /// The mean insight of the answers ([`Grade::insight`](crate::predictions::Grade::insight)). Answers
     /// without an insight are excluded.

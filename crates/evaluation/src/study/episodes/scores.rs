@@ -29,7 +29,7 @@ impl Estimate {
     /// interval applies to similar games ([`rate_over_games`]). For one game, the interval is Wilson's and
     /// applies to exactly its levels.
     ///
-    /// A player's identical episodes on a level are one observation: the rate counts all of them, but the
+    /// A player's identical episodes on a level are one observation. The rate counts all of them, but the
     /// interval counts them once.
     pub(in crate::study) fn rate(ended: &[&StudyEpisode]) -> Option<Estimate> {
         let mut games: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
@@ -43,7 +43,7 @@ impl Estimate {
         }
         let &[(wins, episodes)] = &counts[..] else { return None };
         let (seen, of) = observations(ended.iter().copied());
-        // The numbers of copies of won and lost episodes may differ. Therefore, the rate is computed from all
+        // Won and lost episodes may have different numbers of copies, so the rate is computed from all
         // episodes.
         let (rate, interval) = (wins as f64 / episodes as f64, wilson(seen, of, Z95));
         Some(Estimate { value: rate, low: interval.low.min(rate), high: interval.high.max(rate) })
@@ -81,11 +81,11 @@ pub struct Scores {
     pub episodes: u64,
     /// The number of aborted or unfinished episodes.
     pub excluded: u64,
-    /// The number of wins.
+    /// The number of won episodes.
     pub wins: u64,
     /// The number of episodes that reached the step limit.
     pub timeouts: u64,
-    /// The number of observations. A player's identical episodes on a level are one observation.
+    /// The number of observations. Identical episodes of a player on a level are one observation.
     pub observations: u64,
     /// The number of wins divided by the number of episodes. The interval applies to similar games, or to
     /// exactly the played levels if they belong to one game.
@@ -106,8 +106,8 @@ pub struct Scores {
     /// The paper's overall score: the mean of the meaningful step ratio, the fraction of unused steps, the
     /// normalised reward and the win rate. `None` if one of the four values is missing.
     pub overall: Option<f64>,
-    /// The step efficiency, averaged over the levels with wins. A level's value is `1 − mean steps of wins /
-    /// most steps of any episode`.
+    /// The step efficiency, averaged over the levels with wins. A level's efficiency is `1 − mean steps of
+    /// wins / most steps of any episode`.
     pub efficiency: Option<f64>,
     /// The mean of `optimal ticks / steps` over the wins on levels whose shortest win is proved optimal.
     pub optimality: Option<f64>,
@@ -154,8 +154,8 @@ impl Scores {
     }
 }
 
-/// Returns the number of wins and the number of episodes, without duplicates. A player's episodes on a level
-/// are identical if their actions and boards are the same.
+/// Returns the number of wins and the number of episodes, not counting duplicates. A player's episodes on a
+/// level are duplicates if their actions and boards are the same.
 pub(crate) fn observations<'a>(ended: impl Iterator<Item = &'a StudyEpisode>) -> (u64, u64) {
     let mut seen: BTreeSet<(usize, usize, usize, Digest)> = BTreeSet::new();
     let new = ended.filter(|episode| {
@@ -189,7 +189,7 @@ pub(crate) fn levels_of<'a>(
     episodes.into_iter().map(|episode| (episode.game, episode.metrics.level)).collect()
 }
 
-/// Sets all episodes' normalised rewards and maximum numbers of steps.
+/// Sets the normalised reward and the maximum number of steps of all episodes.
 pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
     let place = |episode: &StudyEpisode| (episode.metrics.track.clone(), episode.game, episode.metrics.level);
     let mut ranges: BTreeMap<_, (f64, f64, u64)> = BTreeMap::new();
@@ -203,8 +203,8 @@ pub(crate) fn normalise(episodes: &mut [StudyEpisode]) {
             continue;
         };
         let score = episode.metrics.score;
-        // The small term keeps the paper's quotient from dividing by 0. If the range is empty, the value is
-        // missing here.
+        // In the paper, the small term prevents a division by zero. Here, the value is missing if the range
+        // is empty.
         let reward = (score - least) / (most - least + 1e-8);
         episode.normalised_reward = (most > least && episode.metrics.counts()).then_some(reward);
         episode.most_steps = steps;

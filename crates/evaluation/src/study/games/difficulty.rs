@@ -52,7 +52,7 @@ pub struct DifficultyRow {
     /// The score `0.6 win rate + 0.2 normalised reward + 0.2 efficiency`. A higher score means an easier
     /// level. `None` if a component is missing.
     pub ease: Option<f64>,
-    /// The score's class. `None` if there is a win but no score.
+    /// The class of the score. `None` if there is a win but no score.
     pub label: Option<DifficultyLabel>,
 }
 

@@ -8,15 +8,15 @@ use serde::Serialize;
 use statistics::{Z95, rate_over_games, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One player's results with one commitment, on a tier's levels with reference results. The player is a
-/// reference player or a player in the study.
+/// One player's results with one commitment on a tier's levels, for levels with reference results. The player
+/// is a reference player or a player in the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MarkRow {
     /// The tier of the levels.
     pub tier: u8,
     /// The number of actions that the player commits to at each decision, or `all`.
     pub commit: String,
-    /// A reference player's name, or the label of a player in the study without its commitment.
+    /// A reference player's name, or the label (without the commitment) of a player in the study.
     pub player: String,
     /// `true` for a reference player, whose results come from the release.
     pub is_mark: bool,

@@ -4,7 +4,7 @@ use crate::mask;
 use engine::syntax::SpriteLine;
 use engine::{Description, Direction, Game};
 
-/// Returns `true` if one game's rules are the other's with left and right exchanged, under any names.
+/// Returns `true` if one game's rules equal the other's with left and right exchanged, regardless of names.
 pub(in crate::study) fn is_image(one: &Game, other: &Game) -> bool {
     let facing = |game: &Game| -> Vec<Direction> {
         let concrete = game.sprite_types().filter(|&stype| game.class(stype).is_some());
@@ -28,8 +28,8 @@ fn direction(direction: Direction) -> Direction {
     }
 }
 
-/// Returns rules without the sprite types' orientations, which the compiled games contain. If `swap` is
-/// `true`, exchanges left and right in the remaining rules.
+/// Returns the rules without the sprite types' orientations, which are compared in the compiled games. If
+/// `swap` is `true`, exchanges left and right in the remaining rules.
 fn undirected(rules: &Description, swap: bool) -> Description {
     let mut rules = rules.clone();
     sprites(&mut rules.sprites, swap);

@@ -1,4 +1,4 @@
-//! Players' results by kind of game. The kind is stated by the release, or derived from the rules by a
+//! Players' results by kind of game. The kind is either stated by the release or derived from the rules by a
 //! taxonomy.
 
 use crate::study::episodes::scores::{Estimate, Scores};
@@ -14,23 +14,23 @@ pub struct TaxonomyRow {
     pub kind: String,
     /// The player's index in the study.
     pub player: usize,
-    /// The number of the kind's games that the player played.
+    /// The number of games of this kind that the player played.
     pub games: u64,
-    /// The scores on games of the kind.
+    /// The scores on games of this kind.
     pub scores: Scores,
 }
 
-/// The text shown in place of an unrecorded kind of game.
+/// The text shown when a game's kind was not recorded.
 const NOT_RECORDED: &str = "not recorded";
 
-/// Returns one row for each taxonomy kind and player. Kinds are ordered by their first game. A game can have
-/// several kinds.
+/// Returns one row per player for each kind in the taxonomy. Kinds are ordered by their first game. A game
+/// can have several kinds.
 pub(crate) fn taxonomy(study: &Study) -> Vec<TaxonomyRow> {
     rows(study, |game| game.taxonomy.clone())
 }
 
-/// Returns one row for each kind stated by the release and each player, with the kinds in alphabetical order.
-/// The list is empty if no game has a recorded kind.
+/// Returns one row per player for each kind stated by the release, with the kinds in alphabetical order. The
+/// list is empty if no game has a recorded kind.
 pub(crate) fn kinds(study: &Study) -> Vec<TaxonomyRow> {
     if study.games.iter().all(|game| game.kind.is_empty()) {
         return Vec::new();

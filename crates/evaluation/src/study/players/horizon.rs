@@ -19,7 +19,7 @@ base::named_enum! {
         Exact = "deterministic",
         /// Stochastic games, in which a plan must work for every outcome.
         Robust = "stochastic",
-        /// Games of both kinds, and games whose kind is unknown.
+        /// Games of both kinds, including games whose kind is unknown.
         All = "all",
     }
 }
@@ -35,7 +35,7 @@ pub struct HorizonRow {
     pub rates: Vec<CommitmentRate>,
     /// The horizon in ticks, with its interval over games.
     pub horizon: Option<Estimate>,
-    /// The lowest and the highest horizon that can be reported. The lowest is a quarter of the smallest
+    /// The lowest and highest horizons that can be reported. The lowest is a quarter of the smallest
     /// effective commitment, but at least one tick. The highest is four times the largest effective
     /// commitment.
     pub range: [f64; 2],
@@ -46,8 +46,8 @@ pub struct HorizonRow {
 pub struct CommitmentRate {
     /// The commitment as written in results: a number, or `all`.
     pub commit: String,
-    /// The mean effective commitment, in ticks. An effective commitment is at most the length of the level's
-    /// shortest known win.
+    /// The mean effective commitment, in ticks. The effective commitment is capped at the length of the
+    /// level's shortest known win.
     pub ticks: f64,
     /// The win rate with its interval.
     pub rate: Option<Estimate>,
@@ -56,7 +56,7 @@ pub struct CommitmentRate {
 }
 
 impl HorizonRow {
-    /// Formats the horizon, as in `12`, or `≥ 80` if only a bound is known. An unknown horizon is formatted
+    /// Formats the horizon, such as `12`, or `≥ 80` if only a bound is known. An unknown horizon is formatted
     /// as `–`.
     pub fn told_value(&self) -> String {
         self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
@@ -78,7 +78,7 @@ impl HorizonRow {
         }
     }
 
-    /// Formats a number of ticks. At the ends of the range, the number is preceded by `≤` or `≥`.
+    /// Formats a number of ticks, preceded by `≤` or `≥` at an end of the range.
     fn bounded(&self, ticks: f64) -> String {
         let [least, most] = self.range;
         let sign = if ticks <= least {
@@ -93,8 +93,8 @@ impl HorizonRow {
     }
 }
 
-/// Returns one row for each player with several commitments and each kind of game played, furthest horizon
-/// first.
+/// Returns one row for each player with several commitments and each kind of game that it played, furthest
+/// horizon first.
 pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
     let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
@@ -128,8 +128,8 @@ pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
     rows
 }
 
-/// Returns the length of the shortest known win in ticks, by game and level. If no shortest win is proved,
-/// the shortest win of any player in the study is used.
+/// Returns the length of the shortest known win in ticks, by game and level. If no win is proved to be
+/// shortest, the shortest win by any player in the study is used.
 fn shortest_wins(study: &Study) -> BTreeMap<(usize, usize), u64> {
     let mut shortest = BTreeMap::new();
     let wins = study.episodes.iter().filter(|episode| episode.metrics.won());
@@ -148,7 +148,7 @@ fn row(
     episodes: &[&StudyEpisode],
     shortest: &BTreeMap<(usize, usize), u64>,
 ) -> HorizonRow {
-    // A commitment beyond the shortest win is effectively a commitment to the length of the win.
+    // A commitment longer than the shortest win is effectively a commitment to the length of that win.
     let ticks = |episode: &StudyEpisode| {
         let metrics = &episode.metrics;
         let known = shortest.get(&(episode.game, metrics.level)).copied().unwrap_or(u64::MAX);
@@ -168,7 +168,7 @@ fn row(
     let seed = blake3::hash(format!("horizon {} {}", player.label(), games.name()).as_bytes());
     let found = half_point(&groups, RESAMPLES, crate::study::LEVEL, *seed.as_bytes());
     let doses = || groups.iter().flatten().flatten().map(|trials| trials.dose);
-    // No player decides more often than once per action.
+    // No player can decide more often than once per action.
     let range = [(doses().fold(f64::INFINITY, f64::min) / 4.0).max(1.0), doses().fold(0.0, f64::max) * 4.0];
     let by_commitment = episodes.iter().copied().into_group_map_by(|episode| episode.metrics.commit);
     let rates = by_commitment.into_iter().sorted_by_key(|(commit, _)| *commit).map(|(commit, episodes)| {
@@ -188,7 +188,7 @@ fn row(
     HorizonRow { player, games, rates: rates.collect(), horizon, range }
 }
 
-/// Returns the horizons table, or `None` if there are no commitments.
+/// Returns the horizons table, or `None` if no player has several commitments.
 pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     if study.horizons.is_empty() {
         return None;

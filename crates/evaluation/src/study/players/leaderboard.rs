@@ -14,22 +14,22 @@ pub struct LeaderRow {
     pub player: usize,
     /// The scores over all the player's episodes.
     pub scores: Scores,
-    /// The bounds of the win rate, computed as if all aborted episodes had been lost or won. `None` if no
-    /// episode was aborted.
+    /// The bounds of the win rate, as if all aborted episodes had been lost, or all had been won. `None` if
+    /// no episode was aborted.
     pub bounds: Option<[f64; 2]>,
     /// The origins of the player's choices.
     pub choices: Choices,
     /// The cost of the player's choices.
     pub spending: Spending,
-    /// The mean number of tokens per step, counting input and output.
+    /// The mean number of tokens per step, including input and output.
     pub tokens_per_step: Option<f64>,
     /// The number of aborted episodes, by reason.
     #[serde(rename = "broken_off")]
     pub aborted: BTreeMap<String, u64>,
 }
 
-/// Returns one row per player, sorted by win rate. Ties are broken by overall score, and then by the order of
-/// the study.
+/// Returns one row per player, sorted by win rate. Ties are broken by overall score, then by the order of the
+/// study.
 pub(crate) fn leaderboard(study: &Study) -> Vec<LeaderRow> {
     let mut rows: Vec<LeaderRow> = (0..study.players.len()).map(|player| row(study, player)).collect();
     rows.sort_by(|a, b| {

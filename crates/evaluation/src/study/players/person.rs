@@ -1,5 +1,5 @@
-//! Distinguishes players with the same name. A person is a model with its prompts, its decoding settings and
-//! its served version. Results that differ in any of these settings are separate rows in a report.
+//! Distinguishes players with the same name. A person is a model together with its prompts, its decoding
+//! settings and its served version. Results that differ in any of these get separate rows in a report.
 
 use crate::metrics::EpisodeMetrics;
 use crate::run::Entrant;
@@ -11,21 +11,21 @@ use std::collections::{BTreeMap, BTreeSet};
 /// One person's episodes in a results folder.
 pub(crate) struct PersonResults {
     player: Player,
-    /// All settings that determine requests and answers, by their JSON path, such as
-    /// `model.decoding.temperature`.
+    /// All settings that determine requests and answers, by their JSON path (for example,
+    /// `model.decoding.temperature`).
     facts: BTreeMap<String, String>,
     episodes: Vec<EpisodeMetrics>,
 }
 
 /// The path to the model's served version in the facts.
 const SERVED: &str = "served by";
-/// The path to the games' surface in the facts. The surface states how the games differ from their twins in
-/// an earlier folder.
+/// The path to the games' surface in the facts. The surface describes how the games differ from their twins
+/// in an earlier folder.
 const TWIN: &str = "games";
 
 impl PersonResults {
     /// Splits the episodes in a results folder by the model versions that answered. If the games are twins of
-    /// games in an earlier folder, `surface` describes the difference.
+    /// games in an earlier folder, `surface` states the difference.
     pub(crate) fn of(
         entrant: &Entrant,
         surface: Option<&str>,
@@ -42,7 +42,7 @@ impl PersonResults {
         for episode in episodes {
             parts.entry(episode.served_by.clone()).or_default().push(episode);
         }
-        // An episode without an answer reveals no version, so it is assigned to the first version.
+        // An episode without an answer does not reveal a version, so it is assigned to the first version.
         if parts.len() > 1
             && let Some(unserved) = parts.remove(&BTreeSet::new())
             && let Some(first) = parts.values_mut().next()
@@ -142,7 +142,7 @@ mod tests {
         check(&folders, &[("m (zero-shot)", 1), ("m (zero-shot)", 1)]);
     }
 
-    /// In this test, the provider changes the model in the middle of an evaluation.
+    /// The provider changes the model in the middle of an evaluation.
     #[test]
     fn versions_served_are_persons() {
         let episodes =

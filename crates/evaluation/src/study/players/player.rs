@@ -11,9 +11,9 @@ pub struct Player {
     pub name: String,
     /// The mode, `zero-shot` or `contextual`, or `None` for players that are not models.
     pub mode: Option<String>,
-    /// The differences of the player's prompts from the default, sorted, with one flag per difference.
+    /// Flags for how the player's prompts differ from the default, one per difference, sorted.
     pub aids: Vec<String>,
-    /// The settings in which the player differs from other players with the same name, mode and aids. Each
+    /// The settings that distinguish the player from other players with the same name, mode and aids. Each
     /// setting is a phrase such as `temperature 0` or `served by m-2026-08`, and the phrases are sorted. The
     /// list is empty if there are no such players.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -55,8 +55,8 @@ impl Player {
         self.aids.iter().find_map(|aid| aid.strip_prefix(track::AID))
     }
 
-    /// Returns `true` if the results of the two players can be compared. The players must be on the same
-    /// track, or one of them must be a baseline that reads no prompts.
+    /// Returns `true` if the results of the two players can be compared: the players are on the same track,
+    /// or one of them is a baseline that reads no prompts.
     pub fn is_comparable(&self, other: &Player) -> bool {
         let is_free = |player: &Player| player.track().is_none() && player.is_reference();
         self.track() == other.track() || is_free(self) || is_free(other)

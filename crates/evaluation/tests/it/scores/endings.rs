@@ -73,7 +73,7 @@ fn causes() {
     check(2, &[Right], (EndingKind::Appeared, "lost when weed appeared", rule, "1 of 1 gem left"));
 }
 
-/// An avatar that has changed its type is alive. The lost sprite is reported under the type that a
+/// An avatar that has changed its type is alive. The lost sprite is reported under the type that the
 /// termination counts.
 #[test]
 fn another_form_is_no_death() {
@@ -87,8 +87,8 @@ fn another_form_is_no_death() {
     assert_eq!((found.kind, found.words().as_str()), (EndingKind::Lost, "lost avatar to pit"));
 }
 
-/// If several interactions could have killed in the last tick, the interaction that killed is reported,
-/// rather than the last one. A dead avatar continues to touch sprites, and conditions may hold or not.
+/// If several interactions in the last tick could have killed the avatar, the one that killed it is reported,
+/// rather than the last one. A dead avatar continues to touch sprites, and conditions may or may not hold.
 #[test]
 fn the_interaction_that_killed_is_named() {
     let check = |rules: &str, sprites: &str, expect: &str, rule: &str| {
@@ -129,8 +129,8 @@ fn limits_wins_and_aborted_episodes() {
     assert_eq!(ending(0, &[Left], 20), None, "the player was cut off");
 }
 
-/// The order has one episode of each cause, followed by second episodes, followed by wins. The most frequent
-/// cause comes first, with its episode nearest to a win.
+/// The order contains one episode of each cause, then second episodes, then wins. The most frequent cause
+/// comes first, with its episode nearest to a win.
 #[test]
 fn telling_episodes() {
     let subject = subject();
@@ -203,7 +203,7 @@ fn results_by_kind() {
     assert!(unknown.kinds.is_empty() && !unknown.verdict()[0].contains("kind"), "{:?}", unknown.verdict());
 }
 
-/// A baseline may be better than the best other player, and there may be no best player.
+/// A baseline may be better than the best other player, or there may be no best player.
 #[test]
 fn the_best_is_called_best_only_if_it_is() {
     let won = |wins: u64| {

@@ -1,4 +1,4 @@
-//! Tests of results folders of built-in players that are read together. Other tests check invariants of
+//! Tests of results folders of built-in players that are read together. Another test checks invariants of
 //! episodes on all games.
 
 use super::logs::subject;
@@ -23,13 +23,13 @@ fn planner(name: &str) -> Contestant {
     Contestant::Planner { spec: name.parse().expect("a planner"), budget: Budget(30) }
 }
 
-/// Evaluates a built-in player on all levels of the given games, with two runs of 30 steps each.
+/// Evaluates a built-in player on all levels of the given games, with two runs of up to 30 steps each.
 pub(super) fn evaluate(folder: &Path, name: &str, subjects: Vec<Subject>) -> PathBuf {
     with_details(folder, name, subjects, serde_json::Value::Null)
 }
 
-/// Evaluates a built-in player with the given details on all levels of the given games, with two runs of 30
-/// steps each.
+/// Evaluates a built-in player with the given details on all levels of the given games, with two runs of up
+/// to 30 steps each.
 pub(super) fn with_details(
     folder: &Path,
     name: &str,
@@ -92,7 +92,7 @@ fn incompatible_folders_are_rejected() {
     check(&[once.clone(), other], "differs from that of an earlier folder");
     check(&[home.path().join("nowhere")], "no results of an evaluation");
 
-    // One episode was not started, and one episode was interrupted.
+    // One episode was not started, and one was interrupted.
     fs::remove_file(once.join("episodes/hall-lvl0-run0.jsonl")).unwrap();
     let path = once.join("episodes/hall-lvl3-run1.jsonl");
     let text = fs::read_to_string(&path).unwrap();
@@ -108,8 +108,8 @@ fn incompatible_folders_are_rejected() {
     check(std::slice::from_ref(&once), "not an event");
 }
 
-/// Plays random episodes on all games of the corpus. Every log replays, ratios are between 0 and 1, and the
-/// parts of each sum agree.
+/// Plays random episodes on all corpus games. Every log replays, ratios are between 0 and 1, and each sum
+/// equals the total of its parts.
 #[test]
 fn invariants_of_any_episode() {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpora");

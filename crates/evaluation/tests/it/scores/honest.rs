@@ -1,4 +1,5 @@
-//! Tests that scores are not misleading. Each test covers a way in which numbers were misleading in the past.
+//! Tests that scores are not misleading. Each test covers a way in which numbers have been misleading in the
+//! past.
 
 use super::episode;
 use super::folders::{evaluate, with_details};
@@ -13,7 +14,8 @@ use evaluation::{Evaluation, Event, Subject, SubjectFacts};
 use serde_json::json;
 use std::collections::BTreeSet;
 
-/// Returns `runs` episodes on each of the given games and levels. `wins` gives the number of wins on a level.
+/// Returns `runs` episodes on each of the given games and levels. `wins` returns the number of wins on a
+/// level.
 fn episodes(
     games: usize,
     levels: usize,
@@ -45,7 +47,8 @@ fn a_player_without_a_win_may_have_luck_elsewhere() {
     assert!(study.leaderboard[1].scores.win_rate.is_some_and(|rate| rate.high < 0.14));
 }
 
-/// The second player is worse on easy and on hard levels, but most of its episodes on hard levels were aborted.
+/// The second player is worse on both easy and hard levels, but most of its episodes on hard levels were
+/// aborted.
 #[test]
 fn differences_and_tests_are_of_the_same_rates() {
     let ours = episodes(8, 2, 10, |game, level| if level == 0 { 8 } else { (game % 2) as u64 });
@@ -63,7 +66,8 @@ fn differences_and_tests_are_of_the_same_rates() {
     assert!((found.difference - 0.1).abs() < 1e-9 && (interval.value - found.difference).abs() < 1e-12);
     assert!((found.rates[0] - found.rates[1] - found.difference).abs() < 1e-12 && found.h > 0.0);
     assert!(found.p.is_some_and(|p| p < 0.05) && interval.low > 0.0, "{found:?}");
-    // Of the episodes, 64 were aborted. All of them may have been wins of the second player, or losses.
+    // 64 of the episodes were aborted. All of them might have been wins of the second player, or all of them
+    // losses.
     let [least, most] = found.bounds.expect("some were broken off");
     assert!((least + 0.3).abs() < 1e-9 && (most - 0.1).abs() < 1e-9, "{least} {most}");
     let row = study.leaderboard.iter().find(|row| row.player == 1).unwrap();
@@ -143,7 +147,7 @@ fn courses_of_episodes() {
     assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), 4);
 }
 
-/// One model at two temperatures counts as two persons, and the labels of their rows state the difference.
+/// One model at two temperatures counts as two persons, and their row labels state the difference.
 #[test]
 fn decoding_and_prompts_tell_persons_apart() {
     let home = tempfile::tempdir().unwrap();
@@ -159,13 +163,14 @@ fn decoding_and_prompts_tell_persons_apart() {
     let labels: Vec<String> = study.players.iter().map(Player::label).collect();
     assert_eq!(labels, ["random (temperature 0.0)", "random (temperature 1.5)"]);
     assert_eq!(study.pairs.overall.len(), 1, "and they are compared");
-    // The same model on a different server is the same person. The same episodes were played twice.
+    // The same model on a different server is the same person, so the same episodes were played twice.
     let again = folder("again", 0.0, "there");
     let error = Study::read(&[folders[0].clone(), again]).unwrap_err().to_string();
     assert!(error.contains("also played run"), "{error}");
 }
 
-/// A renamed game has the same randomness in its episodes, and the same states after the same actions.
+/// A renamed game has the same randomness in its episodes, and reaches the same states after the same
+/// actions.
 #[test]
 fn twins_share_chance_and_states() {
     let own = subject();
@@ -207,8 +212,8 @@ fn twins_share_chance_and_states() {
     assert_eq!((study.games.len(), study.pairs.overall.len()), (1, 1));
 }
 
-/// The left-right mirror image of a game counts as the same game with different randomness. Games that differ
-/// in other ways are rejected.
+/// A game's left-right mirror image counts as the same game with different randomness. Games that differ in
+/// other ways are rejected.
 #[test]
 fn mirrored_twins_are_reported_beside_originals() {
     let source = "BasicGame\n  SpriteSet\n    gem > Immovable\n    eastgust > Missile orientation=RIGHT\n    imp > Bomber stype=gem \

@@ -1,4 +1,4 @@
-//! Tests of horizons, with episodes of players at several commitments.
+//! Tests of horizons, using players' episodes at several commitments.
 
 use super::episode;
 use engine::Outcome::{Lost, Won};
@@ -7,7 +7,7 @@ use evaluation::metrics::EpisodeMetrics;
 use evaluation::study::{Foresight, HorizonRow, Player, Study, StudyGame};
 
 /// Returns a study of one player on eight games with two levels each. Each level has ten episodes per
-/// commitment. `won` gives the number of episodes won, each in 40 ticks, for each commitment. Every second
+/// commitment. `won` states the number of episodes won for each commitment, each in 40 ticks. Every second
 /// game is stochastic.
 fn study(label: &str, won: &[(&str, u64)]) -> Study {
     let player = |commit: Commitment| {
@@ -56,7 +56,7 @@ fn the_horizon_is_where_half_is_won() {
     assert!(table.contains("| p (json) | deterministic |") && table.contains("5: 50%"), "{table}");
 }
 
-/// The wins take 40 ticks, so that a commitment to all actions is effectively a commitment to 40 actions.
+/// The wins take 40 ticks, so a commitment to all actions is effectively a commitment to 40 actions.
 #[test]
 fn nobody_commits_to_more_than_a_win_takes() {
     let study = study("p", &[("10", 9), ("all", 5)]);

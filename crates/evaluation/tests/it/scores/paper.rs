@@ -13,7 +13,7 @@ const LEVELS: u64 = 5;
 /// The number of runs per level in the paper's main experiment.
 const RUNS: u64 = 5;
 
-/// A row of the published table, with the player and its number of wins in 25 episodes on each game.
+/// A row of the published table: a player, and its number of wins in 25 episodes on each game.
 type Row = (Player, Vec<(String, u64)>);
 
 fn published() -> Vec<Row> {
@@ -33,7 +33,7 @@ fn published() -> Vec<Row> {
     reader.records().map(|record| row(record.unwrap())).collect()
 }
 
-/// Returns episodes with the given numbers of wins, assigned to the levels in turn.
+/// Returns episodes with the given numbers of wins, distributed over the levels in turn.
 fn episodes(wins: &[(String, u64)]) -> Vec<EpisodeMetrics> {
     let mut episodes = Vec::new();
     for (game, wins) in wins {
@@ -145,8 +145,8 @@ fn sums() {
     assert_eq!(failures.excluded, 2250, "no step flags are published");
 }
 
-/// With 25 episodes per side, the prompt has significant effects. Five episodes per side cannot show these
-/// effects.
+/// With 25 episodes per side, the prompt mode has significant effects, which five episodes per side cannot
+/// show.
 #[test]
 fn prompt_modes_differ_significantly() {
     let rows = published();
@@ -179,8 +179,8 @@ fn pairs_of_models() {
     assert_eq!(study.pairs.by_game.iter().filter(|comparison| comparison.q <= 0.05).count(), 75);
 }
 
-/// Compares a model with and without an aid. On aliens, the model has no win without the aid and two wins
-/// with it. On escape, it has no win without the aid and one win with it.
+/// Compares a model with and without an aid. On aliens, it has no win without the aid and two with it. On
+/// escape, it has no win without the aid and one with it.
 #[test]
 fn aids_are_compared() {
     let games =

@@ -1,4 +1,4 @@
-//! Tests of studies of a few invented episodes, with numbers calculated by hand.
+//! Tests of studies with a few invented episodes, whose numbers were calculated by hand.
 
 use super::episode;
 use engine::Outcome::{Lost, Ongoing, Won};
@@ -12,8 +12,8 @@ fn close(found: impl Into<Option<f64>>, expect: f64) {
     assert!(found.is_some_and(|found| (found - expect).abs() < 1e-6), "{found:?}, not {expect}");
 }
 
-/// Returns a study of one level with two players. The model wins in 20 of 100 steps and loses in 40 steps,
-/// and `random` reaches the limit.
+/// Returns a study of one level with two players. The model wins once in 20 of 100 steps and loses once in 40
+/// steps, and `random` reaches the limit.
 fn one_level() -> Study {
     let meaningful = |share: f64, metrics: EpisodeMetrics| EpisodeMetrics {
         meaningful: Some(share),
@@ -99,7 +99,7 @@ fn missing_values_stay_missing() {
     assert!(text.contains('–') && !text.contains("NaN") && !text.contains("inf"), "{text}");
 }
 
-/// The two modes of a model share a row of the combined heat map. Reference players are in all heat maps.
+/// A model's two modes share a row in the combined heat map. Reference players are in all heat maps.
 #[test]
 fn heat_maps() {
     let play = |wins: u64| -> Vec<EpisodeMetrics> {

@@ -35,13 +35,13 @@ type Mark = (usize, [i32; 4]);
 pub(super) struct Boards {
     cell: i32,
     last: Vec<Mark>,
-    /// For each board, the replacements that turn the previous board into the board. The replacements are
-    /// ordered from the end of the board to its beginning. The first board replaces an empty board.
+    /// For each board, the replacements that turn the previous board into it, ordered from the end of the
+    /// board to its beginning. The first board replaces an empty one.
     pub(super) changes: Vec<String>,
 }
 
 impl Boards {
-    /// Creates an empty sequence of boards, with cells of `cell` pixels.
+    /// Creates an empty sequence of boards whose cells have `cell` pixels.
     pub(super) fn new(cell: u32) -> Boards {
         Boards { cell: cell.cast_signed(), last: Vec::new(), changes: Vec::new() }
     }
@@ -59,8 +59,8 @@ impl Boards {
 }
 
 /// Returns the change from one board to the next, with one line `AT COUNT MARK…` per replaced range. The last
-/// range comes first, so that the positions of earlier ranges remain valid. A mark is `TILE,X,Y`, followed by
-/// its width and height if it does not fill a cell.
+/// range comes first, so that the positions of earlier ranges remain valid. A mark is written as `TILE,X,Y`,
+/// followed by its width and height if it does not fill a cell.
 fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
     let mut text = String::new();
     for op in capture_diff_slices(Algorithm::Myers, from, to).iter().rev() {
@@ -86,7 +86,7 @@ fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
 mod tests {
     use super::*;
 
-    /// Applies a change to a board in the same way as the page's script.
+    /// Applies a change to a board in the same way as the page's script does.
     fn applied(marks: &[Mark], change: &str, cell: i32) -> Vec<Mark> {
         let mut marks = marks.to_vec();
         for line in change.lines() {

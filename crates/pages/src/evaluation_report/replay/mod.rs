@@ -1,4 +1,4 @@
-//! Step-by-step replays of some episodes. Each board is shown with its prompts and answers.
+//! Step-by-step replays of selected episodes. Each board is shown with its prompts and answers.
 
 mod frames;
 mod talk;
@@ -25,7 +25,7 @@ const FIRST: usize = 200;
 const LAST: usize = 100;
 /// The cell size of animated boards, in pixels.
 const CELL: u32 = 20;
-/// The longer side of still boards, in pixels.
+/// The length of the longer side of still boards, in pixels.
 const STILL: u32 = 220;
 /// The number of still boards per episode, including the start and the end.
 const STILLS: usize = 4;
@@ -56,11 +56,11 @@ struct Replay {
     /// board.
     data: String,
     stills: Vec<Figure>,
-    /// The episode's actions. Repeated actions are counted.
+    /// The episode's actions, with repeated actions counted.
     actions: String,
     /// The prompt shown to the player before its first decision.
     told: Vec<String>,
-    /// Each decision's messages. The list is empty for players without messages.
+    /// The messages of each decision, or an empty list for players without messages.
     decisions: Vec<Decision>,
     /// The number of decisions omitted from the middle of the episode.
     skipped: usize,
@@ -73,7 +73,7 @@ struct Decision {
     /// The index of the decision's first step.
     step: usize,
     action: String,
-    /// A phrase about the problem with the choice, or an empty text.
+    /// A phrase stating the problem with the choice. Empty if there is no problem.
     validity: &'static str,
     talk: Talk,
 }
@@ -96,8 +96,8 @@ struct Candidate<'a> {
 
 impl Replays {
     /// Returns up to `results.replays` episodes per player. Failures come first, with one episode per cause.
-    /// If the replays exceed `room` bytes, models take precedence. Cost: O(steps) of play and drawing per
-    /// episode.
+    /// If the replays would exceed `room` bytes, models take precedence. Cost: playing and drawing O(steps)
+    /// per episode.
     pub(super) fn of(results: &Results<'_>, room: usize) -> Result<Replays, PageError> {
         let (players, mut left_out) = (candidates(results), 0);
         let mut tiles: BTreeMap<String, Tiles> = BTreeMap::new();
@@ -150,7 +150,7 @@ fn note(episodes: usize, left_out: u64) -> String {
     note
 }
 
-/// Returns the episodes to replay for each player, starting with the models.
+/// Returns the episodes to replay for each player, models first.
 fn candidates<'a>(results: &Results<'a>) -> Vec<(String, Vec<Candidate<'a>>)> {
     let Results { study, evaluations, replays } = *results;
     let order = study.leaderboard.iter().map(|row| row.player);
@@ -265,7 +265,7 @@ impl Replay {
     }
 }
 
-/// Returns the heading of the still board before the given decision, if the page shows one.
+/// Returns the heading of the still board before the given decision, if the page shows such a board.
 fn still(decision: usize, steps: usize) -> Option<&'static str> {
     if decision == 0 {
         return Some("the start");
@@ -311,7 +311,7 @@ fn because(ending: Option<&Ending>) -> String {
     })
 }
 
-/// Returns a phrase about the problem with a choice, or an empty text.
+/// Returns a phrase stating the problem with a choice, or an empty text if there is no problem.
 fn told(validity: Validity) -> &'static str {
     match validity {
         Validity::Valid => "",

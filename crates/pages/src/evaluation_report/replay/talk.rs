@@ -15,9 +15,9 @@ const SHOWN: usize = 6_000;
 /// The messages exchanged at a decision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(super) struct Talk {
-    /// The messages new to the player, excluding its own answers.
+    /// The messages that are new to the player, excluding its own answers.
     pub(super) shown: Vec<String>,
-    /// The player's answers. There are several answers if the question was repeated.
+    /// The player's answers. There is more than one if the question was repeated.
     pub(super) answers: Vec<Answer>,
 }
 
@@ -25,16 +25,16 @@ pub(super) struct Talk {
 pub(super) struct Answer {
     pub(super) text: String,
     pub(super) reasoning: Option<String>,
-    /// The answer's validity, in one word. The text is empty if the answer has the requested format.
+    /// The answer's validity, in one word. Empty if the answer has the requested format.
     pub(super) class: &'static str,
-    /// A phrase with the number of tokens and the duration.
+    /// A phrase stating the number of tokens and the duration.
     pub(super) cost: String,
 }
 
 /// Returns the messages exchanged at each decision, in order. Decisions without messages have an empty entry.
 ///
-/// If a conversation continues from an earlier level, the log repeats that level's texts, which this function
-/// omits. The question after the last decision belongs to the last decision.
+/// If a conversation continues from an earlier level, the log repeats that level's texts, which are omitted
+/// here. The question after the last decision is assigned to that decision.
 pub(super) fn talks(log: &[Event]) -> Vec<Talk> {
     let (mut talks, mut current, mut new): (Vec<Talk>, _, _) = (Vec::new(), Talk::default(), Vec::new());
     for event in log {
@@ -89,7 +89,7 @@ impl Answer {
     }
 }
 
-/// Returns the first `most` characters of a text, with a note about the number of omitted characters.
+/// Returns the first `most` characters of a text, followed by a note stating how many were omitted.
 fn cut(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         None => text.trim_end().to_owned(),

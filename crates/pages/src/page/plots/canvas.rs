@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// The maximum length of a row name, in characters.
 const LETTERS: usize = 18;
 
-/// The part of a text to align with the given position.
+/// The part of a text to align with a given position.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     Start,
@@ -21,13 +21,13 @@ pub(super) struct Canvas {
     text: String,
 }
 
-/// Escapes a text for XML, which does not allow control characters.
+/// Escapes a text for XML, where control characters are not allowed.
 fn escaped(text: &str) -> String {
     render::escaped(&visible(text))
 }
 
 impl Canvas {
-    /// Creates an empty drawing of the given kind, with its size in pixels. `label` describes the drawing to
+    /// Creates an empty drawing of the given kind, with its size in pixels. `label` describes the drawing for
     /// people who cannot see it.
     pub(super) fn new(kind: &str, width: f64, height: f64, label: &str) -> Canvas {
         let (width, height, label) = (number(width), number(height), escaped(label));
@@ -84,7 +84,7 @@ impl Canvas {
     }
 
     /// Draws a row label to the left of a position. A one-line label is at the height of the position, and a
-    /// two-line label is centred on it. Each line is shortened to fit.
+    /// two-line label is vertically centred on it. Each line is shortened to fit.
     pub(super) fn label(&mut self, x: f64, y: f64, Label { name, note }: &Label) {
         let lift = if note.is_empty() { 0.0 } else { 5.0 };
         self.text(x, y - lift, Anchor::End, "", &shortened(name, LETTERS));
@@ -102,7 +102,7 @@ impl Canvas {
         );
     }
 
-    /// Draws a grey, hatched rectangle with a dash, as a placeholder for a missing value.
+    /// Draws a grey, hatched rectangle that contains a dash, as a placeholder for a missing value.
     pub(super) fn missing(&mut self, [x, y, w, h]: [f64; 4], title: &str) {
         self.open("none", title);
         self.rect([x, y, w, h]);

@@ -1,4 +1,4 @@
-//! Forest plots: each line shows one fraction with its interval.
+//! Forest plots. Each line shows one fraction with its interval.
 
 use super::Label;
 use super::canvas::{Anchor, Canvas};
@@ -17,7 +17,7 @@ const FOOT: f64 = 24.0;
 
 pub(crate) struct ForestRow {
     pub(crate) label: Label,
-    /// The fraction with its interval, or `None` without cases.
+    /// The fraction with its interval, or `None` if there are no cases.
     pub(crate) share: Option<(f64, [f64; 2])>,
     pub(crate) of: String,
     /// `true` for a reference player, and `false` for a player under test.

@@ -1,4 +1,4 @@
-//! Heat maps, which show one value per row and column, as a colour and in digits.
+//! Heat maps, which show one value per row and column, both as a colour and in digits.
 
 use super::canvas::{Anchor, Canvas};
 use super::{Label, step};
@@ -23,11 +23,11 @@ pub(crate) struct HeatMap<'a> {
     pub(crate) rows: &'a [Label],
     /// The column groups, each with its title and its column names. A group is a game with its levels.
     pub(crate) groups: &'a [(String, Vec<String>)],
-    /// The values by row and column. `None` represents a missing value.
+    /// The values by row and column, with `None` for a missing value.
     pub(crate) cells: &'a [Vec<Option<f64>>],
-    /// The values at the low end and the high end of the scale.
+    /// The values at the low end and at the high end of the scale.
     pub(crate) scale: [f64; 2],
-    /// A function that formats a value with at most four characters.
+    /// A function that formats a value in at most four characters.
     pub(crate) show: fn(f64) -> String,
 }
 
@@ -78,16 +78,16 @@ pub(crate) fn heat_map(map: &HeatMap<'_>) -> String {
     canvas.finish()
 }
 
-/// Returns a column group's width in pixels, including the gap after it. The group is as wide as its columns
-/// or its title, whichever is wider.
+/// Returns a column group's width in pixels, including the gap after it. A group is as wide as its columns or
+/// its title, whichever is wider.
 pub(crate) fn group_width(title: &str, columns: usize) -> f64 {
     let lines = title_lines(title, columns);
     let longest = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0);
     (columns as f64 * CELL[0]).max(longest as f64 * LETTER) + GAP
 }
 
-/// Breaks a title above columns into lines. Lines are broken between words, after hyphens, and within words
-/// longer than a line.
+/// Breaks a title above columns into lines. Lines are broken between words, after hyphens, or within words
+/// that are longer than a line.
 fn title_lines(title: &str, columns: usize) -> Vec<String> {
     let room = ((columns as f64 * CELL[0] / LETTER) as usize).max(LETTERS);
     let mut lines = vec![String::new()];

@@ -11,8 +11,8 @@ const CELL: [f64; 2] = [74.0, 46.0];
 const FOOT: f64 = 24.0;
 
 /// Draws the part of the matrix below the diagonal. `label` describes the matrix. For each pair of measures
-/// in `names`, `cells` contains the coefficient from -1 to 1, and the text below it. `None` represents a
-/// missing value. Cost: O(cells).
+/// in `names`, `cells` contains the coefficient from -1 to 1 and the text below it, or `None` for a missing
+/// value. Cost: O(cells).
 pub(crate) fn matrix(label: &str, names: &[&str], cells: &[Vec<Option<(f64, String)>>]) -> String {
     let count = names.len();
     let sides = count.saturating_sub(1) as f64;

@@ -1,11 +1,11 @@
-//! SVG plots inside a page. Plots are pure functions of plain numbers, so the same numbers give the same
+//! SVG plots inside a page. Plots are pure functions of plain numbers, so the same numbers give identical
 //! bytes.
 //!
 //! Colours are classes with a light and a dark variant in `plots.css`. `q0` to `q10` form a sequential scale
-//! in one hue. Its steps differ only in lightness, so that the scale is readable with every kind of colour
-//! vision. `d0` to `d10` form a diverging scale from blue through neutral to orange, for values that may be
-//! negative. Every value is also written as text. Missing values are grey and hatched, and never use a colour
-//! from the scale.
+//! in one hue. Its steps differ only in lightness, so the scale is readable with every kind of colour vision.
+//! `d0` to `d10` form a diverging scale from blue through neutral to orange, for values that may be negative.
+//! Every value is also written as text. Missing values are grey and hatched, and never use a colour from the
+//! scale.
 
 mod bars;
 mod canvas;
@@ -34,15 +34,15 @@ pub(crate) struct Label {
     pub(crate) note: String,
 }
 
-/// Returns a value's step on a scale from 0 to 10. Values up to `low` have step 0, and values from `high`
-/// upwards have step 10.
+/// Returns the step of a value on a scale from 0 to 10. Values up to `low` are at step 0, and values from
+/// `high` upwards are at step 10.
 fn step(value: f64, low: f64, high: f64) -> usize {
     let part = if high > low { (value - low) / (high - low) } else { 0.5 };
     (part.clamp(0.0, 1.0) * 10.0).round() as usize
 }
 
-/// Shortens a text to at most `letters` characters by omitting its middle. Model names usually differ in
-/// their first and last characters.
+/// Shortens a text to at most `letters` characters by omitting its middle. The middle is omitted because
+/// model names usually differ in their first or last characters.
 fn shortened(text: &str, letters: usize) -> String {
     let all: Vec<char> = text.chars().collect();
     if all.len() <= letters {

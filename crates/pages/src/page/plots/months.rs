@@ -1,4 +1,4 @@
-//! Plots of values over the months, such as abilities, with one interval per value.
+//! Plots of values over the months, such as abilities. Each value has an interval.
 
 use super::canvas::{Anchor, Canvas};
 use super::shortened;
@@ -21,7 +21,7 @@ const NAMES: f64 = 150.0;
 pub(crate) struct MonthPoint {
     pub(crate) value: f64,
     pub(crate) band: [f64; 2],
-    /// For each end of the interval, `true` if that end is determined by the data. Otherwise, the interval
+    /// For each end of the interval, `true` if the data determine that end. If they do not, the interval
     /// extends to the edge of the plot.
     pub(crate) is_bounded: [bool; 2],
 }
@@ -134,7 +134,7 @@ fn draw(
     }
 }
 
-/// Writes the line names at the ends of the lines, with sufficient vertical distance between names.
+/// Writes the line names at the ends of the lines, far enough apart vertically.
 fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64) -> f64) {
     let mut ends: Vec<(f64, &MonthSeries)> = plot
         .series
@@ -152,8 +152,8 @@ fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64
         })
         .collect();
     ends.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.name.cmp(&other.1.name)));
-    // Names that are too close are moved down first. If they run past the bottom of the plot, they are moved
-    // up again.
+    // Names that are too close are moved down first. If they then run past the bottom of the plot, they are
+    // moved up again.
     let mut taken = f64::NEG_INFINITY;
     for (y, _) in &mut ends {
         *y = y.max(taken + LABEL);
@@ -171,7 +171,7 @@ fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64
     }
 }
 
-/// Returns the distance between axis labels. An axis has about five to ten labels.
+/// Returns the distance between axis labels, chosen so that an axis has about five to ten labels.
 fn tick(range: f64) -> f64 {
     [0.5, 1.0, 2.0, 5.0, 10.0].into_iter().find(|step| range / step <= 8.0).unwrap_or(20.0)
 }

@@ -1,4 +1,4 @@
-//! Expressive range plots, which count points in a plane by cell.
+//! Expressive range plots, which count the points in each cell of a plane.
 
 use super::canvas::{Anchor, Canvas};
 use super::step;
@@ -13,7 +13,7 @@ const LEFT: f64 = 58.0;
 const TOP: f64 = 10.0;
 
 /// Draws the levels in a set by two measures. Cells with more levels are darker. The game's own levels are
-/// shown as diamonds. Cost: O(cells).
+/// drawn as diamonds. Cost: O(cells).
 pub(crate) fn range(range: &Range) -> String {
     let Range { x, y, cells, examples, .. } = range;
     let label = format!("{} by {}", x.measure, y.measure);
@@ -40,7 +40,7 @@ pub(crate) fn range(range: &Range) -> String {
         canvas.area(&[[x, y - 6.0], [x + 6.0, y], [x, y + 6.0], [x - 6.0, y]], "");
         canvas.close();
     }
-    // Labels are written at the ends and in the middle of each axis, with the names of the measures.
+    // Labels are written at the ends and in the middle of each axis, together with the names of the measures.
     for (part, anchor, drop) in
         [(0.0, Anchor::Start, 0.0), (0.5, Anchor::Middle, 4.0), (1.0, Anchor::End, 10.0)]
     {

@@ -18,7 +18,7 @@ const FOOT: f64 = 54.0;
 const HALF: f64 = 46.0;
 /// The number of points at which a violin's density is evaluated.
 const POINTS: usize = 48;
-/// The maximum number of values for which individual values are also drawn as dots.
+/// The maximum number of values for which the individual values are drawn as dots, too.
 const DOTS: usize = 30;
 
 pub(crate) struct Violin<'a> {
@@ -30,7 +30,7 @@ pub(crate) struct Violin<'a> {
 /// Draws violins, each with a box from the lower to the upper quartile and a line at the median. `label`
 /// describes the plot. The scale extends from `low` at the bottom to `high` at the top.
 ///
-/// The densities are estimated with Gaussian kernels, using Silverman's width (Density Estimation, 1986,
+/// The densities are estimated with Gaussian kernels, using Silverman's bandwidth (Density Estimation, 1986,
 /// equation 3.31). All violins have the same maximum width. Cost: O(values).
 pub(crate) fn violins(label: &str, groups: &[Violin<'_>], [low, high]: [f64; 2]) -> String {
     let width = LEFT + groups.len() as f64 * PLACE + 8.0;
@@ -72,7 +72,7 @@ pub(crate) fn violins(label: &str, groups: &[Violin<'_>], [low, high]: [f64; 2])
     canvas.finish()
 }
 
-/// Returns a violin's outline, which goes up its right side and down its left side.
+/// Returns a violin's outline, going up its right side and down its left side.
 fn outline(sorted: &[f64], [low, high]: [f64; 2], middle: f64, up: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     let (first, last) = (sorted[0], sorted[sorted.len() - 1]);
     let width = bandwidth(sorted).max((high - low) / 60.0);
@@ -94,7 +94,7 @@ fn at_share(values: &[f64], share: f64) -> f64 {
     quantile(values, share).expect("there are values, and all are finite")
 }
 
-/// Returns the kernel width according to Silverman's rule of thumb, or 0 if all values are equal.
+/// Returns the kernel bandwidth according to Silverman's rule of thumb, or 0 if all values are equal.
 fn bandwidth(sorted: &[f64]) -> f64 {
     let count = sorted.len() as f64;
     let mean = sorted.iter().sum::<f64>() / count;

@@ -8,7 +8,7 @@ use forge::{JudgeCost, Tally};
 use std::collections::BTreeMap;
 use validators::{Criteria, Criterion, CriterionSet, Effort, Judging, Panel};
 
-/// Some corpus games treated as generated games, with two levels each.
+/// Corpus games that are treated as generated games, with two levels each.
 const GAMES: [(&str, &str); 3] =
     [("quiet-jars", "Quiet Jars"), ("hailglass", "Hailglass"), ("turnip-heist", "Turnip Heist")];
 

@@ -7,8 +7,8 @@ use forge::levels::report::{LevelSetReport, Sample};
 use forge::survey::{LevelSurvey, SurveyedLevel};
 use validators::{Criteria, Difficulty};
 
-/// Returns the report on a set with the corpus game's own levels, fully judged. Hard difficulty was requested
-/// for every other level.
+/// Returns the report on a set that consists of the corpus game's own levels, fully judged. For every other
+/// level, hard difficulty was requested.
 fn made() -> (LevelSetReport, Vec<File>) {
     let (source, levels) = texts("quiet-jars");
     let game = Game::from_source(&source).unwrap();
@@ -48,7 +48,7 @@ fn a_report_is_three_files_and_the_page_needs_no_other() {
     assert_eq!(json["levels"].as_array().unwrap().len(), report.levels.len());
     let page = page(&files, report.levels.len() + 1);
     assert_eq!(page.matches("<svg class=\"plot heat\"").count(), report.ranges.len());
-    // Rules are escaped as text, and are not interpreted as markup.
+    // Rules are escaped, so they are not interpreted as markup.
     assert!(page.contains("&gt; "));
     for part in ["Can the levels be won?", "Does skill pay?", "As hard", "made in 3.5 s", "Every level"] {
         assert!(page.to_lowercase().contains(&part.to_lowercase()), "{part}");

@@ -22,7 +22,7 @@ pub(super) fn ring_of_avatar(art: &mut Art) {
     }
 }
 
-/// Draws a figure with a head, seen from the front. A pointer on the ring shows its orientation.
+/// Draws a figure with a head, seen from the front. A pointer on the ring shows the orientation.
 pub(crate) fn avatar(art: &mut Art) {
     ring_of_avatar(art);
     let body = Outline::path("M.27,.83 C.27,.62,.36,.52,.5,.52 C.64,.52,.73,.62,.73,.83 Z");
@@ -39,7 +39,7 @@ pub(crate) fn avatar(art: &mut Art) {
     art.stroke(smile, INK, 0.025);
 }
 
-/// Draws a pointed hull that shows its heading. A hull without a heading points upwards.
+/// Draws a pointed hull that shows its heading, or points upwards if it has no heading.
 pub(crate) fn craft(art: &mut Art) {
     ring(art);
     let first = art.shapes.len();
@@ -51,7 +51,7 @@ pub(crate) fn craft(art: &mut Art) {
     }
 }
 
-/// Draws the mark at the position where the player died.
+/// Draws the mark where the player died.
 pub(crate) fn fallen(art: &mut Art) {
     ring(art);
     art.solid(Outline::rounded(0.43, 0.18, 0.14, 0.66, 0.03), art.main());

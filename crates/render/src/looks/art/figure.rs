@@ -8,10 +8,10 @@ use crate::looks::figure::{Figure, Mood, Part, Tint};
 use crate::looks::glyph::Glyph;
 use crate::looks::shape::Outline;
 
-/// The size of a figure in the avatar's ring.
+/// The size of a figure within the avatar's ring.
 const IN_RING: f32 = 0.72;
 
-/// Adds a figure, and the signs for its meaning in the rules.
+/// Adds a figure, and the signs that show its meaning in the rules.
 pub(crate) fn draw(art: &mut Art, figure: &Figure) {
     if art.look.glyph == Glyph::Avatar {
         ring_of_avatar(art);
@@ -27,7 +27,7 @@ pub(crate) fn draw(art: &mut Art, figure: &Figure) {
     signs(art, figure);
 }
 
-/// Adds the mark with this index, which shows a state.
+/// Adds the mark with the given index, which shows a state.
 pub(crate) fn mark(art: &mut Art, at: u16) {
     figure::mark(at).iter().for_each(|part| add(art, part));
 }

@@ -1,4 +1,4 @@
-//! Drawings of tiles that fill their cells: walls, soil, water, spikes.
+//! Drawings of tiles that fill their cells: walls, soil, water and spikes.
 
 use super::Art;
 use crate::looks::colour::{Colour, GROUND, INK, PAPER};
@@ -79,7 +79,7 @@ fn spike(art: &mut Art, x: f32, base: f32, height: f32, colour: Colour) {
     );
 }
 
-/// Draws a cover made of bags in three rows.
+/// Draws a cover made of three rows of bags.
 pub(crate) fn cover(art: &mut Art) {
     let (main, light) = (art.main().mixed(INK, 12), art.main().mixed(PAPER, 35));
     let courses: [&[(f32, f32)]; 3] = [

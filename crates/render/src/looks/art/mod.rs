@@ -23,8 +23,8 @@ const GOLD: Colour = Colour([0xff, 0xd2, 0x3f]);
 /// The default width of an outline, in tiles.
 const RIM: f32 = 0.045;
 
-/// Returns a look's tile, with its front along the unit vector `facing`. `facing` has no effect on looks
-/// without a front.
+/// Returns a look's tile, with its front facing along the unit vector `facing`. `facing` has no effect on
+/// looks without a front.
 pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
     let mut art = Art { look, facing, shapes: Vec::new() };
     match look.form {
@@ -68,19 +68,19 @@ impl Art {
         self.shapes.push(Shape { outline, paint, colour });
     }
 
-    /// Fills an outline and adds a dark rim, which is visible on any ground.
+    /// Fills an outline, and adds a dark rim that is visible on any ground.
     fn solid(&mut self, outline: Outline, colour: Colour) {
         self.fill(outline.clone(), colour);
         self.stroke(outline, INK, RIM);
     }
 
-    /// Draws the gold star for winning sprites. The star is white if the tile itself is gold.
+    /// Draws the gold star of winning sprites. The star is white if the tile itself is gold.
     fn star(&mut self, x: f32, y: f32, radius: f32) {
         let colour = if self.main().distance(GOLD) < 12_000 { PAPER } else { GOLD };
         self.solid(Outline::star(x, y, 5, radius, radius * 0.45), colour);
     }
 
-    /// Draws white eyes with pupils at a distance of `apart`. `frown` lowers the inner ends of the brows.
+    /// Draws white eyes with pupils, `apart` from each other. `frown` lowers the inner ends of the brows.
     fn eyes(&mut self, [x, y]: Point, apart: f32, radius: f32, frown: bool) {
         for side in [-1.0_f32, 1.0] {
             let at = x + side * apart / 2.0;
@@ -106,7 +106,7 @@ impl Art {
         }
     }
 
-    /// Rotates the shapes with an index of at least `first`.
+    /// Rotates the shapes from index `first` onwards.
     fn turn(&mut self, first: usize, direction: Point) {
         for shape in &mut self.shapes[first..] {
             let outline = std::mem::take(&mut shape.outline);
@@ -114,7 +114,7 @@ impl Art {
         }
     }
 
-    /// Shrinks the shapes with an index of at least `first` towards the middle.
+    /// Shrinks the shapes from index `first` onwards towards the middle.
     fn shrink(&mut self, first: usize, factor: f32) {
         for shape in &mut self.shapes[first..] {
             let outline = std::mem::take(&mut shape.outline);
@@ -122,7 +122,7 @@ impl Art {
         }
     }
 
-    /// Draws dots at the bottom of the tile, which distinguish types with the same form and colour.
+    /// Draws dots at the bottom of the tile to distinguish types with the same form and colour.
     fn pips(&mut self) {
         let count = self.look.pips;
         // Grounds lie under other sprites, so they have smaller dots at the top.

@@ -1,4 +1,4 @@
-//! Drawings of passages: doors, gates, portals, nests, sockets.
+//! Drawings of passages: doors, gates, portals, nests and sockets.
 
 use super::Art;
 use crate::looks::colour::{INK, PAPER};
@@ -56,7 +56,7 @@ pub(crate) fn portal_exit(art: &mut Art) {
     art.solid(arrow, main);
 }
 
-/// Draws a dark opening in a mound, with eyes in the opening.
+/// Draws a mound with a dark opening, and eyes in the opening.
 pub(crate) fn nest(art: &mut Art) {
     let main = art.main();
     let mound = Outline::path("M.03,.95 C.06,.2,.3,.05,.5,.05 C.7,.05,.94,.2,.97,.95 Z");
@@ -78,7 +78,7 @@ pub(crate) fn maker(art: &mut Art) {
     }
 }
 
-/// Draws a hole in the ground, which is dark at the top where the rim casts its shadow.
+/// Draws a hole in the ground. It is dark at the top, where the rim casts its shadow.
 pub(crate) fn socket(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.1), main.shade());

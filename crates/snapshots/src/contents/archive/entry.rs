@@ -1,4 +1,4 @@
-//! Archive entries: the only header allowed for a release file, and the diagnostics for any other header.
+//! Archive entries: the only header that a release file may have, and the diagnostics for any other header.
 
 use crate::format::manifest::item::Item;
 use crate::format::manifest::{MANIFEST_FILE, Manifest};
@@ -11,7 +11,7 @@ pub(super) const BLOCK: usize = 512;
 /// The number of zero bytes at the end of an archive.
 pub(super) const END: usize = 2 * BLOCK;
 
-/// Returns the header of `item` in the release called `name`; `None` if the path is too long for a header.
+/// Returns the header of `item` in the release called `name`, or `None` if the path is too long for a header.
 pub(super) fn header(name: &str, item: &Item) -> Option<[u8; BLOCK]> {
     let mut header = Header::new_ustar();
     header.set_path(format!("{name}/{}", item.path)).ok()?;
@@ -31,7 +31,7 @@ pub(super) fn padding(size: u64) -> usize {
     if rest == 0 { 0 } else { BLOCK - rest }
 }
 
-/// Returns the uncompressed size of an archive of these files, in bytes.
+/// Returns the uncompressed size of an archive of the given files, in bytes.
 pub(super) fn total<'a>(items: impl Iterator<Item = &'a Item>) -> u64 {
     let sizes = items.map(|item| BLOCK as u64 + item.size + padding(item.size) as u64);
     sizes.sum::<u64>() + END as u64
@@ -44,8 +44,8 @@ pub(super) fn path_and_size(block: &[u8; BLOCK]) -> Result<(String, u64), String
     Ok((path(header), size))
 }
 
-/// Diagnoses a header that differs from the header of `expected`, or any header if no further item is expected. The
-/// problem is reported at the entry's own path if that path is usable.
+/// Diagnoses a header that differs from the header of `expected`, or any header if no further item is
+/// expected. The problem is reported under the entry's own path if that path is usable.
 pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Option<&Item>) -> Problem {
     let header = Header::from_byte_slice(block);
     let full = path(header);
@@ -88,7 +88,7 @@ pub(super) fn diagnose(block: &[u8; BLOCK], manifest: &Manifest, expected: Optio
     }
 }
 
-/// Describes how a header differs from a header written by [`header`].
+/// Describes how a header differs from one written by [`header`].
 pub(super) fn describe_difference(block: &[u8; BLOCK]) -> String {
     let header = Header::from_byte_slice(block);
     let kind = header.entry_type();

@@ -14,9 +14,9 @@ use base::Digest;
 
 /// The first bytes of a zstd file (RFC 8878 §3.1.1).
 const MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
-/// The base-2 logarithm of the compressor's window, in bytes: 8 MiB, which every reader accepts.
+/// The base-2 logarithm of the compressor's window size in bytes: 8 MiB, which every reader accepts.
 const WINDOW_LOG: u8 = 23;
-/// The compression level: high because an archive is compressed once and read often.
+/// The compression level, which is high because an archive is compressed once but read often.
 const LEVEL: i32 = 15;
 
 /// Returns `true` if the regular file at `path` begins as an archive does.
@@ -66,8 +66,8 @@ pub(super) fn is_sealed(path: &Path) -> Result<bool, SnapshotError> {
     Ok(end.len() == SEAL_LENGTH && end.starts_with(&SEAL))
 }
 
-/// Decompresses the first block of the regular file at `path`, regardless of the tool that compressed the file;
-/// `None` if the block cannot be decompressed.
+/// Decompresses the first block of the regular file at `path`, whichever tool compressed the file; `None` if
+/// the block cannot be decompressed.
 ///
 /// # Errors
 /// Returns an error if the file cannot be opened.
@@ -152,11 +152,11 @@ impl BufRead for Hashed<BufReader<File>> {
 pub(super) enum Unreadable {
     /// A file system operation failed.
     Io(io::Error),
-    /// The archive differs from its packed form.
+    /// The archive is not in the form in which archives are packed.
     Damaged(String),
 }
 
-/// A reader for an archive's uncompressed bytes, up to the size stated in its frame.
+/// A reader of an archive's uncompressed bytes, up to the size stated in its frame.
 pub(super) struct FrameReader {
     decoder: zstd::Decoder<'static, Hashed<BufReader<File>>>,
     hasher: blake3::Hasher,
@@ -164,7 +164,7 @@ pub(super) struct FrameReader {
 }
 
 impl FrameReader {
-    /// Reads the frame header, and rejects a frame with more than `limit` bytes.
+    /// Reads the frame header, and rejects frames of more than `limit` bytes.
     pub(super) fn open(file: File, limit: u64) -> Result<FrameReader, Unreadable> {
         let mut file = Hashed { inner: BufReader::new(file), hasher: blake3::Hasher::new() };
         // The longest header has 4 + 1 + 1 + 8 bytes, and a freshly filled buffer holds at least that many, or the
@@ -189,7 +189,7 @@ impl FrameReader {
         Ok(Some(bytes.try_into().expect("the content has the requested length")))
     }
 
-    /// Reads the next `size` bytes. Memory use grows with the bytes read, not with the stated size.
+    /// Reads the next `size` bytes. Memory use grows with the bytes actually read, not with the stated size.
     pub(super) fn content(&mut self, size: u64) -> Result<Vec<u8>, Unreadable> {
         if size > self.left {
             return Err(Unreadable::Damaged("the archive is too short".into()));
@@ -204,7 +204,7 @@ impl FrameReader {
         Ok(bytes)
     }
 
-    /// Reads a file of `size` bytes and the zero padding of its last block.
+    /// Reads a file of `size` bytes, and the zero padding of its last block.
     pub(super) fn file(&mut self, size: u64) -> Result<Vec<u8>, Unreadable> {
         let content = self.content(size)?;
         match self.content(padding(size) as u64)?.iter().all(|byte| *byte == 0) {
@@ -233,13 +233,13 @@ impl FrameReader {
         }
     }
 
-    /// Returns the digest and the number of the bytes read.
+    /// Returns the digest and the number of bytes read.
     pub(super) fn digest(&self) -> (Digest, u64) {
         (Digest::from_bytes(*self.hasher.finalize().as_bytes()), self.hasher.count())
     }
 }
 
-/// Converts an I/O error. Errors of the decompressor itself have no OS error number.
+/// Converts an I/O error. Errors from the decompressor itself have no OS error number.
 fn unreadable(error: io::Error) -> Unreadable {
     match (error.raw_os_error(), error.kind()) {
         (Some(_), _) => Unreadable::Io(error),
@@ -277,7 +277,7 @@ fn stated_size(head: &[u8]) -> Result<u64, String> {
     };
     let mut bytes = [0; 8];
     bytes[..length].copy_from_slice(rest.get(..length).ok_or_else(cut_off)?);
-    // Two-byte sizes count from 256, because one byte suffices for smaller sizes.
+    // Two-byte sizes are offset by 256, because one byte suffices for smaller sizes.
     let offset = if length == 2 { 256 } else { 0 };
     u64::from_le_bytes(bytes).checked_add(offset).ok_or_else(cut_off)
 }

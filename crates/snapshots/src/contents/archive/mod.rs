@@ -10,9 +10,10 @@
 //! - The tar archive is compressed into one zstd frame with a content size, a checksum and no dictionary. A skippable
 //!   frame with the BLAKE3 hash of the compressed bytes follows, to detect accidental damage.
 //!
-//! [`Archive::open`] accepts exactly this form: everything else that tar can express (links, devices, sparse files,
-//! extended headers, duplicate names, other owners) differs from the expected header and is reported. The digest
-//! covers the *uncompressed* bytes, because a different version of zstd may compress them differently.
+//! [`Archive::open`] accepts exactly this form. Everything else that tar can express (links, devices, sparse
+//! files, extended headers, duplicate names, other owners) differs from the expected header and is reported.
+//! The digest covers the *uncompressed* bytes, because different versions of zstd may compress them
+//! differently.
 //!
 //! Any `tar` unpacks such a file into one folder, named after the release.
 
@@ -48,7 +49,7 @@ pub const ARCHIVE_END: &str = ".tar.zst";
 /// The maximum unpacked size of an archive, in bytes: 512 MiB, because an archive is read into memory. Larger
 /// releases must be distributed as folders.
 pub const MAX_UNPACKED: u64 = 512 << 20;
-/// The unpacked size allowed regardless of the packed size, in bytes: 16 MiB.
+/// The unpacked size that is allowed regardless of the packed size, in bytes: 16 MiB.
 pub const FREE_UNPACKED: u64 = 16 << 20;
 /// The maximum ratio of unpacked to packed bytes beyond [`FREE_UNPACKED`]. Releases stay below 30.
 pub const MAX_RATIO: u64 = 200;
@@ -64,15 +65,15 @@ pub struct Packed {
     pub unpacked: u64,
     /// The size of the file, in bytes.
     pub size: u64,
-    /// The number of papers stored with the release, none of which is packed.
+    /// The number of papers stored with the release. Papers are not packed.
     pub papers: usize,
 }
 
 /// Packs the release folder `root` into the file `out`, which must not exist yet. The same release produces the same
 /// uncompressed bytes on every machine.
 ///
-/// `out` is either complete or absent. Until `out` is complete, the data is stored in the folder `<out>.partial` of a
-/// [`Draft`], which replaces a stale folder of that name.
+/// `out` is either complete or absent. Until then, the data is stored in a [`Draft`]'s folder
+/// `<out>.partial`, which replaces a stale folder of that name.
 ///
 /// Cost: two passes over the files, and enough memory for one file.
 ///
@@ -161,10 +162,10 @@ fn most(size: u64) -> u64 {
 /// The result of reading an archive: its manifest, its files, and all problems found.
 #[derive(Debug, Clone)]
 pub struct Archive {
-    /// The manifest, and the problems in the form used by [`check_integrity`]. After a fault in the archive's own
-    /// structure, nothing more is read.
+    /// The manifest, and the problems in the form used by [`check_integrity`]. Reading stops at the first
+    /// fault in the archive's own structure.
     pub integrity: Integrity,
-    /// The digest of the uncompressed bytes read: all bytes if the archive is sound.
+    /// The digest of the uncompressed bytes read, which are all bytes if the archive is sound.
     pub digest: Digest,
     /// The number of uncompressed bytes read.
     pub unpacked: u64,
@@ -200,7 +201,7 @@ impl Archive {
     fn read(path: &Path, keep: bool) -> Result<Archive, SnapshotError> {
         let io = |source| SnapshotError::io("read", path)(source);
         let broken = |message: String| SnapshotError::Archive { path: path.to_path_buf(), message };
-        // Check before opening, because opening a pipe would wait for its other end.
+        // This is checked before opening, because opening a pipe would wait for its other end.
         let found = fs::metadata(path).map_err(SnapshotError::io("examine", path))?;
         if !found.is_file() {
             return Err(SnapshotError::ReleaseKind { path: path.to_path_buf(), expected: "file" });
@@ -258,8 +259,8 @@ impl Archive {
         self.files.get(path).map(Vec::as_slice)
     }
 
-    /// Writes the release to the folder `out`, which must be absent or empty. Afterwards the folder is either
-    /// complete or absent.
+    /// Writes the release to the folder `out`, which must be absent or empty. Afterwards, the folder is
+    /// either complete or absent.
     ///
     /// # Errors
     /// Returns an error if the archive is unsound, `out` is occupied, or a file system operation fails.
@@ -274,7 +275,7 @@ impl Archive {
     }
 }
 
-/// Returns `true` if a path has an archive's suffix. The suffix does not determine the content.
+/// Returns `true` if a path has the suffix of an archive. The suffix says nothing about the content.
 pub(crate) fn is_called_archive(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ARCHIVE_END))
 }
@@ -313,7 +314,7 @@ fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadab
     Ok((name.to_owned(), reader.file(size)?))
 }
 
-/// The placeholder path of a problem with the archive as a whole. The archive's name replaces the placeholder later.
+/// The placeholder path for a problem with the archive as a whole, replaced later by the archive's name.
 const WHOLE: &str = ".";
 
 /// A reason to stop reading early.
@@ -364,7 +365,7 @@ fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
     }
 }
 
-/// Reads the list for one part of the withheld files. The header states the list's size.
+/// Reads the list of one part of the withheld files. Its header states its size.
 fn read_list(
     reader: &mut FrameReader,
     manifest: &Manifest,

@@ -1,9 +1,9 @@
-//! Reads a recipe as arbitrary JSON, with bounded memory.
+//! Reads a recipe as arbitrary JSON in bounded memory.
 //!
-//! A manifest is untrusted input, and its root can be compared only after all of it has been read. Two limits bound
-//! the memory that a few bytes can cost. The limit on nesting depth is needed because the canonical text indents
-//! every level. The limit on the number of values is needed because each value takes much more memory than the two
-//! bytes in which it can be written.
+//! A manifest is untrusted input, and its root can be compared only after all of it has been read. Two limits
+//! bound the memory that a few bytes can cost. Nesting depth is limited because the canonical text indents
+//! every level. The number of values is limited because each value takes much more memory than the two bytes
+//! in which it can be written.
 
 use std::cell::Cell;
 
@@ -18,8 +18,8 @@ pub(super) const MAX_VALUES: usize = 1 << 20;
 /// The number of values counted for an object.
 const OBJECT: usize = 16;
 
-/// Reads a value with at most [`MAX_NESTING`] levels and [`MAX_VALUES`] values, and rejects any excess before storing
-/// it.
+/// Reads a value with at most [`MAX_NESTING`] levels and [`MAX_VALUES`] values. Any excess is rejected before
+/// it is stored.
 pub(super) fn bounded<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Value, D::Error> {
     Bounded { levels: MAX_NESTING, values: &Cell::new(MAX_VALUES) }.deserialize(deserializer)
 }
@@ -42,7 +42,7 @@ impl Bounded<'_> {
         left.map(|left| self.values.set(left))
     }
 
-    /// Returns the budget for the inside of an array or object.
+    /// Returns the budget for the contents of an array or object.
     fn inside<E: Error>(self) -> Result<Self, E> {
         let levels = self.levels.checked_sub(1);
         let levels = levels

@@ -1,4 +1,4 @@
-//! Checks a manifest's internal consistency, apart from its syntax, its root and the files.
+//! Checks the internal consistency of a manifest, but not its syntax, its root or the files.
 
 use super::{FORMAT, HEADER_LEAF, Manifest, OLDEST_FORMAT, SEALED_FORMAT};
 use crate::error::SnapshotError;
@@ -10,7 +10,7 @@ use crate::format::manifest::{MANIFEST_FILE, MANIFEST_LIMIT};
 use crate::format::path::check_path;
 use crate::format::version::is_version_number;
 
-/// Checks a manifest, and returns the first problem as an error. Cost: O(n log n) in the number of items.
+/// Checks a manifest, and returns its first problem as an error. Cost: O(n log n) in the number of items.
 pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_format(manifest)?;
     let name = &manifest.name;
@@ -66,7 +66,7 @@ pub(super) fn shape(manifest: &Manifest) -> u32 {
     }
 }
 
-/// Checks the format and the version. From format 2 on, a manifest states the version that minted it.
+/// Checks the format and the version. From format 2 on, a manifest states which version minted it.
 fn check_format(manifest: &Manifest) -> Result<(), SnapshotError> {
     let shape = shape(manifest);
     if manifest.format != shape {
@@ -90,7 +90,7 @@ pub(super) fn unsound(message: String) -> SnapshotError {
 }
 
 fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
-    // One file and up to `MANIFEST_LIMIT` bytes are reserved for the manifest.
+    // One file, of up to `MANIFEST_LIMIT` bytes, is reserved for the manifest.
     if items.len() as u64 >= limits.files {
         return Err(unsound(format!(
             "the manifest has {} items; the limit is {}",
@@ -127,8 +127,8 @@ fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
 /// Checks that the items form one folder tree on any file system: a path cannot be both a file and a folder, and no
 /// two names differ only in case.
 ///
-/// Each item is compared with its predecessor in tree order, so no paths are stored. Uses two words of memory per
-/// item, and stops at the first folder beyond the limit.
+/// Each item is compared only with its predecessor in tree order, so no paths are stored. Uses two words of
+/// memory per item, and stops at the first folder beyond the limit.
 fn check_tree(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     let mut paths: Vec<&str> = items.iter().map(|item| item.path.as_str()).collect();
     paths.sort_unstable_by(|a, b| tree_order(a).cmp(tree_order(b)));
@@ -168,7 +168,8 @@ fn shared_components(before: &str, path: &str) -> Result<usize, SnapshotError> {
         ends = (ends.0 + 1, ends.1 + 1);
         shared += 1;
     }
-    // The previous file is a folder here. In the opposite case, the file would come after the folder's content.
+    // The previous file is a folder here. The opposite case cannot occur, because the file would come after
+    // the folder's content.
     if shared > 0 && before.split('/').count() == shared {
         return Err(unsound(format!("`{before}` is both a file and a folder")));
     }
@@ -187,7 +188,7 @@ mod tests {
         change(&mut manifest);
         let error = check(&manifest).expect_err(expect);
         assert!(error.to_string().contains(expect), "{error}");
-        // Also check through bytes: the reader must reject whatever the writer rejects.
+        // Also checked through bytes, because the reader must reject whatever the writer rejects.
         let text = manifest.text().expect("plain recipe");
         let from_text = Manifest::parse(text.as_bytes()).expect_err(expect);
         assert_eq!(from_text.to_string(), error.to_string());
@@ -248,8 +249,8 @@ mod tests {
         items
     }
 
-    /// Regression test: a half-megabyte archive with 99,999 items, each in its own folder at depth 124, took three
-    /// gigabytes.
+    /// Regression test: an archive of half a megabyte, with 99,999 items that each had their own folder at
+    /// depth 124, took three gigabytes.
     #[test]
     fn deep_paths_are_refused_early() {
         let deep = items_at((0..99_999).map(|n| format!("g{n:05}{}", "/a".repeat(124))));
@@ -260,7 +261,7 @@ mod tests {
         assert!(memory.bytes_max < 65_536, "{memory:?}");
     }
 
-    /// At the maximum depth, folders are counted but not stored, and only up to the limit.
+    /// At the maximum depth, folders are counted rather than stored, and only up to the limit.
     #[test]
     fn folders_are_counted_in_small_memory() {
         let wide = items_at((0..99_999).map(|n| format!("g{n:05}{}", "/a".repeat(15))));

@@ -10,10 +10,10 @@
 //!   `canary`, `commitment`, `format`, `generation`, `kind`, `name`, `parent`, `recipe`, `semantics` and, from format
 //!   2 on, `version`, with `null` for a missing parent or commitment.
 //!
-//! The root does not cover four fields. `items` and their sizes need no cover, because the tree is built from the
-//! items, and a digest fixes the size. `root` itself cannot be covered. `lockfile` is provenance only, because two
-//! builds with the same semantics mint the same release. `checksum` protects the sizes and the lock file against
-//! accidents, but not against attackers.
+//! The root does not cover four fields. `items` and their sizes need not be covered, because the tree is
+//! built from the items, and a digest fixes the size. `root` itself cannot be covered. `lockfile` is
+//! provenance only, because two builds with the same semantics mint the same release. `checksum` protects the
+//! sizes and the lock file against accidents, but not against attackers.
 
 mod bounded;
 mod check;
@@ -47,7 +47,7 @@ pub const HEADER_LEAF: &str = "MANIFEST";
 /// The maximum size of a manifest, in bytes: 64 MiB.
 pub const MANIFEST_LIMIT: u64 = 64 << 20;
 
-/// A release's description and content. The module documentation lists the fields covered by the root.
+/// A release's description and content. The module documentation states which fields the root covers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
@@ -57,9 +57,10 @@ pub struct Manifest {
     pub name: String,
     /// The kind of release, which determines whether its seed is public from the start.
     pub kind: ReleaseKind,
-    /// The engine's `SEMANTICS` at minting. Witnesses replay under the same semantics.
+    /// The engine's `SEMANTICS` at the time of minting. Witnesses replay under the same semantics.
     pub semantics: u32,
-    /// The generators' `GENERATION` at minting. Under the same generation, the recipe produces the same bytes.
+    /// The generators' `GENERATION` at the time of minting. Under the same generation, the recipe produces
+    /// the same bytes.
     pub generation: u32,
     /// The [version](crate::format::version) that minted the release, such as `0.12.0`. This is the generation's
     /// first version, even if a later version was used. `None` in format 1.
@@ -76,20 +77,20 @@ pub struct Manifest {
     /// The release's complete recipe.
     #[serde(deserialize_with = "bounded::bounded")]
     pub recipe: Value,
-    /// Every file except `MANIFEST.json`, sorted by the bytes of their paths. From format 3 on, withheld files are
-    /// not listed.
+    /// Every file except `MANIFEST.json`, sorted by the bytes of the paths. From format 3 on, withheld files
+    /// are not listed.
     pub items: Vec<Item>,
-    /// The commitments to withheld files; `None` if no files are withheld, or in earlier formats.
+    /// The commitments to withheld files; `None` in earlier formats, or if no files are withheld.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub withheld: Option<Withheld>,
     /// The root of the tree over the items and the header.
     pub root: Digest,
-    /// A checksum that detects a change to any byte in the manifest. The checksum is the BLAKE3 of the digits of
-    /// `root`, of `lockfile` and of each item's size, with a line feed after each.
+    /// A checksum that detects a change to any byte in the manifest. It is the BLAKE3 of the digits of
+    /// `root`, of `lockfile` and of each item's size, each followed by a line feed.
     pub checksum: Digest,
 }
 
-/// The part of the manifest covered by its own leaf. Adding a field here changes every root.
+/// The part of the manifest that its own leaf covers. Adding a field here changes every root.
 #[derive(Serialize)]
 struct Header<'a> {
     format: u32,
@@ -111,8 +112,8 @@ impl Manifest {
         MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
     }
 
-    /// Returns the known paths of withheld files in a sealed release, without the lists. The files are withheld until
-    /// the reveal.
+    /// Returns the known paths of the files that a sealed release withholds until the reveal, without the
+    /// lists.
     pub(crate) fn held(&self) -> BTreeSet<&str> {
         let held = self.files().map(|item| item.path.as_str());
         held.filter(|path| path.starts_with(HELD) && HeldPart::of_list(path).is_none()).collect()
@@ -128,7 +129,7 @@ impl Manifest {
         self.withheld.as_ref().map_or(&[], |withheld| &withheld.disclosed)
     }
 
-    /// Returns the known withheld files without their lists.
+    /// Returns the known withheld files, excluding their lists.
     pub(crate) fn withheld_files(&self) -> impl Iterator<Item = &Item> {
         self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_none())
     }
@@ -147,7 +148,7 @@ impl Manifest {
         })
     }
 
-    /// Returns `true` if the files of a withheld part are hidden, so that not even their paths are known.
+    /// Returns `true` if a withheld part's files are hidden, so that not even their paths are known.
     pub(crate) fn hides(&self, part: HeldPart) -> bool {
         self.withheld.as_ref().is_some_and(|withheld| !withheld.knows(part))
     }
@@ -239,7 +240,8 @@ impl Manifest {
             return Err(SnapshotError::TooLarge { path: MANIFEST_FILE.into(), limit: MANIFEST_LIMIT });
         }
         let syntax = |source| SnapshotError::Syntax { path: MANIFEST_FILE.into(), source };
-        // Read the version first: additions of a newer format must not be judged by this one.
+        // The version is read first, because additions in a newer format must not be judged by the rules of
+        // this one.
         let version: Version = serde_json::from_slice(bytes).map_err(syntax)?;
         if version.format > u64::from(SEALED_FORMAT) && !commits_to_known_format(bytes) {
             return Err(SnapshotError::Format { found: version.format, known: SEALED_FORMAT });
@@ -273,8 +275,8 @@ impl Manifest {
         Ok(bytes)
     }
 
-    /// Returns `true` if these bytes are the text of this manifest in this format. The comparison does not build a
-    /// second text.
+    /// Returns `true` if these bytes are the text of this manifest in this format. The comparison does not
+    /// build a second copy of the text.
     ///
     /// # Errors
     /// Returns an error if the recipe has no canonical JSON.
@@ -288,8 +290,8 @@ impl Manifest {
     }
 }
 
-/// Returns `true` if a manifest's root matches the format implied by its fields, regardless of the stated version.
-/// The root covers the version, so no release in a different format has this root.
+/// Returns `true` if a manifest's root matches the format implied by its fields, regardless of the stated
+/// version. The root covers the version, so no release in a different format can have this root.
 fn commits_to_known_format(bytes: &[u8]) -> bool {
     let Ok(mut manifest) = serde_json::from_slice::<Manifest>(bytes) else { return false };
     manifest.format = check::shape(&manifest);
@@ -335,7 +337,7 @@ pub(crate) mod tests {
         example(&[("games/x/lvl0.txt", b"w"), ("README.md", b"read me")])
     }
 
-    /// These texts and roots define the formats. The values were computed by an independent implementation.
+    /// These texts and roots define the formats. They were computed by an independent implementation.
     #[test]
     fn golden() {
         #[track_caller]

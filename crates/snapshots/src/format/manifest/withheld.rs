@@ -5,7 +5,7 @@ use crate::format::manifest::item::Item;
 use base::Digest;
 use serde::{Deserialize, Serialize};
 
-/// A sealed release's commitments to its withheld files, and the disclosed files.
+/// A sealed release's commitments to its withheld files, and the withheld files disclosed so far.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Withheld {
@@ -13,13 +13,13 @@ pub struct Withheld {
     pub solutions: Digest,
     /// The digest of the list of all other withheld files.
     pub rest: Digest,
-    /// The available lists and the files listed in them, sorted by the bytes of their paths. This field is not
-    /// part of the manifest's text.
+    /// The lists available so far and the files listed in them, sorted by the bytes of their paths. Not part
+    /// of the manifest's text.
     #[serde(skip)]
     pub(crate) disclosed: Vec<Item>,
 }
 
-/// A part of the withheld files that is revealed as a whole.
+/// A part of the withheld files that is revealed as a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum HeldPart {
     /// The published coin wins. A coin is a secret random decision about which of two equal items is published.
@@ -40,7 +40,7 @@ impl HeldPart {
         }
     }
 
-    /// Returns the part whose list is at a path.
+    /// Returns the part whose list is at the given path.
     pub(crate) fn of_list(path: &str) -> Option<HeldPart> {
         HeldPart::ALL.into_iter().find(|part| part.list() == path)
     }

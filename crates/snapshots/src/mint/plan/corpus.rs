@@ -1,5 +1,5 @@
-//! The corpus of hand-written games. Releases contain new levels for corpus games, and commands accept the
-//! names of corpus games.
+//! The corpus of hand-written games. Releases contain new levels for corpus games, and commands accept corpus
+//! games by name.
 
 use serde::{Deserialize, Serialize};
 
@@ -38,7 +38,7 @@ pub struct CorpusGame {
     pub name: String,
     /// The content of `game.vgdl`.
     pub source: String,
-    /// The contents of `lvl0.txt`, `lvl1.txt` …
+    /// The contents of `lvl0.txt`, `lvl1.txt` and so on.
     pub levels: Vec<String>,
     /// The game's card, parsed from `CARD.toml`.
     pub card: CorpusCard,

@@ -6,26 +6,28 @@ use crate::sections::puzzles::PuzzleKind;
 use crate::sections::section::JobCost;
 use validators::{Criteria, Criterion, CriterionSet};
 
-/// The mean cost of a job per requested level, in seconds of one core: without gates or `skill`, with gates (as in
-/// `starter`), and with both (as in `medium` and `2026-12`). For inventions, the second cost is
-/// measured on five games, the third on 15 games, and the first is a guess.
+/// The mean cost of a job per requested level, in core seconds: without gates or `skill`, with gates (as in
+/// `starter`), and with both (as in `medium` and `2026-12`). For inventions, the second cost was measured on
+/// five games, the third on 15 games, and the first is a guess.
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
 const INVENTED: [f64; 3] = [8.0, 18.0, 35.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
-/// The mean cost of a level without gates if a win search may take [`PLAIN_BUDGET`] calls (the default). Most of the
-/// cost comes from failed searches, whose cost is proportional to their call budget.
+/// The mean cost of a level without gates if a win search may take [`PLAIN_BUDGET`] calls (the default). Most
+/// of it comes from failed searches, whose cost is proportional to their call budget.
 const PLAIN: f64 = 2.0;
 const PLAIN_BUDGET: f64 = 3e6;
-/// The fraction of [`PLAIN`] that does not depend on the budget.
+/// The part of [`PLAIN`] that does not depend on the budget, as a fraction.
 const FIXED: f64 = 0.2;
 /// The mean cost of measuring a level's difficulty without gates. With gates, few levels reach this measurement.
 const LADDER: f64 = 0.8;
-/// The spread of a job's cost across seeds: the standard deviation as a multiple of the mean. Without gates, a few
-/// failed searches dominate the cost. With gates, every candidate is searched many times.
+/// The spread of a job's cost across seeds: the standard deviation as a multiple of the mean. Without gates,
+/// a few failed searches dominate the cost. With gates, the cost varies less, because every candidate is
+/// searched many times.
 const SPREAD_PLAIN: f64 = 1.9;
 const SPREAD_GATED: f64 = 0.7;
 const SPREAD_FIXED_RULES: f64 = 0.8;
-/// The spread shared by all jobs in a mint, because job costs were measured with few recipes on one machine.
+/// The spread shared by all jobs in a mint, which reflects that job costs were measured with few recipes on
+/// one machine.
 const SPREAD_SHARED: f64 = 0.15;
 /// The standard normal deviate of the 95th percentile.
 const NINETY_FIVE: f64 = 1.645;
@@ -37,7 +39,7 @@ const GATED_BUDGET: f64 = 1e6;
 pub struct Forecast {
     /// The median over all seeds.
     pub median: f64,
-    /// The 95th percentile over all seeds. One mint in twenty costs more.
+    /// The 95th percentile over all seeds: one mint in twenty costs more.
     pub tail: f64,
 }
 
@@ -50,8 +52,8 @@ impl Forecast {
 
 impl Plan<'_> {
     /// Forecasts the total cost of jobs on the machine described in docs/reference/recipes.md. The total is
-    /// approximated as log-normal with the correct mean and variance (L. F. Fenton, 1960), so the tail is long for few
-    /// jobs and short for many.
+    /// approximated by a log-normal distribution with the correct mean and variance (L. F. Fenton, 1960), so
+    /// the tail is long for few jobs and short for many.
     pub fn forecast(&self, jobs: &[Job]) -> Forecast {
         let costs = jobs.iter().map(|&job| self.cost(job));
         let (mean, variance) = costs.fold((0.0, 0.0), |(mean, variance), (cost, spread)| {
@@ -72,7 +74,7 @@ impl Plan<'_> {
         let of = |[plain, gated, skill]: [f64; 3], levels: u32, criteria: &Criteria| {
             let budget = criteria.budget as f64;
             let (base, share, ladder) = match is_gated(criteria) {
-                // With gates, three quarters of the cost are searches for a win, most of which fail.
+                // With gates, three quarters of the cost come from searches for a win, most of which fail.
                 true => (gated, 0.25 + 0.75 * budget / GATED_BUDGET, skill - gated),
                 false => (plain, FIXED + (1.0 - FIXED) * budget / PLAIN_BUDGET, LADDER),
             };

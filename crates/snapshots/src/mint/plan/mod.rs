@@ -31,7 +31,7 @@ use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
 use validators::{CheckedCriteria, Criteria, Criterion, Effort, Panel};
 
-/// A recipe with all data required for minting.
+/// A recipe with all the data required to mint it.
 #[derive(Debug)]
 pub struct Plan<'a> {
     /// The recipe to mint.
@@ -41,16 +41,16 @@ pub struct Plan<'a> {
     /// The compiled games, by index in the corpus.
     games: Vec<Game>,
     pub(super) forms: Vec<GameForm>,
-    /// The new games in previous releases.
+    /// The new games of previous releases.
     pub(super) before: Vec<GameForm>,
     jobs: Vec<Job>,
     /// The recipe's criteria.
     pub(super) criteria: CheckedCriteria,
     /// The criteria for corpus game levels.
     corpus_criteria: CheckedCriteria,
-    /// The rules of new games, divided among the jobs. Drawn when first needed by a job.
+    /// The rules of new games, divided among the jobs. They are drawn when a job first needs them.
     sets: OnceLock<RuleSets>,
-    /// The reference players; `None` if no players are set.
+    /// The reference players; `None` if none have been set.
     players: Option<&'a dyn MarkPlayers>,
 }
 
@@ -67,8 +67,8 @@ pub enum Job {
     Puzzle(PuzzleKind, u32),
 }
 
-/// The number of additional judges per game ([`GameEffort::judges`]). This number is lower than in
-/// `arcade generate games`, because a month has hardly more candidates than games.
+/// The number of additional judges per game ([`GameEffort::judges`]). It is lower than in `arcade generate
+/// games`, because a month has hardly more candidates than games.
 const JUDGES: u64 = 3;
 
 impl<'a> Plan<'a> {
@@ -114,7 +114,8 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    /// Sets the reference players requested in the recipe. If a recipe requests players, its jobs fail without them.
+    /// Sets the reference players requested in the recipe. Without them, the jobs of a recipe that requests
+    /// players fail.
     ///
     /// # Errors
     /// Returns an error if the recipe requests a player that is not available.
@@ -137,14 +138,14 @@ impl<'a> Plan<'a> {
         &self.jobs
     }
 
-    /// Returns the job indices in the order in which the games are listed, corpus games first.
+    /// Returns the indices of the jobs in the order in which games are listed, corpus games first.
     pub(super) fn in_order(&self) -> Vec<usize> {
         let is_new = |at: &usize| !matches!(self.jobs[*at], Job::Corpus(_));
         let (new, old): (Vec<usize>, Vec<usize>) = (0..self.jobs.len()).partition(is_new);
         old.into_iter().chain(new).collect()
     }
 
-    /// Returns the name of a job, which can serve as a file name.
+    /// Returns a job's name, which can serve as a file name.
     pub fn name(&self, job: Job) -> String {
         match job {
             Job::Constructive(number) => format!("constructive-{number}"),
@@ -154,10 +155,11 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Returns the canary contained in every file.
+    /// Returns the canary that every file contains.
     pub fn canary(&self) -> String {
         match self.recipe.commitment {
-            // The canary is derived from the recipe's digest, so that two recipes have different canaries.
+            // The canary is derived from the recipe's digest, so that distinct recipes have distinct
+            // canaries.
             None => canary(
                 &canonical_digest(self.recipe).expect("a checked recipe has no numbers that JSON lacks"),
             ),
@@ -165,8 +167,8 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Returns the digest of everything that determines the jobs' results. Two plans with the same digest share their
-    /// results, even if their recipes differ in other respects.
+    /// Returns the digest of everything that determines the jobs' results. Plans with the same digest share
+    /// their results, even if their recipes differ in other respects.
     ///
     /// # Errors
     /// Returns no error for a checked recipe.
@@ -207,7 +209,7 @@ impl<'a> Plan<'a> {
         self.recipe.invented.as_ref().map_or(0, |part| part.games)
     }
 
-    /// Returns the candidates for invented games, according to the weights of their mix.
+    /// Returns the candidates for invented games, distributed according to the weights of the recipe's mix.
     fn invented(&self) -> impl Iterator<Item = Job> + use<> {
         let methods = [Method::Evolutionary, Method::Search, Method::Constructive];
         let counts = self.recipe.invented.as_ref().map_or_else(Vec::new, |part| {
@@ -277,7 +279,7 @@ impl<'a> Plan<'a> {
         Ok(JobResult { games, tally })
     }
 
-    /// Returns the seed of a job, or its kind's seed if jobs of that kind derive their own seeds.
+    /// Returns the seed of a job, or the seed of its kind if jobs of that kind derive their own seeds.
     fn seed_of(&self, job: Job) -> SeedPath {
         let root = SeedPath::from(self.seed);
         match job {
@@ -306,7 +308,7 @@ impl<'a> Plan<'a> {
     /// Generates an invented game.
     fn invent(&self, method: Method, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
         let Some(part) = &self.recipe.invented else { return (Vec::new(), Tally::default()) };
-        // One attempt of a search, or one round of an archive, examines many rule sets.
+        // A single attempt of a search, or a single round of an archive, examines many rule sets.
         let tries = match method {
             Method::Constructive => part.game_tries,
             Method::Search | Method::Evolutionary => part.game_tries / 4,
@@ -318,7 +320,8 @@ impl<'a> Plan<'a> {
         (made.into_iter().collect(), tally)
     }
 
-    /// Returns the rules of new games. Jobs run independently, so diverse rules must be assigned beforehand.
+    /// Returns the rules of new games. They must be assigned beforehand to be diverse, because jobs run
+    /// independently.
     pub(super) fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
             let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
@@ -342,7 +345,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Creates a corpus game in a new theme, with new levels that resemble the game's own.
+    /// Creates a corpus game in a new theme, with new levels that resemble its own.
     fn new_levels(&self, at: usize, seed: &SeedPath) -> (Vec<MadeGame>, Tally) {
         let (recipe, known) = (self.recipe, &self.corpus.games[at]);
         let mut tally = Tally::default();
@@ -350,7 +353,7 @@ impl<'a> Plan<'a> {
             tally.game_rejected("no fiction fits");
             return (Vec::new(), tally);
         };
-        // Compiled from the printed text, so that the judged game is the frozen one.
+        // The game is compiled from the printed text, so that the judged game is the frozen one.
         let Ok(game) = Game::from_source(&syntax::print(&retold.description)) else {
             tally.game_rejected("the rules do not compile");
             return (Vec::new(), tally);
@@ -386,8 +389,8 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The maximum number of attempts to create a corpus game when its levels leave a rule unused. After this number of
-/// attempts, further levels are unlikely to use the rule.
+/// The maximum number of attempts to create a corpus game when its levels leave a rule unused. Beyond that,
+/// further levels are unlikely to use the rule.
 const UNUSED: u64 = 3;
 
 /// Returns the number of candidates for a given number of games.
@@ -403,8 +406,8 @@ mod tests {
     use crate::mint::tests::{FETCH, corpus, recipe};
     use validators::{CriterionSet, Difficulty};
 
-    /// Published episodes differ from the episodes that led to a level's acceptance or selection, because the latter
-    /// were lucky.
+    /// Published episodes differ from the episodes that led to a level's acceptance or selection, because the
+    /// latter are biased by luck.
     #[test]
     fn the_ladder_plays_again_for_the_card() {
         let corpus = corpus(&[("fetch", FETCH)]);

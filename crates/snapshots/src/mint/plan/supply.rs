@@ -1,4 +1,4 @@
-//! The maximum number of games that a recipe can contain.
+//! The maximum number of games that a recipe can have.
 
 use super::{Job, Plan};
 use crate::mint::error::MintError;
@@ -8,18 +8,18 @@ use forge::games::RuleSets;
 use forge::well::left;
 use validators::novelty::GameForm;
 
-/// The maximum number of games for which the first rule sets of all kernels suffice, so that the rule sets need not
-/// be counted.
+/// The maximum number of games for which the first rule sets of all kernels suffice, so that rule sets need
+/// not be counted.
 const FEW: usize = 40;
 
-/// The number of rule sets used up by one invented game. Nine in ten rule sets have no passing boards, and
+/// The number of rule sets used up by one invented game. Nine in ten rule sets have no boards that pass, and
 /// near-duplicates among a month's candidates are dropped.
 const SETS_OF_A_GAME: f64 = 16.0;
 
 impl Plan<'_> {
     /// Checks that there are enough rule sets for the requested number of games, with any seed. If the recipe
-    /// requests most of the possible new games, returns the maximum number of new games. Some candidates fail, so
-    /// fewer games may pass than requested.
+    /// requests most of the possible new games, returns the maximum number of new games. Because some
+    /// candidates fail, fewer games may pass than requested.
     ///
     /// Cost: a fraction of a second if the recipe requests more games than there are kernels.
     ///
@@ -62,14 +62,14 @@ impl Plan<'_> {
         })
     }
 
-    /// Checks that the mechanics suffice for the invented games, by estimating how many of their rule sets are not
-    /// near a known game.
+    /// Checks that there are enough mechanics for the invented games, by estimating how many of their rule
+    /// sets are not near a known game.
     fn invented_supply(&self) -> Result<Option<usize>, MintError> {
         let asked = self.recipe.invented.as_ref().map_or(0, |part| part.games as usize);
         if asked <= FEW && (asked == 0 || self.before.is_empty()) {
             return Ok(None);
         }
-        // Without earlier releases, too few games are known to matter.
+        // Without earlier releases, so few games are known that they do not matter.
         let known: Vec<GameForm> = match self.before.is_empty() {
             true => Vec::new(),
             false => self.forms.iter().chain(&self.before).cloned().collect(),
@@ -79,7 +79,7 @@ impl Plan<'_> {
         invented_of(sets, asked, !self.before.is_empty())
     }
 
-    /// Checks that earlier releases have left enough unused rules for one kind of puzzle.
+    /// Checks that earlier releases have left enough rules unused for one kind of puzzle.
     fn puzzle_supply(&self, kind: PuzzleKind) -> Result<(), MintError> {
         let asked = self.recipe.puzzles_of(kind).map_or(0, |part| part.games as usize);
         let is_open = |job: &&Job| match **job {
@@ -106,8 +106,8 @@ impl Plan<'_> {
     }
 }
 
-/// Checks that the given number of rule sets suffices for the invented games of a recipe. Returns the maximum number
-/// of invented games if the recipe requests most of them.
+/// Checks that the given number of rule sets suffices for a recipe's invented games. Returns the maximum
+/// number of invented games if the recipe requests most of them.
 fn invented_of(sets: f64, asked: usize, is_later: bool) -> Result<Option<usize>, MintError> {
     let most = (sets / SETS_OF_A_GAME) as usize;
     if most >= asked {

@@ -12,17 +12,17 @@ use report::Quantiles;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The description of a sealed release before the reveal.
+/// The description of a sealed release before its reveal.
 const SEALED: &str = "sealed: seed and winning episodes are held back until it is revealed";
-/// The limitation of a sealed release before the reveal.
+/// The limitation of a sealed release before its reveal.
 const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only \
                          after the release is revealed, and wholly only by minting it again.\n";
 
-/// The description of a sealed release with only the published coin wins revealed.
+/// The description of a sealed release of which only the published coin wins have been revealed.
 const SOLVED: &str = "sealed: a winning episode of each level is public, seed and second episodes are held \
                       back until it is revealed";
 
-/// Returns the datasheet after the reveal. The publisher's own changes are preserved.
+/// Returns the datasheet after the reveal, preserving the publisher's own changes.
 pub(super) fn revealed(datasheet: &str, what: Reveal) -> String {
     if what == Reveal::Solutions {
         return datasheet.replace(SEALED, SOLVED);
@@ -120,7 +120,7 @@ pub(super) fn datasheet(minted: &Minted) -> String {
     text
 }
 
-/// Formats counts: `jumps 3, walks 12`.
+/// Formats counts, such as `jumps 3, walks 12`.
 fn counted(counts: &BTreeMap<String, u64>) -> String {
     counts.iter().map(|(name, count)| format!("{} {count}", name.replace('_', " "))).join(", ")
 }

@@ -1,10 +1,10 @@
 //! Papers: documents that accompany a release without belonging to it, such as the licence, the citation, the
 //! datasheet, errata, and the publisher's additions.
 //!
-//! Papers are stored in `papers/`, outside the hashed tree and the manifest, because a DOI or an erratum is added
-//! after the root is fixed. The root therefore proves nothing about papers. The size of papers is bounded, and links
-//! and unsafe names are rejected as in the rest of a release. Entries left by other programs at the top of a folder
-//! (`.git`, `.DS_Store`) are skipped and reported.
+//! Papers are stored in `papers/`, outside the hashed tree and the manifest, because a DOI or an erratum is
+//! added after the root is fixed. The root therefore proves nothing about papers. The size of papers is
+//! bounded, and links and unsafe names are rejected, as in the rest of a release. Entries left by other
+//! programs at the top of a folder (`.git`, `.DS_Store`) are skipped and reported.
 
 mod datasheet;
 
@@ -17,7 +17,7 @@ use crate::recipe::cited::Cited;
 use serde::Deserialize;
 
 impl Minted {
-    /// Returns the initial papers of a release, by path. The facts in them come from the manifest and the cards.
+    /// Returns a release's initial papers, by path. The facts in them come from the manifest and the cards.
     pub fn papers(&self) -> Vec<(String, String)> {
         let manifest = &self.manifest;
         let papers = [
@@ -90,7 +90,7 @@ struct Names {
 }
 
 impl Names {
-    /// Reads the names in a manifest's recipe. Names without the expected form are left empty.
+    /// Reads the names in a manifest's recipe. Names that are not of the expected form are left empty.
     fn of(manifest: &Manifest) -> Names {
         serde_json::from_value(manifest.recipe.clone()).unwrap_or_default()
     }
@@ -102,7 +102,7 @@ pub(crate) fn title(manifest: &Manifest) -> String {
     Cited::of(&manifest.name, &names.authors, names.publisher.as_deref()).title()
 }
 
-/// Quotes text for YAML, with double quotes.
+/// Quotes text for YAML, using double quotes.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for character in text.chars() {

@@ -1,5 +1,5 @@
-//! Checks reference results against the recipe's request, the games' cards and each other, without replaying
-//! episodes.
+//! Checks reference results against the recipe's request, against the games' cards and against each other,
+//! without replaying episodes.
 
 use super::{Falls, GameMarks, LevelMarks, Marks, MarksPart, Wins, rates};
 use crate::contents::Contents;
@@ -86,7 +86,7 @@ fn of_game(game: &GameMarks, card: &Card, asked: &MarksPart) -> Option<String> {
     numbers_problem(&wins, asked).map(|what| format!("`{}`: {what}", game.id))
 }
 
-/// Returns a sentence about the problem with a game's reference results in a job's result; `None` if the results are
+/// Returns a sentence about the problem with a game's reference results in a job's result; `None` if they are
 /// sound.
 pub(super) fn shape_problem(wins: &[Wins], levels: usize, asked: Option<&MarksPart>) -> Option<String> {
     let Some(asked) = asked else {

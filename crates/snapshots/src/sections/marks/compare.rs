@@ -14,7 +14,7 @@ pub struct MarkDifference {
     pub tier: Option<Tier>,
     /// The reference player.
     pub player: String,
-    /// The number of actions to which the player commits at each look.
+    /// The number of actions that the player commits to at each decision.
     pub commit: Commitment,
     /// The win rate in the first release.
     pub ours: Clustered,
@@ -27,7 +27,8 @@ pub struct MarkDifference {
 }
 
 /// Returns the differences between the reference results present in both releases, in the order of
-/// [`Marks::rates`]; empty if the two releases' episodes have different limits and therefore cannot be compared.
+/// [`Marks::rates`]; empty if the episodes of the two releases have different limits and therefore cannot be
+/// compared.
 pub fn mark_differences(ours: &Marks, theirs: &Marks) -> Vec<MarkDifference> {
     if ours.asked.max_steps != theirs.asked.max_steps {
         return Vec::new();

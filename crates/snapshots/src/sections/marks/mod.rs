@@ -1,9 +1,9 @@
-//! Marks, or reference results: the results of never-changing players on a release's levels. The results are stored
-//! in the release for comparison with other players.
+//! Marks, or reference results: the results of fixed players on a release's levels, stored in the release for
+//! comparison with other players.
 //!
-//! The recipe specifies the players, which play each level with each commitment when the release is minted. Their
-//! results are stored in a release file. In a sealed release, this file is withheld, so that a level's difficulty is
-//! not revealed early.
+//! The recipe specifies the players. When the release is minted, they play each level with each commitment,
+//! and their results are stored in a file of the release. In a sealed release, this file is withheld, so that
+//! the levels' difficulty is not revealed early.
 
 mod check;
 mod compare;
@@ -44,7 +44,7 @@ const MOST_CALLS: u64 = 2000;
 /// The maximum number of forward-model calls per plan that a recipe can request.
 const MOST_PLAN_CALLS: u64 = 100_000;
 
-/// The fraction of the maximum number of actions that an episode takes on average.
+/// The average length of an episode, as a fraction of the maximum number of actions.
 const PLAYED: f64 = 0.5;
 /// The cost of a forward-model call, in seconds.
 const CALL: f64 = 1e-6;
@@ -53,11 +53,11 @@ const PROMPT: f64 = 3e-3;
 
 /// The planner that searches for whole plans.
 const PLANNING: &str = "systematic";
-/// The fraction of the call budget of [`PLANNING`] spent per action. In stochastic games, a ten-tick plan gets a
-/// tenth of the calls. In deterministic games, the planner searches for only a few plans per episode.
+/// The fraction of [`PLANNING`]'s call budget that is spent per action. In stochastic games, a ten-tick plan
+/// gets a tenth of the calls. In deterministic games, the planner searches for only a few plans per episode.
 const PLANNED: f64 = 0.01;
 
-/// The player that ignores the rules and does not read prompts.
+/// The player that ignores the rules and reads no prompts.
 const TOUCHING: &str = "touch-everything";
 
 base::with_defaults! {
@@ -82,7 +82,7 @@ fn names(of: &[&str]) -> Vec<String> {
 }
 
 impl MarksPart {
-    /// Checks the values. Names of players that are not planners are checked by [`MarkPlayers::check`].
+    /// Checks the values. [`MarkPlayers::check`] checks the names of players that are not planners.
     ///
     /// # Errors
     /// Returns an error for the first value that is out of range.
@@ -139,10 +139,10 @@ impl MarksPart {
     }
 }
 
-/// The interface for playing the reference players. The evaluation crate implements it, because this crate does not
-/// depend on the evaluation crate.
+/// The interface for playing the reference players. The evaluation crate implements it, because this crate
+/// does not depend on that crate.
 pub trait MarkPlayers: Sync + Debug {
-    /// Checks that there is a player with the given name.
+    /// Checks that a player with the given name exists.
     ///
     /// # Errors
     /// Returns a message if the player does not exist.
@@ -156,7 +156,7 @@ pub trait MarkPlayers: Sync + Debug {
     fn play(&self, game: &str, levels: &[String], asked: &MarksPart) -> Result<Vec<Wins>, String>;
 }
 
-/// The numbers of episodes won on a level: one list per player, with one number per commitment.
+/// The numbers of episodes won on a level, as one list per player with one number per commitment.
 pub type Wins = Vec<Vec<u64>>;
 
 /// The content of [`MARKS_FILE`].
@@ -198,7 +198,7 @@ pub struct LevelMarks {
     pub wins: Wins,
 }
 
-/// A player's win rate, with one commitment, on the levels of one tier.
+/// A player's win rate with one commitment on the levels of one tier.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MarkRate {
@@ -243,8 +243,8 @@ impl Marks {
         }
     }
 
-    /// Returns the path of the reference results according to a manifest; `None` if its recipe does not request
-    /// reference results.
+    /// Returns the path of the reference results according to a manifest; `None` if the manifest's recipe
+    /// requests no reference results.
     pub fn path_in(manifest: &Manifest) -> Option<String> {
         manifest.recipe.get("marks").filter(|part| !part.is_null()).map(|_| Marks::path(manifest.kind))
     }
@@ -360,7 +360,7 @@ pub(crate) mod tests {
         check(&marks("commits = ['none']"), "`marks.commits` takes distinct values from \"1\", \"2\"");
         check(&marks("commits = ['7']"), "unknown variant `7`");
         check(&marks("games = 3"), "unknown field `games`");
-        // Recipes that request no reference results keep their bytes.
+        // Recipes that request no reference results are serialised as before.
         assert!(serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap().get("marks").is_none());
     }
 }

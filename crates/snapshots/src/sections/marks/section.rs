@@ -16,7 +16,7 @@ use forge::card::Card;
 use serde_json::{Map, Value, json};
 use validators::Tier;
 
-/// The section `[marks]` of a recipe.
+/// The `[marks]` section of a recipe.
 pub(crate) struct MarksSection;
 
 impl Section for MarksSection {

@@ -1,11 +1,12 @@
-//! The decreases in the reference players' win rates from tier to tier, and from commitment to commitment.
+//! The decreases in the reference players' win rates from one tier to the next, and from one commitment to
+//! the next.
 
 use super::{GameMarks, LevelMarks, MarksPart};
 use serde::{Deserialize, Serialize};
 use statistics::paired_over_games;
 use validators::{Commitment, Tier};
 
-/// The decreases in win rates: first for all players together, and then for each player.
+/// The decreases in win rates, first for all players together and then for each player.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Falls {
@@ -15,8 +16,8 @@ pub struct Falls {
     pub commits: Vec<Fall<Commitment>>,
 }
 
-/// The difference between two win rates, paired over games. Each game counts once, and the games' difficulty
-/// cancels out.
+/// The difference between two win rates, paired by game. Each game counts once, and its difficulty cancels
+/// out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fall<T> {
@@ -29,7 +30,7 @@ pub struct Fall<T> {
     pub to: T,
     /// The number of games with levels of both kinds.
     pub games: u64,
-    /// The mean win rate over these games on each kind of level.
+    /// The mean win rate in these games on each of the two kinds of level.
     pub rates: [f64; 2],
     /// The first rate minus the second rate.
     pub fall: f64,
@@ -74,7 +75,7 @@ impl Falls {
     }
 }
 
-/// Returns the mean fraction of episodes won, over the selected levels and commitments in a game.
+/// Returns the mean fraction of episodes won over the selected levels and commitments in a game.
 fn rate(
     asked: &MarksPart,
     game: &GameMarks,

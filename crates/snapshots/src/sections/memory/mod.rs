@@ -1,10 +1,10 @@
-//! Coins for tests of memory. Minting creates pairs whose two members only a player who knows the published member
-//! can tell apart. A coin decides which member is published, and the release commits to the other ([the
+//! Coins for memory tests. Minting creates pairs whose members can be told apart only by a player who knows
+//! the published one. A coin decides which member is published, and the release commits to the other ([the
 //! tests](../../../../../docs/how-to/memory.md)).
 //!
-//! A pair consists of two renamings of a game (siblings) or two wins of a level. Its coin is drawn from the release's
-//! secret and the smaller of the two digests. The coin therefore does not depend on the members' order of creation or
-//! on their positions. The withheld member is stored in [`HELD`] until the release is revealed.
+//! A pair consists of two renamings of a game (siblings) or two wins of a level. Its coin is drawn from the
+//! release's secret and the smaller of the two digests, so it does not depend on the members' order of
+//! creation or their positions. The withheld member is stored in [`HELD`] until the release is revealed.
 
 mod pairs;
 pub(crate) mod part;
@@ -21,8 +21,8 @@ use base::{Digest, Seed, SeedStep};
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// The number of initial actions by which wins are distinguished. A player that knows a published win begins with the
-/// same actions.
+/// The number of initial actions by which wins are distinguished. A player that knows a published win begins
+/// with the win's actions.
 pub const PREFIX: usize = 10;
 
 /// A game's sibling: the same rules and levels under different names.
@@ -31,7 +31,7 @@ pub const PREFIX: usize = 10;
 pub struct Sibling {
     /// The sibling's title.
     pub title: String,
-    /// The rules, headed by the title.
+    /// The rules, preceded by the title.
     pub text: String,
     /// The levels, in the game's order.
     pub levels: Vec<String>,
@@ -47,14 +47,15 @@ pub struct SecondWin {
     pub path: Vec<SeedStep>,
 }
 
-/// Returns `true` if the coin of a pair publishes `one`. `what` names the kind of pair.
+/// Returns `true` if a pair's coin publishes `one`. `what` names the kind of pair.
 fn publishes(root: Seed, what: &str, one: Digest, other: Digest) -> bool {
     let first = one.min(other);
     let is_first = root.child(&format!("coin of {what} {first}"), 0).sampler().ratio(1, 2);
     is_first == (one == first)
 }
 
-/// Returns `true` if the coin for two siblings, identified by their rule digests, publishes the first.
+/// Returns `true` if the coin for two siblings, identified by the digests of their rules, publishes the
+/// first.
 pub(crate) fn publishes_sibling(root: Seed, one: Digest, other: Digest) -> bool {
     publishes(root, "siblings", one, other)
 }

@@ -1,5 +1,5 @@
-//! Checks pairs after the reveal. The two members must differ only in permitted ways, and the published member must
-//! be the one chosen by the coin.
+//! Checks pairs after the reveal: the two members must differ only in permitted ways, and the published
+//! member must be the one that the coin chose.
 
 use super::toss::differ;
 use super::{SecondWin, Sibling, publishes_sibling, publishes_win};
@@ -12,16 +12,16 @@ use validators::GameForm;
 /// A game's levels with their published wins.
 pub(super) type Levels = [(Level, Option<Episode>)];
 
-/// A loaded withheld sibling.
+/// A withheld sibling, loaded from its texts.
 pub(crate) struct SecretGame {
     /// The sibling's rules.
     pub(crate) game: Game,
-    /// The original texts of the sibling's levels, and the levels.
+    /// The levels of the sibling, each with its original text.
     pub(crate) levels: Vec<(String, Level)>,
 }
 
 impl SecretGame {
-    /// Loads the texts of a sibling.
+    /// Loads a sibling's texts.
     ///
     /// # Errors
     /// Returns a message if the rules or a level do not load.
@@ -37,8 +37,8 @@ impl SecretGame {
         Ok(SecretGame { game, levels })
     }
 
-    /// Returns a sentence about the problem with a published game's sibling: its rules or levels differ, or the coin
-    /// did not withhold it. `root` is the seed for the coins.
+    /// Returns a sentence about the problem with a published game's sibling: its rules or levels differ from
+    /// the game's, or the coin did not withhold it. `root` is the seed for the coins.
     pub(crate) fn flaw(&self, published: &Game, levels: &Levels, root: Option<Seed>) -> Option<String> {
         let (one, other) = (published.digest(), self.game.digest());
         if one == other {
@@ -63,7 +63,7 @@ impl SecretGame {
     }
 }
 
-/// Returns a sentence about the problem with a level's pair of wins, apart from the replay of the second win.
+/// Returns a sentence about the problem with a level's pair of wins, without replaying the second win.
 pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Option<Seed>) -> Option<String> {
     let published = published?;
     if !differ(&published.actions, &second.actions) {
@@ -73,7 +73,8 @@ pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Opt
     (!is_tossed).then(|| "the coin publishes this win: the other win should be withheld".to_owned())
 }
 
-/// Returns a sentence about the problem with a game's pairs in a job's result. `root` is the plan's root seed.
+/// Returns a sentence about the problem with a game's pairs in a job's result. `root` is the plan's root
+/// seed.
 pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
     let FrozenGame { levels, witnesses, sibling, seconds, .. } = frozen;
     if !seconds.is_empty() && seconds.len() != levels.len() {

@@ -1,4 +1,4 @@
-//! The section `[memory]` of a recipe.
+//! The `[memory]` section of a recipe.
 
 use crate::format::manifest::Manifest;
 use crate::format::manifest::item::ReleaseKind;
@@ -19,7 +19,7 @@ base::with_defaults! {
 }
 
 impl MemoryPart {
-    /// Checks the values of the section.
+    /// Checks the section's values.
     ///
     /// # Errors
     /// Returns an error if neither kind of coin is requested, or if the release has no commitment.

@@ -17,10 +17,10 @@ use engine::{Game, syntax};
 use forge::games::marked;
 use serde_json::{Map, Value, json};
 
-/// The relative cost that the search for second wins adds to a job, as measured on twelve games.
+/// The relative cost that searching for second wins adds to a job, as measured on twelve games.
 const SECOND_WINS: f64 = 0.2;
 
-/// The section `[memory]` of a recipe.
+/// The `[memory]` section of a recipe.
 pub(crate) struct MemorySection;
 
 impl Section for MemorySection {
@@ -59,7 +59,8 @@ impl Section for MemorySection {
         game: &mut FrozenGame,
     ) -> Result<Vec<NewFile>, SnapshotError> {
         let mut files = Vec::new();
-        // If one of two wins is withheld, the length of the shortest win would reveal which of them was published.
+        // If one of two wins is withheld, the length of the shortest win would reveal which one was
+        // published.
         for (level, second) in game.card.levels.iter_mut().zip(&game.seconds) {
             level.optimal_ticks = level.optimal_ticks.filter(|_| second.is_none());
         }

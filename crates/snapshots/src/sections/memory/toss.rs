@@ -1,4 +1,4 @@
-//! Creates pairs and tosses their coins when a game is minted.
+//! Creates pairs and tosses their coins, when a game is minted.
 
 use super::{PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
 use crate::sections::frozen::FrozenGame;
@@ -13,17 +13,17 @@ use forge::games::slug;
 use rayon::prelude::*;
 use validators::Criteria;
 
-/// The number of attempts at a second win, each with planners first and with systematic search afterwards.
+/// The number of attempts at a second win, first with planners and then with systematic search.
 const TRIES: u64 = 4;
 /// The maximum number of actions in a detour at the start of a deterministic level. The win search begins after
 /// the detour.
 const DETOUR: usize = 6;
-/// The maximum number of renaming pairs to create in search of a pair with different themes.
+/// The maximum number of renaming pairs to create in search of a pair with distinct themes.
 const THEME_TRIES: u64 = 16;
 
-/// Creates a game's requested pairs, and publishes the member of each pair selected by the coin. A game without
-/// a second theme has no sibling, and a level without a second win has no pair. `criteria` are the criteria of
-/// the game's judges.
+/// Creates the pairs requested for a game, and publishes the member of each pair that the coin selects. A
+/// game without a second theme has no sibling, and a level without a second win has no pair. `criteria` are
+/// the criteria of the game's judges.
 ///
 /// Cost: up to [`TRIES`] attempts at a second win per level.
 pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criteria: &Criteria) {
@@ -35,15 +35,15 @@ pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criter
     }
 }
 
-/// Replaces a game with one of two renamings, and stores the other as the sibling. Both renamings are created
-/// from the game in the same way, so nothing published reveals which renaming was withheld.
+/// Replaces a game with one of two renamings, and stores the other as its sibling. Both are created from the
+/// game in the same way, so nothing published reveals which one was withheld.
 fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
     let Ok(game) = Game::from_source(&frozen.text) else { return };
     let seed = root.child(&format!("siblings of {}", game.digest()), 0);
     let renaming = |number| {
         twin::renamed(&frozen.text, &frozen.levels, &frozen.witnesses, seed.child("renaming", number)).ok()
     };
-    // Two renamings of the same theme would share words.
+    // Two renamings into the same theme would share words.
     let pair = (0..THEME_TRIES).find_map(|number| {
         let (one, other) = (renaming(2 * number)?, renaming(2 * number + 1)?);
         (one.1 != other.1).then_some([one.0, other.0])
@@ -102,7 +102,7 @@ fn toss_wins(frozen: &mut FrozenGame, root: Seed, criteria: &Criteria) {
     }
 }
 
-/// Returns `true` if two wins begin differently, so that a player cannot begin like both of them.
+/// Returns `true` if two wins begin differently, so that no player can begin like both of them.
 pub(crate) fn differ(one: &[Action], other: &[Action]) -> bool {
     let common = PREFIX.min(one.len()).min(other.len());
     one[..common] != other[..common]

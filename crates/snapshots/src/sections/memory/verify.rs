@@ -1,4 +1,4 @@
-//! Checks the games and wins withheld by coins: siblings of games and second wins of levels.
+//! Checks the games and wins that coins withheld: siblings of games, and second wins of levels.
 
 use super::pairs::{SecretGame, pair_flaw};
 use super::part::MemoryPart;
@@ -10,7 +10,8 @@ use crate::format::witness::Witness;
 use crate::recipe::secret::UNRELATED_WITNESS;
 use crate::sections::section::{CheckedGame, Checking, Found};
 
-/// Checks a game's pairs in a sealed release. Files that are still withheld only need to be listed completely.
+/// Checks a game's pairs in a sealed release. While files are still withheld, they only need to be listed
+/// completely.
 pub(super) fn check_pairs(
     release: &Checking<'_>,
     checked: &CheckedGame<'_>,
@@ -67,7 +68,7 @@ fn check_sibling(
     Ok(())
 }
 
-/// Checks a level's withheld win. A duplicate game's win is not replayed.
+/// Checks a level's withheld win. The win of a duplicate game is not replayed.
 fn check_second(
     release: &Checking<'_>,
     checked: &CheckedGame<'_>,

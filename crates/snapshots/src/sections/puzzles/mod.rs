@@ -1,5 +1,5 @@
 //! The puzzle sections: pushing (`[puzzles]`), locks, yards, and pushing among strays. Levels are constructed
-//! backwards from solutions, to meet the recipe's tiers.
+//! backwards from their solutions, to meet the recipe's tiers.
 
 mod make;
 mod section;
@@ -16,7 +16,7 @@ use validators::novelty::GameForm;
 /// The minimum side length of a puzzle.
 const LEAST_SIDE: usize = 8;
 
-/// The facts that differ between kinds of puzzles.
+/// The facts in which kinds of puzzles differ.
 struct Facts {
     /// The name used in jobs and seed steps.
     name: &'static str,
@@ -26,13 +26,13 @@ struct Facts {
     section: &'static str,
     /// The section's keys.
     keys: [&'static str; 7],
-    /// The number of rule sets, no two of which are near each other.
+    /// The number of rule sets of which no two are near each other.
     rules: usize,
     /// The maximum number of cells per board.
     cells: usize,
     /// The maximum number of pushable objects per board.
     things: u32,
-    /// The cost per requested level, in core seconds, as measured with `frontier` up to the highest tiers.
+    /// The cost per requested level in core seconds, measured with `frontier` up to the highest tiers.
     seconds: f64,
 }
 
@@ -151,17 +151,18 @@ impl PuzzleKind {
         self.facts().section
     }
 
-    /// Returns the number of rule sets, no two of which are near each other.
+    /// Returns the number of rule sets of which no two are near each other.
     pub(crate) fn rules(self) -> usize {
         self.facts().rules
     }
 
-    /// Returns the cost per requested level, in core seconds, as measured with `frontier` up to the highest tiers.
+    /// Returns the cost per requested level in core seconds, measured with `frontier` up to the highest
+    /// tiers.
     pub(crate) fn seconds(self) -> f64 {
         self.facts().seconds
     }
 
-    /// Returns a rule set without a theme, and its name.
+    /// Returns a rule set without a theme, and the rule set's name.
     fn plain(self, at: usize) -> (Game, String) {
         match self {
             PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
@@ -179,7 +180,7 @@ impl PuzzleKind {
     /// Checks the values of this kind's section.
     ///
     /// # Errors
-    /// Returns an error for the first value that is out of range, or if no tiers are requested.
+    /// Returns an error for the first value that is out of range, or if the recipe requests no tiers.
     pub(crate) fn check(self, part: &PuzzlePart, tiers: &Tiers) -> Result<(), RecipeError> {
         let Facts { keys, rules, cells, things: most_things, .. } = self.facts();
         let [games, levels, level_tries, candidates, columns, rows, things] = keys;

@@ -1,4 +1,4 @@
-//! The section `[tiers]` of a recipe: the fraction of levels in each tier.
+//! The `[tiers]` section of a recipe: the fraction of levels in each tier.
 
 mod section;
 
@@ -50,7 +50,8 @@ impl Tiers {
         wrong("tiers", format!("adds up to {total}; the fractions must add up to 1"))
     }
 
-    /// Divides `levels` among the tiers, from tier 1 to tier 4, in proportion to the fractions.
+    /// Divides `levels` levels among the tiers in proportion to the fractions, in order from tier 1 to tier
+    /// 4.
     pub(crate) fn levels(&self, levels: u32) -> impl Iterator<Item = (Tier, u32)> {
         Tier::ALL.into_iter().zip(apportion(levels, &self.shares()))
     }

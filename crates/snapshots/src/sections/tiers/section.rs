@@ -5,7 +5,7 @@ use crate::recipe::error::RecipeError;
 use crate::sections::section::Section;
 use serde_json::{Map, Value, json};
 
-/// The section `[tiers]` of a recipe.
+/// The `[tiers]` section of a recipe.
 pub(crate) struct TiersSection;
 
 impl Section for TiersSection {

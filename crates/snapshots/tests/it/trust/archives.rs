@@ -1,4 +1,4 @@
-//! Tests of archives: the same release gives the same bytes, and no other bytes are accepted.
+//! Tests of archives: the same release gives identical bytes, and no other bytes are accepted.
 
 use super::small::{Small, home, small};
 use snapshots::archive::{Archive, pack};
@@ -8,7 +8,7 @@ use std::io::Write;
 use std::path::Path;
 use tar::{Builder, EntryType, Header};
 
-/// A release as archive entries, which can be altered before they are packed by hand.
+/// A release's archive entries, which can be altered before they are packed by hand.
 struct Entries {
     name: String,
     list: Vec<(Header, Vec<u8>)>,
@@ -56,7 +56,7 @@ impl Entries {
     }
 }
 
-/// Compresses and seals bytes as in an archive.
+/// Compresses and seals bytes as archives do.
 pub(crate) fn compress(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = zstd::Encoder::new(Vec::new(), 3).expect("in memory");
     encoder.window_log(23).expect("legal");
@@ -92,20 +92,20 @@ fn packing_round_trips() {
     assert!(verification.problems.is_empty(), "{:?}", verification.problems);
     assert_eq!(verification.witnesses, snapshots::Witnesses::Replayed(1));
 
-    // The times and modes of the folder do not matter, so a second archive has the same bytes.
+    // The folder's times and modes do not matter, so a second archive has the same bytes.
     let other = home.path().join("other");
     release.write(&other);
     let second = pack(&other, &home.path().join("second.tar.zst")).expect("packed");
     assert_eq!(second, packed);
     assert_eq!(fs::read(&file).expect("there"), fs::read(home.path().join("second.tar.zst")).expect("there"));
-    // The zstd frame contains the tar archive that the documentation of the format describes.
+    // The zstd frame contains the tar archive described in the documentation of the format.
     let mut tar = Vec::new();
     zstd::stream::copy_decode(fs::File::open(&file).expect("there"), &mut tar).expect("zstd");
     assert_eq!(tar, Entries::of(&release).tar());
     assert_eq!(base::Digest::of(&tar), packed.digest);
 }
 
-/// The digest of the archive of a fixed release changes only with the format.
+/// The digest of a fixed release's archive changes only with the format.
 #[test]
 fn packing_is_fixed() {
     let home = home();
@@ -124,8 +124,8 @@ fn packing_is_careful() {
     assert!(matches!(pack(&folder, &file), Err(SnapshotError::Taken(_))));
     assert_eq!(fs::read(&file).expect("there"), b"mine");
     fs::remove_file(&file).expect("removed");
-    // Only leftovers of a killed run are replaced. An empty file and a file that begins like an archive are
-    // not replaced.
+    // Only a killed run's leftovers are replaced. An empty file is not, and neither is a file that begins
+    // like an archive.
     let partial = home.path().join("mole.tar.zst.partial");
     for mine in [&b"mine"[..], b"", &[&b"\x28\xb5\x2f\xfd"[..], &[7; 100_000]].concat()] {
         fs::write(&partial, mine).expect("written");
@@ -340,7 +340,7 @@ fn ends() {
     assert!(matches!(verify(&file), Err(SnapshotError::NotASnapshot(_))));
 }
 
-/// A small file that claims to have a large content is rejected before it is unpacked.
+/// A small file that claims to have large content is rejected before it is unpacked.
 #[test]
 fn bombs() {
     let home = home();
@@ -348,7 +348,7 @@ fn bombs() {
     let zeros = compress(&vec![0; 64 << 20]);
     assert!(zeros.len() < 16_384);
     check_bytes(&file, &zeros, "mole.tar.zst", "the archive would unpack to 67108864 bytes");
-    // One frame states less than it holds, and one states more.
+    // One frame states less than it contains, and one states more.
     let tar = Entries::of(&small("mole", None)).tar();
     let sound = compress(&tar);
     let mut lies = sound[..sound.len() - 40].to_vec();
@@ -364,8 +364,8 @@ fn bombs() {
     check(&|e| e.list[2].0.set_size(1 << 40), "README.md", "wrong size (1099511627776 bytes");
 }
 
-/// Regression test: half a megabyte used three gigabytes of memory, with a manifest of 99,999 items, each in
-/// its own 124 folders.
+/// Regression test: with a manifest of 99,999 items, each in its own 124 folders, half a megabyte used three
+/// gigabytes of memory.
 #[test]
 fn manifests_of_deep_paths() {
     let honest = small("mole", None);
@@ -397,8 +397,9 @@ fn manifests_of_deep_paths() {
     assert!(memory.bytes_max < 4 * size, "{memory:?}, for {size} bytes");
 }
 
-/// A recipe may be any JSON. The indented form of a deeply nested recipe would be hundreds of times larger, so
-/// reading stops early. This recipe is within the ratio that archives may have, with 14 MB in about 2 kB.
+/// A recipe may be any JSON. The indented form of a deeply nested recipe would be hundreds of times larger,
+/// so reading stops early. This recipe is within the compression ratio allowed for archives: 14 MB in about 2
+/// kB.
 #[test]
 fn recipes_that_nest_deeply() {
     let honest = small("mole", None);
@@ -422,7 +423,7 @@ fn recipes_that_nest_deeply() {
     }
 }
 
-/// The cost of a wide and flat recipe is proportional to its size, so the recipe is accepted.
+/// The cost of a wide, flat recipe is proportional to its size, so the recipe is accepted.
 #[test]
 fn recipes_that_are_wide() {
     let mut wide = small("mole", None);

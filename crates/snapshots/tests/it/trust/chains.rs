@@ -138,11 +138,11 @@ fn conflicting_histories_are_reported() {
     let chain = ask(&places[2], &all).expect("readable");
     assert!(chain.problems[0].contains("`2027-01-b`") && chain.problems[0].contains("two histories"));
     assert!(chain.complete && chain.others == 1);
-    // From the fork's point of view, the others are the second history.
+    // From the fork's point of view, the others form the second history.
     check(&places[3], &all, &["2027-01-b", "2026-12"], &["two histories"]);
 }
 
-/// A release that follows an absent rival is reported.
+/// A release that follows a missing rival is reported.
 #[test]
 fn followers_of_absent_rivals_are_reported() {
     let home = home();
@@ -156,7 +156,7 @@ fn followers_of_absent_rivals_are_reported() {
     check(&places[2], &places, &["2027-02", "2027-01", "2026-12"], &[]);
 }
 
-/// Changes a release's recipe, and its canary accordingly, like a forger.
+/// Changes a release's recipe, and its canary accordingly, as a forger would.
 fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
     alter(&mut release.manifest.recipe);
     let text = to_canonical_json(&release.manifest.recipe).expect("plain data");
@@ -168,7 +168,7 @@ fn restate(release: &mut Small, alter: impl FnOnce(&mut serde_json::Value)) {
     release.seal();
 }
 
-/// A release must list the content of its parent, and repeat no part of that content.
+/// A release must list the content of its parent, and repeat no part of it.
 #[test]
 fn known_content_equals_the_parents() {
     let first = small("2026-12", None);
@@ -187,7 +187,7 @@ fn known_content_equals_the_parents() {
     known(&|known| known["games"] = json!(["BasicGame"]), not_known);
     known(&|known| known["releases"] = json!(["2026-11"]), not_known);
 
-    // A copy of the parent whose list of known games is honest.
+    // A copy of the parent, with an honest list of known games.
     let home = home();
     let mut copy = first.clone();
     let recipe = honest.manifest.recipe.clone();
@@ -199,7 +199,7 @@ fn known_content_equals_the_parents() {
     check(&copy, &[home.path().to_path_buf()], &["2027-01", "2026-12"], &[words]);
 }
 
-/// Archives are read one at a time and not kept, so the memory in use is that for one file of one archive.
+/// Archives are read one at a time and not kept, so memory is needed for only one file of one archive.
 #[test]
 fn archives_of_a_chain_are_not_kept() {
     let home = home();

@@ -1,4 +1,4 @@
-//! Tests of the ancestors of a release, some of which are absent or damaged.
+//! Tests of a release's ancestors, some of which are missing or damaged.
 
 use super::small::{Small, home, small};
 use snapshots::archive::pack;
@@ -28,7 +28,7 @@ fn ask(start: &Path, folders: &[PathBuf]) -> Lineage {
     lineage
 }
 
-/// Returns the name of an ancestor and the number of its problems, without a name if it is absent.
+/// Returns an ancestor's name, or `None` if the ancestor is missing, and the number of its problems.
 fn told(ancestor: &Ancestor) -> (Option<&str>, usize) {
     (ancestor.link.as_ref().map(|link| link.name.as_str()), ancestor.problems.len())
 }
@@ -50,7 +50,7 @@ fn parents_are_followed_as_far_as_they_are_found() {
     let roots: Vec<_> = lineage.ancestors.iter().map(|ancestor| ancestor.root).collect();
     assert_eq!(roots, [&second, &first].map(|place| verify(place).expect("sound").root));
     check(&first, &all, &[], true);
-    // Later releases, and releases of other histories, do not matter.
+    // Later releases and releases of other histories do not matter.
     check(&second, &all, &[(Some("2026-12"), 0)], true);
     check(&third, from_ref(&second), &[(Some("2027-01"), 0), (None, 0)], false);
     check(&third, &[], &[(None, 0)], false);
@@ -83,7 +83,7 @@ fn altered_parents_are_recognised() {
     fs::remove_dir_all(&second).expect("removed");
     forged.write_in(&home);
     check(&third, &all, &[(None, 0)], false);
-    // An unreadable release is named, because it may be the missing one.
+    // An unreadable release is reported by name, because it may be the missing one.
     fs::write(second.join("MANIFEST.json"), "{ \"format\": 1").expect("written");
     let lineage = check(&third, &all, &[(None, 0)], false);
     assert!(lineage.unread.iter().any(|place| place.contains("2027-01")), "{:?}", lineage.unread);

@@ -1,4 +1,5 @@
-//! Tests of releases of other versions, stored in `tests/suite/snapshots`, which must stay readable.
+//! Tests of releases minted by other versions. They are stored in `tests/suite/snapshots`, and must stay
+//! readable.
 
 use snapshots::chain::{Link, follow};
 use snapshots::{ReleaseKind, SnapshotError, Witnesses, check_integrity, verify};
@@ -19,12 +20,12 @@ fn format_1_is_read() {
     let verification = verify(&place).expect("readable");
     assert!(verification.problems.is_empty(), "{:?}", verification.problems);
     assert_eq!((verification.games, verification.levels), (1, 1));
-    // The release is stored under semantics 2, and this test must keep passing under later semantics.
+    // The stored release has semantics 2, and this test must keep passing under later semantics.
     assert_eq!(verification.manifest.semantics, 2);
     assert_eq!(verification.witnesses, of_one_level(2));
 }
 
-/// Returns the expected result for the witnesses of a one-level release under these semantics.
+/// Returns the expected result for the witnesses of a one-level release with the given semantics.
 fn of_one_level(semantics: u32) -> Witnesses {
     match semantics == engine::SEMANTICS {
         true => Witnesses::Replayed(1),
@@ -45,7 +46,8 @@ fn format_2_is_read() {
     }
 }
 
-/// The witness has hashes under different semantics, so replaying it under the current semantics would fail.
+/// The witness's hashes were made under different semantics, so replaying it under the current ones would
+/// fail.
 #[test]
 fn witnesses_of_other_semantics_are_not_replayed() {
     let verification = verify(&stored("other-semantics")).expect("readable");
@@ -73,7 +75,7 @@ fn the_chain_crosses_versions() {
     assert_eq!(names, ["other-semantics", "other-generation", "format-1"]);
 }
 
-/// Releases of earlier versions are checked like current releases, except for the replay.
+/// Releases from earlier versions are checked like current ones, except for the replay.
 #[test]
 fn tampered_old_releases_are_detected() {
     let home = super::small::home();

@@ -1,4 +1,4 @@
-//! Tests of honest and forged proofs of single items.
+//! Tests of proofs of single items, both honest and forged.
 
 use super::small::small;
 use base::{Digest, Seed};
@@ -36,7 +36,7 @@ fn every_file_and_the_game_are_proved() {
     assert!(
         against(&ItemProof::parse(&proof.to_bytes().expect("small")).expect("sound"), game, &root).is_empty()
     );
-    // If two files are wrong, both are reported with their digests.
+    // If two files are wrong, both are reported, with their digests.
     let Ok(problems) = proof.check(game, &root, |path| {
         Ok::<_, Infallible>((!path.ends_with("card.json")).then(|| Digest::of(b"other")))
     });
@@ -106,8 +106,8 @@ fn hostile_proofs_are_refused_in_words() {
     refuse(&written(&twice), "`README.md` is listed twice");
 }
 
-/// Every changed character of a proof is detected, except in the release's name, which is a label, and in the number
-/// of leaves, which a path to the root does not bind (RFC 6962).
+/// Every changed character in a proof is detected, except in the release's name, which is only a label, and
+/// in the number of leaves, which a path to the root does not bind (RFC 6962).
 #[test]
 fn every_character_counts() {
     let release = small("mole", None);
@@ -127,7 +127,7 @@ fn every_character_counts() {
     }
 }
 
-/// The leaf of the manifest's header is under every root, but it is not a file.
+/// The leaf for the manifest's header is under every root, but it is not a file.
 #[test]
 fn the_header_is_not_a_file_of_a_release() {
     let release = small("mole", None);
@@ -147,7 +147,7 @@ fn the_header_is_not_a_file_of_a_release() {
     }
 }
 
-/// The files of a game must have positions in the same tree.
+/// A game's files must have positions in the same tree.
 #[test]
 fn files_of_a_game_are_of_one_tree() {
     let release = small("mole", None);

@@ -37,8 +37,8 @@ BasicGame
         SpriteCounter stype=door limit=0 win=True
 ";
 
-/// Returns a tunnel from the mole to the door. Each release of a chain has a different tunnel, because no release may
-/// repeat its ancestors.
+/// Returns a tunnel from the mole to the door. Each release in a chain has a different tunnel, because no
+/// release may repeat its ancestors.
 fn tunnel(name: &str) -> String {
     let length = match name {
         "2027-01" => 3,
@@ -59,7 +59,7 @@ pub(crate) struct Small {
     pub(crate) files: Vec<(String, Vec<u8>)>,
 }
 
-/// Returns the release with this name, following `parent`.
+/// Returns the release with the given name, following `parent`.
 pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
     let mut recipe = Recipe::from_toml(&format!(
         "name = '{name}'\ndescription = 'A mole.'\nseed = 'a mole in the dark'\n[corpus]\ngames = 1\nlevels = 1\n"
@@ -175,7 +175,7 @@ pub(crate) fn small(name: &str, parent: Option<&Small>) -> Small {
     Small { manifest, files }
 }
 
-/// Returns an episode that wins the level of the release with this name, under this seed.
+/// Returns an episode that wins the level of the named release under the given seed.
 pub(crate) fn won(name: &str, seed: Seed) -> Episode {
     let game = Game::from_source(GAME).expect("a game");
     let level = game.level(&tunnel(name)).expect("a level");
@@ -192,7 +192,7 @@ pub(crate) fn witness(mark: &str, episode: Episode, path: &[(&str, u64)]) -> Wit
 }
 
 impl Small {
-    /// Writes the release to a folder.
+    /// Writes the release to the given folder.
     pub(crate) fn write(&self, out: &Path) {
         let draft = Draft::create(out).expect("vacant");
         for (path, content) in &self.files {
@@ -202,14 +202,14 @@ impl Small {
         draft.commit().expect("published");
     }
 
-    /// Writes the release to a folder with its name in `home`.
+    /// Writes the release to a folder in `home` that is named after it.
     pub(crate) fn write_in(&self, home: &TempDir) -> PathBuf {
         let out = home.path().join(&self.manifest.name);
         self.write(&out);
         out
     }
 
-    /// Updates the manifest to the current files, with the root over them, like a forger.
+    /// Updates the manifest and its root to the current files, as a forger would.
     pub(crate) fn seal(&mut self) {
         self.manifest.items =
             self.files.iter().map(|(path, content)| Item::of(path.clone(), content)).collect();

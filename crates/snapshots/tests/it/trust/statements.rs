@@ -1,4 +1,4 @@
-//! Tests of false statements that a release makes about itself, by a forger who updates all digests.
+//! Tests of false statements that a release makes about itself after a forger has updated all digests.
 
 use super::small::{Small, home, json, small, witness, won};
 use base::Digest;
@@ -12,7 +12,7 @@ use snapshots::{
 };
 use std::fs;
 
-/// Changes the file whose path has the given ending.
+/// Changes the file whose path ends with the given text.
 fn change(release: &mut Small, end: &str, change: impl Fn(String) -> String) {
     let (_, content) = release.files.iter_mut().find(|(path, _)| path.ends_with(end)).expect("there");
     *content = change(String::from_utf8(content.clone()).expect("a text")).into_bytes();
@@ -91,7 +91,7 @@ fn seal(release: &mut Small) {
     seal_with(release, &secret(7), &secret(7));
 }
 
-/// Seals the release with one secret, while its witness was played under a different one.
+/// Seals the release with one secret, although its witness was played under a different one.
 fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
     let mark = canary(&secret.commitment());
     let old = std::mem::replace(&mut release.manifest.canary, mark.clone());
@@ -111,8 +111,8 @@ fn seal_with(release: &mut Small, secret: &Secret, played: &Secret) {
     release.files.push((SECRET_FILE.to_owned(), json(secret)));
 }
 
-/// A secret unrelated to the games, a recipe changed after the commitment, and a made-up secret are all detected
-/// without minting again.
+/// A secret unrelated to the games, a recipe changed after the commitment, and a made-up secret are all
+/// detected without minting again.
 #[test]
 fn secrets_must_match_games_and_recipe() {
     check(
@@ -139,7 +139,7 @@ fn secrets_must_match_games_and_recipe() {
         },
         &["held/secret.json: the secret does not specify a recipe"],
     );
-    // The release is sealed like releases of earlier generations.
+    // The release is sealed in the way of earlier generations.
     check(
         |release| {
             seal_with(release, &pair, &secret(8));
@@ -182,8 +182,8 @@ fn a_sealed_release_commits_to_a_witness_of_every_level() {
     );
 }
 
-/// Problems of the whole release are detected before the reveal. The two parts are merged only if they belong
-/// together.
+/// Problems that concern the whole release are detected before the reveal. The two parts are merged only if
+/// they belong together.
 #[test]
 fn mismatched_parts_are_not_joined() {
     let joined = |secret: &Secret, played: &Secret, change: &dyn Fn(&mut Small)| {
@@ -228,7 +228,7 @@ fn verified(release: &mut Small, bounds: &Bounds) -> Verification {
     verify_within(&release.write_in(&home()), bounds).expect("readable")
 }
 
-/// Expects at least these problems, and ignores any others that follow from them.
+/// Expects at least the given problems, and ignores any others that follow from them.
 #[track_caller]
 fn complains(alter: impl FnOnce(&mut Small), words: &[&str]) {
     let mut release = small("2026-12", None);
@@ -259,7 +259,7 @@ fn impossible_semantics_are_problems() {
     let number = snapshots::version::CURRENT.number;
     let expect = format!("is minted by version {number}, not 0.1.0");
     check(|release| release.manifest.version = Some("0.1.0".to_owned()), &[&expect]);
-    // Later and earlier versions are both possible, and their witnesses are not replayed here.
+    // Later and earlier versions are both possible, but their witnesses are not replayed here.
     let later = (engine::SEMANTICS + 1, generators::GENERATION + 1, "0.99.0");
     for (semantics, generation, version) in [later, (2, 8, "0.8.0")] {
         let mut release = small("2026-12", None);
@@ -358,7 +358,7 @@ fn the_canary_is_that_of_the_recipe() {
     );
 }
 
-/// Repeats the level of the release.
+/// Repeats the release's level.
 fn repeat_level(release: &mut Small, times: usize) {
     change_card(release, |card| {
         let levels = (0..times).map(|number| {
@@ -377,7 +377,7 @@ fn repeat_level(release: &mut Small, times: usize) {
     }
 }
 
-/// Repeats the game of the release under a different name.
+/// Repeats the release's game under a different name.
 fn repeat_game(release: &mut Small, name: &str) {
     for (path, content) in release.files.clone() {
         if path.contains("mole-") {
@@ -387,7 +387,7 @@ fn repeat_game(release: &mut Small, name: &str) {
     }
 }
 
-/// Identical slow levels cost a verifier only one replay.
+/// Identical slow levels cost the verifier only one replay.
 #[test]
 fn duplicates_are_problems_and_replayed_once() {
     let once = verified(&mut small("2026-12", None), &Bounds::RELEASE);
@@ -410,7 +410,7 @@ fn duplicates_are_problems_and_replayed_once() {
     assert_eq!(again.count(), 50);
 }
 
-/// The bound holds for all replays together, and replays beyond it are not played.
+/// The bound holds for all replays together. Replays beyond it are not played.
 #[test]
 fn replays_are_bounded() {
     let work = verified(&mut small("2026-12", None), &Bounds::RELEASE).work;
@@ -421,7 +421,7 @@ fn replays_are_bounded() {
     assert_eq!(over.work, work - 1);
     let expect = format!("replaying the witnesses takes more than {} units of work", work - 1);
     assert!(over.problems[0].contains(&expect), "{:?}", over.problems);
-    // The bound of a release grows with the number of levels that it declares.
+    // A release's bound grows with the number of levels that it declares.
     assert_eq!(Bounds::RELEASE.of(600), (1 << 31) + 600 * (1 << 21));
 }
 
@@ -495,8 +495,8 @@ fn sealed_releases_export_no_solutions() {
     assert!(error.contains("`2026-12` is sealed") && error.contains("--reveal"), "{error}");
 }
 
-/// Texts that follow from the rules are compared with the rules. Texts of a different game, or of no game, are
-/// problems.
+/// Texts that follow from the rules are compared with the rules. Texts that belong to a different game, or to
+/// no game, are problems.
 #[test]
 fn cards_say_of_the_rules_what_the_game_says() {
     let html = "<script>alert(1)</script>";

@@ -1,4 +1,4 @@
-//! Tests of tampering: `verify` detects every mutation of a release, and reports the affected file.
+//! Tests of tampering. `verify` detects every mutation of a release, and reports the affected file.
 //!
 //! The sweep is seeded, so that failures can be reproduced. It needs Unix for links and sockets.
 
@@ -14,14 +14,12 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// The number of mutations of the folder in `cargo xtask sweep`. Other runs make a quarter of these
-/// mutations.
+/// The number of mutations of the folder in `cargo xtask sweep`. Other runs make a quarter as many.
 const FOLDERS: u64 = 1400;
-/// The number of mutations of the archive's bytes in `cargo xtask sweep`. Other runs make a quarter of these
-/// mutations.
+/// The number of mutations of the archive's bytes in `cargo xtask sweep`. Other runs make a quarter as many.
 const ARCHIVES: u64 = 600;
 /// The number of mutations of the bytes inside the archive in `cargo xtask sweep`. Other runs make a quarter
-/// of these mutations.
+/// as many.
 const INSIDES: u64 = 600;
 
 /// The files of a release by path, including the manifest.
@@ -42,8 +40,8 @@ fn write(folder: &Path, files: &Files) {
     }
 }
 
-/// Restores the folder to exactly these files, and removes everything beside it. This is much faster than a new
-/// folder.
+/// Restores the folder to exactly these files, and removes everything else from it. This is much faster than
+/// creating a new folder.
 fn heal(home: &TempDir, folder: &Path, files: &Files) {
     let mut open = vec![home.path().to_path_buf()];
     while let Some(next) = open.pop() {
@@ -111,8 +109,8 @@ fn folders() {
     assert!(release.manifest.items.len() == 6);
 }
 
-/// The kinds of mutations of a folder. Each kind runs about eleven times, or forty-five times in a sweep, with
-/// different draws.
+/// The kinds of mutations of a folder. Each kind runs about eleven times (forty-five times in a sweep) with
+/// different random choices.
 const KINDS: [&str; 31] = [
     "flip",
     "flip",
@@ -213,7 +211,7 @@ fn tamper(kind: &str, folder: &Path, files: &Files, sampler: &mut Sampler) -> Ve
             fs::write(folder.join(name), &content).expect("written");
             return vec![name.escape_debug().to_string()];
         }
-        // The file is large without filling the disk, so that a test would notice a read of the file.
+        // The file is large without filling the disk, so a test would notice if the file were read.
         "huge" => {
             let file = fs::File::options().write(true).open(&path).expect("there");
             file.set_len((65 << 20) + sampler.below(1 << 30) as u64).expect("sparse");
@@ -293,7 +291,7 @@ fn tamper_with_manifest(kind: &str, folder: &Path, sampler: &mut Sampler) -> Vec
     vec![MANIFEST_FILE.into()]
 }
 
-/// A forger who updates the manifest gets a different root, and cannot turn a loss into a win.
+/// A forger who updates the manifest gets a different root, and still cannot turn a loss into a win.
 #[test]
 fn forgeries() {
     let honest = small("mole", None);
@@ -339,7 +337,7 @@ fn drafts() {
     }
 }
 
-/// A change in the compressed bytes is detected even if it does not change the content.
+/// A change in the compressed bytes is detected, even if it does not change the content.
 #[test]
 fn archives() {
     let home = home();

@@ -18,7 +18,8 @@ type Files = Vec<(String, Vec<u8>)>;
 
 const LISTS: [&str; 2] = ["held/REST.json", "held/SOLUTIONS.json"];
 
-/// Returns a sealed release whose recipe has coins for wins, with its secret. `more` are additional withheld files.
+/// Returns a sealed release whose recipe has coins for wins, and its secret. `more` lists additional withheld
+/// files.
 fn sealed(more: &[(&str, &[u8])]) -> (Small, Secret) {
     let recipe = json!({ "name": "2026-12", "memory": { "siblings": true, "witnesses": true } });
     let secret = Secret::draw("2026-12", Digest::of(&json(&recipe)), [7; 64]);
@@ -43,7 +44,7 @@ fn sealed(more: &[(&str, &[u8])]) -> (Small, Secret) {
     (release, secret)
 }
 
-/// Commits to the withheld files, like a mint.
+/// Commits to the withheld files, as a mint does.
 fn hide(release: &mut Small, secret: &Secret) {
     release.files.retain(|(path, _)| !LISTS.contains(&path.as_str()));
     release.files.sort();
@@ -53,7 +54,7 @@ fn hide(release: &mut Small, secret: &Secret) {
     release.files.sort();
 }
 
-/// Writes the release with only the wanted files below `held/`.
+/// Writes the release, but only the wanted files below `held/`.
 fn parts(release: &Small, home: &TempDir, wanted: impl Fn(&str) -> bool) -> PathBuf {
     let mut part = release.clone();
     part.files.retain(|(path, _)| !path.starts_with("held/") || wanted(path));
@@ -64,7 +65,7 @@ fn problems(release: &Small, wanted: impl Fn(&str) -> bool) -> Vec<String> {
     verify(&parts(release, &home(), wanted)).unwrap().problems
 }
 
-/// Nothing public shows whether a guessed withheld text is correct, or whether such a text exists.
+/// Nothing public shows whether a guessed withheld text is correct, or whether such a text exists at all.
 #[test]
 fn guesses_cannot_be_checked() {
     let guess: &[u8] = b"BasicGame\n    # one of a million renamings\n";
@@ -85,11 +86,11 @@ fn guesses_cannot_be_checked() {
     assert_eq!((masked(&one), one.len()), (masked(&other), other.len()));
     for (path, content) in with_sibling.files.iter().filter(|(path, _)| path.starts_with("held/")) {
         let digest = Digest::of(content).to_string();
-        // The digest of a list is public, but the list begins with a salt that nobody can guess.
+        // A list's digest is public, but the list begins with a salt that nobody can guess.
         assert!(LISTS.contains(&path.as_str()) || !other.contains(&digest), "{path}");
         assert!(!other.contains(path.as_str()), "{path}");
     }
-    // Knowing everything except the salt gives a different digest.
+    // Someone who knows everything except the salt computes a different digest.
     let list = |release: &Small, at: usize| {
         let (_, content) = release.files.iter().find(|(path, _)| path == LISTS[at]).unwrap();
         serde_json::from_slice::<Value>(content).unwrap()
@@ -159,7 +160,7 @@ fn the_parts_are_joined_and_packed() {
     assert!(error.contains("prove `held/REST.json`"), "{error}");
 }
 
-/// Neither a list nor a file of a list can be changed, removed, added or moved.
+/// Neither a list nor a file in it can be changed, removed, added or moved.
 #[test]
 fn lists_bind_what_was_withheld() {
     let check = |release: &Small, wanted: &dyn Fn(&str) -> bool, words: &str| {

@@ -1,10 +1,10 @@
 //! The model's mode and curvature for given spreads (Laplace's method).
 //!
-//! The effects of different games interact only through the few parameters shared by all games. Therefore,
-//! each step costs one Cholesky factorisation of a small matrix per game, and one of a Schur complement.
+//! The effects of different games interact only through the few parameters shared by all games. Each step
+//! therefore costs one Cholesky factorisation of a small matrix per game, and one of a Schur complement.
 //!
 //! Game effects are measured in standard deviations, so that their prior is standard normal, and the spreads
-//! are part of the loadings. Therefore, the model stays well-defined when a spread approaches zero.
+//! are part of the loadings. The model therefore stays well-defined as a spread approaches zero.
 
 mod functional;
 mod slope;
@@ -23,15 +23,15 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 const FIXED_PRECISION: f64 = 1.0 / (5.0 * 5.0);
 /// The maximum number of Newton steps (typically 6, or 3 from a nearby mode).
 const STEPS: usize = 100;
-/// The step length below which the mode is considered found. Newton's method converges quadratically.
+/// The step length below which the mode counts as found. Newton's method converges quadratically.
 const FOUND: f64 = 1e-5;
-/// The step length below which the expected values are considered found. Steps to expected values converge
-/// only linearly.
+/// The step length below which the expected values count as found. Steps to expected values converge only
+/// linearly.
 const FOUND_EXPECTED: f64 = 1e-6;
 /// The maximum number of steps to expected values (typically 15 to 60).
 const EXPECTED_STEPS: usize = 200;
-/// The applied fraction of each change in the variances. Variances follow the means, so applying full changes
-/// can cause oscillation.
+/// The fraction of each change in the variances that a step applies. Variances follow the means, so applying
+/// full changes can cause oscillation.
 const DAMPING: f64 = 0.7;
 /// The number of steps after which only half of the usual fraction is applied.
 const SETTLING: f64 = 50.0;
@@ -41,9 +41,9 @@ const LONGEST: f64 = 3.0;
 
 /// The results on some games, and the parameters shared by all games.
 ///
-/// If the abilities are unknown, they are the shared parameters. Otherwise, the shared parameter is the shift
-/// in difficulty for planners. If readers played, a second shared parameter is the additional shift for
-/// readers, beyond the shift implied for them.
+/// If the abilities are unknown, they are the shared parameters. If they are known, the shared parameter is
+/// the shift in difficulty for planners. If readers played, a second shared parameter is the additional shift
+/// for readers, beyond the shift implied for them.
 pub(super) struct Model<'a> {
     pub(super) examinees: &'a [Examinee],
     pub(super) games: &'a [GamePlays],
@@ -60,8 +60,8 @@ struct Layout {
     /// readers, these effects keep their prior distribution.
     readers: usize,
     has_readers: bool,
-    /// The positions of two matches per examinee: the family's match, and the examinee's additional match.
-    /// The only member of a family has only the first, and a reader has only the second.
+    /// The positions of two matches per examinee: the family's match, and the examinee's additional match. A
+    /// family's only member has only the first match, and a reader has only the second.
     matches: Vec<(Option<usize>, Option<usize>)>,
 }
 
@@ -238,7 +238,7 @@ impl<'a> Model<'a> {
     }
 
     /// Returns the logarithm of the likelihood times the prior, up to a constant. If variances of the linear
-    /// predictors are given, returns the expected value instead.
+    /// predictors are given, returns its expected value instead.
     fn height(&self, rows: &[Vec<Row>], modes: &Modes, variances: Option<&[Vec<f64>]>) -> f64 {
         let mut sum = -0.5 * FIXED_PRECISION * modes.shared.norm_squared();
         for (game, (rows, own)) in rows.iter().zip(&modes.games).enumerate() {
@@ -487,8 +487,8 @@ impl Posterior {
         functional.constant + functional.shared.dot(&self.modes.shared) + games.sum::<f64>()
     }
 
-    /// Returns a functional's gradient with respect to the shared parameters, including their influence on
-    /// the game effects.
+    /// Returns a functional's gradient with respect to the shared parameters, including the influence of
+    /// these parameters on the game effects.
     fn slope(&self, functional: &Functional) -> DVector<f64> {
         let mut slope = functional.shared.clone();
         for (gain, terms) in self.gains.iter().zip(&functional.games) {

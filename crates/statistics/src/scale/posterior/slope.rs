@@ -1,6 +1,6 @@
 //! The derivatives of the marginal likelihood with respect to the spreads' parameters. Each derivative
 //! requires one pass over the results. The adjoint method, which solves one linear system for all parameters,
-//! accounts for the dependence of the modes on the spreads.
+//! accounts for how the modes depend on the spreads.
 
 use super::{Model, Posterior};
 use crate::scale::logistic::logistic;

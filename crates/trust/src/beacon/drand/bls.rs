@@ -7,8 +7,8 @@ pub(super) const ON_G1: &[u8] = b"BLS_SIG_BLS12381G1_XMD:SHA-256_SSWU_RO_NUL_";
 /// The domain separation tag for hashing to the group G2.
 pub(super) const ON_G2: &[u8] = b"BLS_SIG_BLS12381G2_XMD:SHA-256_SSWU_RO_NUL_";
 
-/// The size of a compressed point in the group G1, in bytes. Only the compressed form is unique. Otherwise,
-/// the same point could have several hashes, and thus several values.
+/// The size of a compressed point in the group G1, in bytes. Only the compressed form is accepted, because it
+/// is unique. If other forms were accepted, one point could have several hashes, and thus several values.
 const G1_BYTES: usize = 48;
 /// The size of a compressed point in the group G2, in bytes.
 const G2_BYTES: usize = 96;

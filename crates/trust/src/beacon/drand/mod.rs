@@ -1,8 +1,8 @@
-//! drand networks. A threshold number of a network's members sign each round with BLS signatures on the curve
-//! BLS12-381.
+//! drand networks. In each round, a threshold number of a network's members sign with BLS signatures on the
+//! curve BLS12-381.
 //!
 //! A network is identified by its chain hash, which covers its public key. This module names two networks.
-//! All other networks are referred to by their chain hash, so that a commitment to the source fixes the key.
+//! Any other network is identified by its chain hash, so that a commitment to the source fixes the key.
 
 #[cfg(feature = "drand")]
 mod bls;
@@ -15,8 +15,8 @@ use bls::signed;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-/// The facts about a network covered by its chain hash, and its signature scheme. The fields are in the
-/// format served by the network under `/info`.
+/// The facts about a network that its chain hash covers, and its signature scheme. The fields have the format
+/// in which the network serves them under `/info`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chain {
@@ -34,12 +34,12 @@ pub struct Chain {
     /// The network's signature scheme.
     #[serde(rename = "schemeID")]
     pub scheme: String,
-    /// The metadata with the network's name, which distinguishes the network from others with the same
+    /// The metadata with the network's name, which distinguishes it from other networks with the same
     /// members.
     pub metadata: Metadata,
 }
 
-/// The part of [`Chain`] that contains the network's name.
+/// The metadata in a [`Chain`], which contains the network's name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Metadata {
@@ -74,7 +74,7 @@ pub(super) struct Known {
     scheme: &'static str,
 }
 
-/// The networks named in this module: all networks that the League of Entropy currently runs.
+/// The networks that this module names: all networks that the League of Entropy currently runs.
 const KNOWN: [Known; 2] = [
     Known {
         name: "drand quicknet",
@@ -91,7 +91,7 @@ const KNOWN: [Known; 2] = [
     },
 ];
 
-/// A network referred to by a source.
+/// The network that a source refers to.
 pub(super) enum Network {
     /// A network in [`KNOWN`].
     Known(&'static Known),
@@ -99,7 +99,7 @@ pub(super) enum Network {
     Hash(Digest),
 }
 
-/// Returns the network referred to by a source, or `None` if the source is not a drand network.
+/// Returns the network that a source refers to, or `None` if the source is not a drand network.
 ///
 /// # Errors
 /// Returns an error with the accepted names if the source mentions drand but is not the name of a network.
@@ -112,7 +112,7 @@ pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     }
     let hash = source.strip_prefix("drand ").and_then(|hash| hash.parse().ok());
     if let Some(known) = KNOWN.iter().find(|known| source.strip_prefix("drand ") == Some(known.hash)) {
-        // Each network has only one name, so that no round is awaited twice.
+        // Each network has only one accepted name, so that no round is awaited twice.
         return Err(format!("`{source}` is the network `{}`: write that name instead", known.name));
     }
     hash.map(|hash| Some(Network::Hash(hash))).ok_or_else(|| {
@@ -158,7 +158,8 @@ impl Network {
                     ));
                 }
                 if let Some(known) = KNOWN.iter().find(|known| known.public_key == chain.public_key) {
-                    // A different genesis time gives a different hash, but the rounds depend only on the key.
+                    // A different genesis time gives a different hash, but the signed rounds depend only on
+                    // the key.
                     return Err(format!(
                         "its `chain` has the key of `{}`: specify that network as the source",
                         known.name

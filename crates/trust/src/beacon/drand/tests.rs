@@ -92,7 +92,7 @@ fn real_rounds_hold() {
     check(&answer("drand default", 72785, DEFAULT_72785, other), Some("not belong to round 72785"));
 }
 
-/// A publisher who invents a value has no signature for it.
+/// A publisher who makes up a value has no signature for it.
 #[test]
 fn a_round_of_drand_needs_its_signature() {
     let file = json!({ "source": "drand quicknet", "round": 1000, "randomness": value(QUICKNET_1000) });
@@ -182,7 +182,7 @@ fn other_networks_are_named_by_their_chain_hash() {
             forged["chain"][field] = other;
             check(&answer(&source, 9, &signature, forged), Some("does not belong to drand"));
         }
-        // The hash does not cover the scheme, but a signature is valid only under its own scheme.
+        // The chain hash does not cover the scheme, but a signature is valid only under its own scheme.
         for (other, words) in [
             ("bls-unchained-g1-rfc9380", ""),
             ("pedersen-bls-unchained", ""),

@@ -64,7 +64,7 @@ fn swapped_beacons_are_told() {
                 "which was known before it"
             }
             3 => {
-                // The round has a second value, which suits the publisher.
+                // The round has a second value, which suits the publisher better.
                 let place = one_of(&beacons, &mut chance);
                 let mut second = forged[place].clone();
                 if let Entry::Beacon { value, .. } = &mut second {
@@ -107,7 +107,7 @@ fn swapped_beacons_are_told() {
                 "its `signature` does not belong to round"
             }
             6 => {
-                // The value belongs to a different round of the network, which suits the publisher.
+                // The value belongs to a different round of the network, which suits the publisher better.
                 let place = one_of(&beacons, &mut chance);
                 let other = Network::new().round(100_000 + chance.below(1_000_000) as u64);
                 if let Entry::Beacon { value, proof, .. } = &mut forged[place] {
@@ -119,7 +119,7 @@ fn swapped_beacons_are_told() {
                 "its `signature` does not belong to round"
             }
             _ => {
-                // The value never came.
+                // The value was never published.
                 forged.remove(one_of(&beacons, &mut chance));
                 "whose value is not in the log"
             }
@@ -150,7 +150,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                 }
                 broken(&forged, "and a publisher may commit only once");
             }
-            // A hundred names with one round, of which the publisher keeps the preferred one.
+            // A hundred names share one round, and the publisher keeps the name with the best result.
             1 => {
                 for other in 0..99 {
                     let (commitment, recipe) = (any_digest(&mut chance), any_digest(&mut chance));
@@ -161,7 +161,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                 broken(&forged, "as another commitment does: one of the two could be chosen");
                 assert_eq!(unkept(&forged).len(), 99);
             }
-            // The secret is chosen afterwards.
+            // The secret is chosen after the fact.
             _ => {
                 if let Some(Entry::Reveal(revealed)) = forged.get_mut(place + 3) {
                     revealed.seed = format!("better {number}");
@@ -172,7 +172,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
     }
 }
 
-/// If the logs give different numbers than a result row, every improved number is reported.
+/// Checks that every improved number in a result row is reported if the logs give different numbers.
 #[test]
 fn altered_rows_are_told() {
     let entries = year();

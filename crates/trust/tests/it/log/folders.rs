@@ -1,4 +1,4 @@
-//! Attacks on the folder of a log, and on readers of earlier states.
+//! Attacks on a log's folder, and on readers of earlier states.
 
 use super::*;
 
@@ -14,7 +14,8 @@ fn rollbacks_and_freezes_are_told() {
         assert_eq!(old.faults(&publisher.secret.public()), [""; 0]);
         let said = old.fork(&newest.checkpoint).unwrap();
         assert!(said.contains("the log was rolled back"), "{said}");
-        // A copy that is no longer updated lacks the months after its newest, regardless of its other entries.
+        // A copy that is no longer updated lacks all months after its newest month, whatever other entries it
+        // has.
         let is_root = |entry: &&Entry| matches!(entry, Entry::Root { .. });
         let minted = old.entries().unwrap().iter().filter(is_root).count();
         let mut copy = entries[..length].to_vec();
@@ -52,7 +53,7 @@ fn forks_are_told() {
         let (_home, fork) = publisher.forge(&forged);
         let said = fork.fork(&honest.checkpoint).unwrap();
         assert!(said.contains("the log has forked"), "{said}");
-        // A proof of growth cannot be made either, because a proof of a different log does not fit.
+        // A growth proof cannot be made either, because a proof from a different log does not fit.
         let old = 1 + place as u64;
         let (_home, short) = publisher.forge(&entries[..old as usize]);
         let proof = fork.prove_growth(old).unwrap();
@@ -74,7 +75,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Somebody without the key alters, cuts or removes files.
+/// An attacker without the key alters, truncates or removes files.
 #[test]
 fn altered_and_truncated_files_are_told() {
     let publisher = Publisher::new();
@@ -102,7 +103,7 @@ fn altered_and_truncated_files_are_told() {
         }
         let is_sound = match Log::open(home.path()) {
             Ok(Some(log)) => log.faults(&publisher.secret.public()).is_empty(),
-            // The error is a statement about the log, and not a failure of the disk.
+            // The error must be a statement about the log, not a disk failure.
             Err(error) => !matches!(error, TrustError::Document { .. }),
             Ok(None) => false,
         };
@@ -115,7 +116,7 @@ fn altered_and_truncated_files_are_told() {
     assert_eq!(read(home.path()).faults(&publisher.secret.public()), [""; 0]);
 }
 
-/// Anyone who prepares the folder of a log can replace its lock by a link.
+/// Anyone who prepares a log's folder can replace its lock with a link.
 #[cfg(unix)]
 #[test]
 fn a_linked_lock_empties_nothing() {
@@ -128,7 +129,7 @@ fn a_linked_lock_empties_nothing() {
     assert_eq!(fs::read_to_string(&victim).unwrap(), "precious");
 }
 
-/// Readers of earlier states still read the partial tiles of those states.
+/// Readers of earlier states still read the partial tiles from those states.
 #[test]
 fn damaged_tiles_of_earlier_states_are_faults() {
     let home = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
-//! Tests of the log of a year, and of attacks on it. Each attack is tried in many ways: 1,000 in a sweep
-//! (`cargo xtask sweep`).
+//! Tests of a log that covers a year, and of attacks on it. Each attack is tried in many ways: 1,000 in a
+//! sweep (`cargo xtask sweep`).
 
 mod entries;
 mod folders;
@@ -17,12 +17,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// The number of ways in which an attack is tried.
+/// Returns the number of ways in which to try an attack.
 fn mutations() -> u64 {
     if std::env::var_os("ARCADE_SWEEP").is_some() { 1000 } else { 20 }
 }
 
-/// Returns the sampler of one mutation. Its seed includes the value of `ARCADE_SWEEP`, so each sweep can differ.
+/// Returns the sampler for one mutation. Its seed includes the value of `ARCADE_SWEEP`, so each sweep can
+/// differ.
 fn chance(purpose: &str, number: u64) -> Sampler {
     let sweep = std::env::var_os("ARCADE_SWEEP").and_then(|text| text.into_string().ok());
     Seed::from_text(&format!("{purpose} {}", sweep.unwrap_or_default())).child("mutation", number).sampler()
@@ -32,7 +33,8 @@ fn digest(text: &str) -> Digest {
     Digest::of(text.as_bytes())
 }
 
-/// Computes the commitment with a formula for these tests; the formula of releases is in `snapshots`.
+/// Computes the commitment with a formula used only in these tests. The formula for releases is in
+/// `snapshots`.
 fn commitment_of(revealed: &Revealed) -> Digest {
     digest(&format!("{} {} {}", revealed.seed, revealed.nonce, revealed.recipe))
 }
@@ -55,7 +57,7 @@ fn months() -> Vec<String> {
     (1..=12).map(|month| format!("2027-{month:02}")).collect()
 }
 
-/// A drand-like network, whose key the tests have.
+/// A drand-like network whose secret key the tests have.
 struct Network {
     key: min_sig::SecretKey,
     chain: Chain,
@@ -93,8 +95,8 @@ fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Returns a year as its publisher states it: each month is committed to, waits for its beacon, is minted, revealed,
-/// calibrated, and played by somebody.
+/// Returns a publisher's log entries for a year. Each month is committed to, waits for its beacon, and is
+/// then minted, revealed, calibrated and played.
 fn year() -> Vec<Entry> {
     let first_keys = Entry::Keys { version: 1, digest: digest("keys 1"), previous: None };
     let mut entries = vec![first_keys];
@@ -179,7 +181,7 @@ fn a_year_is_sound() {
     let key = publisher.secret.public();
     let entries = year();
     let mut seen: Option<Checkpoint> = None;
-    // The entries are appended in steps, as over a year.
+    // The entries are appended in steps, as they would be over a year.
     for step in entries.chunks(5) {
         let log = publisher.append(home.path(), step).unwrap();
         assert_eq!(log.faults(&key), [""; 0]);
@@ -210,8 +212,8 @@ fn a_year_is_sound() {
     assert!(Publisher::new().append(home.path(), &[]).unwrap_err().contains("is not signed by the key"));
 }
 
-/// Whenever the power fails while a month is appended, the log is either the old one or the new one. Appending again
-/// gives the bytes of an undisturbed log.
+/// If the power fails at any moment while a month is appended, the log is either the old one or the new one.
+/// Appending again yields the same bytes as without the failure.
 #[test]
 fn a_loss_of_power_leaves_the_old_log_or_the_new_one() {
     let publisher = Publisher::new();
@@ -244,7 +246,7 @@ fn a_loss_of_power_leaves_the_old_log_or_the_new_one() {
     }
 }
 
-/// Checks that the entries break a rule, with these words in the message.
+/// Checks that the entries break a rule, and that the message contains these words.
 #[track_caller]
 fn broken(entries: &[Entry], words: &str) {
     let found = rules(entries);
@@ -255,7 +257,7 @@ fn any_digest(chance: &mut Sampler) -> Digest {
     digest(&chance.bits().to_string())
 }
 
-/// A lost or stolen key cannot continue the log, nor a history of keys with a gap.
+/// Neither a lost or stolen key nor a key history with a gap can continue the log.
 #[test]
 fn other_keys_are_told() {
     let (publisher, thief) = (Publisher::new(), Publisher::new());

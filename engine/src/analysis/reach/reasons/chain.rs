@@ -1,9 +1,9 @@
-//! The reasons why a termination can never hold in a level, as a chain from its requirements to the first
-//! impossible requirement.
+//! The reasons why a termination can never hold in a level, as a chain from its requirements to the first one
+//! that is impossible.
 //!
-//! Every link is proved by the over-approximation of [`Reach`](crate::analysis::reach::Reach): a requirement
-//! counts as missing only if it is missing in every cell that sprites can reach. The links need not be
-//! complete, because further requirements may be missing as well.
+//! Every link is proven by the over-approximation of [`Reach`](crate::analysis::reach::Reach): a requirement
+//! counts as missing only if it is missing in every cell that sprites can reach. The links are not
+//! necessarily complete, because further requirements may be missing as well.
 
 use super::cause::Cause;
 use crate::analysis::Analysis;
@@ -124,7 +124,7 @@ const MAX_SOURCES: usize = 16;
 /// The maximum number of consecutive blocking sprites to follow.
 const MAX_DEPTH: usize = 4;
 
-/// The value that replaces the cell in [`Reported`] entries about the creation of sprites.
+/// The value that stands in for the cell in [`Reported`] entries about creating sprites.
 const UNMADE: usize = usize::MAX;
 
 /// The sprites whose obstacles have already been reported, each with its cell or [`UNMADE`].
@@ -150,7 +150,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Chains { analysis, events, gifts }
     }
 
-    /// Returns the chain of causes for a termination that can never hold for this cause.
+    /// Returns the chain of causes for a termination that, for this cause, can never hold.
     pub(crate) fn chain(&mut self, goal: usize, cause: Cause) -> Chain {
         let mut reported = Vec::new();
         let obstacles = match &cause {
@@ -214,7 +214,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         obstacles
     }
 
-    /// Returns the sprites of the type that an interaction would remove, if any.
+    /// Returns which sprites of the type an interaction would remove, if any.
     fn ended(&self, encounter: &Encounter, stype: SpriteType) -> Option<Ended> {
         let rules = &*self.analysis.game().0;
         let first = self.analysis.applies(encounter.first, stype);
@@ -235,7 +235,7 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 
     /// Returns the missing requirement of an interaction. If `target` is given, returns the missing
-    /// requirement for removing the target sprite in its cell. Returns `None` if nothing is proved.
+    /// requirement for removing the target sprite in its cell. Returns `None` if nothing is proven.
     fn missing(
         &self,
         encounter: &Encounter,
@@ -269,7 +269,7 @@ impl<'a, 'e> Chains<'a, 'e> {
                 Some(second) => self.all(first).shared(&self.all(second)),
                 None => self.all(first).shared(&self.events.board().ring()),
             };
-            // The position of a sprite that stands still is known.
+            // A motionless sprite's position is known.
             let apart = |stands: SpriteType, comes: SpriteType| {
                 let fixed = self.events.flood.model.of_type(stands).fixed;
                 let (cell, _) = self.events.placed()[stands.index()].first().filter(|_| fixed)?;
@@ -343,7 +343,7 @@ impl<'a, 'e> Chains<'a, 'e> {
     }
 
     /// Returns the type whose sprites give a resource in an interaction, the type that receives it, and the
-    /// amount. Returns `None` if the amount is the resource's value.
+    /// amount, which is `None` if it is the resource's value.
     fn giver(
         &self,
         encounter: &Encounter,
@@ -374,8 +374,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         Unreachable { stype, cell, blockers: blockers.collect() }
     }
 
-    /// Returns the removable sprites, each with its cell, that are on paths to a cell and adjacent to cells
-    /// that sprites of a type can reach. Paths go from a cell to its four neighbours.
+    /// Returns the removable sprites on paths to a cell that are adjacent to cells that sprites of a type can
+    /// reach. Each comes with its cell. Paths go from a cell to its four neighbours.
     fn in_the_way(&self, stype: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
         let (board, rules) = (self.events.board(), &*self.analysis.game().0);
         let family: Vec<SpriteType> = rules.types[stype.index()].tree.to_vec();
@@ -410,18 +410,18 @@ impl<'a, 'e> Chains<'a, 'e> {
         found.into_iter().map(|(cell, stype)| (stype, cell)).collect()
     }
 
-    /// Returns `true` if sprites subject to a rule on `written` can exist.
+    /// Returns `true` if sprites to which a rule on `written` applies can exist.
     fn is_alive(&self, written: SpriteType) -> bool {
         let tree = &self.analysis.game().0.types[written.index()].tree;
         tree.iter().any(|&stype| self.events.can_occur(stype))
     }
 
-    /// Returns the cells that sprites subject to a rule on `written` can reach at some point.
+    /// Returns the cells that sprites to which a rule on `written` applies can reach at some point.
     fn all(&self, written: SpriteType) -> Cells {
         self.cells_of(written, |stype| self.events.touch(stype))
     }
 
-    /// Returns the cells of all possible sprites subject to a rule on `written`.
+    /// Returns the cells of all possible sprites to which a rule on `written` applies.
     fn cells_of<'c>(&self, written: SpriteType, cells: impl Fn(SpriteType) -> &'c Cells) -> Cells {
         let mut all = Cells::none(self.events.board());
         let family = self.analysis.game().0.types[written.index()].tree.iter().copied();

@@ -1,4 +1,5 @@
-//! Removals that cost a resource: a win is impossible if the resource cannot pay for the required removals.
+//! Removals that cost a resource: a win is impossible if there is not enough of the resource for the required
+//! removals.
 
 use super::cause::{Cause, Unpaid};
 use crate::analysis::Analysis;
@@ -10,7 +11,7 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Ending, Movement, Target};
 use std::collections::BTreeSet;
 
-/// A method of removing a sprite that takes a resource from the other sprite.
+/// A way to remove a sprite at the cost of a resource, which the other sprite loses.
 struct Payment {
     resource: SpriteType,
     each: i64,
@@ -19,8 +20,8 @@ struct Payment {
 }
 
 impl Analysis {
-    /// Returns the reason why too few of the counted sprites can be removed, if the removals require more of
-    /// a resource than is obtainable. Returns `None` in uncertain cases.
+    /// Returns the reason why too few of the counted sprites can be removed, if the removals cost more of a
+    /// resource than is obtainable. Returns `None` if this is uncertain.
     pub(in crate::analysis::reach) fn unpaid(
         &self,
         condition: &Condition,

@@ -22,7 +22,7 @@ pub(crate) struct Tally<'a> {
 
 impl Tally<'_> {
     /// Returns the reason why a termination with this condition can never hold, or `None` if nothing is
-    /// proved.
+    /// proven.
     pub(crate) fn hinders(&self, condition: &Condition) -> Option<Cause> {
         let types = condition.types();
         let stay = |limit: i32| {

@@ -76,7 +76,7 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    /// Returns `true` if kernels must provide the rules. Only kernels have kinds.
+    /// Returns `true` if the rules must come from kernels. Only games from kernels have kinds.
     fn is_of_kernels(&self) -> bool {
         !self.kind.is_empty()
     }
@@ -89,8 +89,8 @@ impl Args {
         GameOrder { kinds: self.kind.clone(), ..order }
     }
 
-    /// Returns a digest of all inputs that determine the result's bytes. The digest decides whether stored
-    /// attempts can be used.
+    /// Returns a digest of all inputs that affect the result's bytes. Stored attempts are reused only if the
+    /// digest is the same.
     fn plan(&self, order: &GameOrder) -> Digest {
         let versions = (engine::SEMANTICS, generators::GENERATION);
         let kinds: Vec<&str> = match self.is_of_kernels() {
@@ -167,7 +167,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(set.games.len() == args.count as usize)
 }
 
-/// Returns the corpus games, from which new games must differ.
+/// Returns the corpus games, from which new games must be distinct.
 fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     let compile = |game: &snapshots::CorpusGame| {
         let compiled = Game::from_source(&game.source);
@@ -178,8 +178,8 @@ fn corpus_games() -> Result<Vec<(String, Game)>, Failure> {
     embedded::corpus()?.games.iter().map(compile).collect()
 }
 
-/// Judges the games again, with different seeds and twice as many episodes as required for a release, and
-/// writes the report on the games.
+/// Judges the games again, with different seeds and twice as many episodes as a release requires, and writes
+/// the report on the games.
 fn report(
     args: &Args,
     draft: Draft,
@@ -220,8 +220,8 @@ fn report(
     Ok(())
 }
 
-/// The generation's progress, as a bar, or as one line per game if no bar can be drawn. Finished attempts are
-/// stored.
+/// The generation's progress, shown as a bar, or as one line per game if no bar can be drawn. Finished
+/// attempts are stored.
 struct Bar<'a> {
     bar: ProgressBar,
     console: &'a Console,
@@ -231,7 +231,7 @@ struct Bar<'a> {
 }
 
 impl Bar<'_> {
-    /// Returns the value, or records the failure if it is the first one.
+    /// Returns the value. If the store failed, records its first failure instead.
     fn noted<T>(&self, result: Result<T, SnapshotError>) -> Option<T> {
         let note = |failure| {
             let mut first = self.failure.lock().unwrap_or_else(PoisonError::into_inner);

@@ -159,7 +159,7 @@ fn stype(game: &Game, name: &str) -> Result<SpriteType, Failure> {
     })
 }
 
-/// The number of levels generated without a requested difficulty, for comparison.
+/// The number of levels generated for comparison, without a requested difficulty.
 const POOL: u32 = 60;
 
 /// Judges the levels again, and writes the report on them.
@@ -185,7 +185,8 @@ fn report(
         None => Vec::new(),
     };
     let pool = survey.judge(&plain(&pool));
-    // Levels that random keys win get no label here, because only levels that meet the criteria can be chosen.
+    // Levels that random keys win are not labelled here, because only levels that meet the criteria can be
+    // chosen.
     let fit = pool.iter().filter(|judged| judged.report.passes());
     let pool: Vec<Difficulty> = fit.filter_map(|judged| judged.label()).collect();
     let report = LevelSetReport::of(&Sample {

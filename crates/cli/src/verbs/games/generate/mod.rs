@@ -1,4 +1,4 @@
-//! `arcade generate`: generates new games, and new levels for a game.
+//! `arcade generate`: generates new games, or new levels for an existing game.
 
 mod games;
 mod levels;

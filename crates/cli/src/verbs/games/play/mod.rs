@@ -9,7 +9,7 @@ pub(crate) use on_screen::run;
 use agents::{Budget, PLANNERS};
 use std::path::PathBuf;
 
-/// The maximum pace in ticks per second, which equals the maximum in the crate `terminal`.
+/// The maximum pace in ticks per second, equal to the maximum in the crate `terminal`.
 const MAX_PACE: i64 = 60;
 
 /// Plays a level in the terminal: by hand, by a planner that you watch, or as a replay of a recorded episode.
@@ -54,7 +54,7 @@ pub(crate) struct Args {
     as_reference: bool,
 }
 
-/// Rejects the command, because this build has no terminal player.
+/// Rejects the command, because this build lacks the terminal player.
 #[cfg(not(feature = "terminal"))]
 pub(crate) fn run(_: &Args, _: &crate::console::Console) -> crate::failure::Answer {
     Err(malformed!("this program was built without the feature `terminal`: use `arcade studio`"))

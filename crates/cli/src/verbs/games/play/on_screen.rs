@@ -1,4 +1,4 @@
-//! Plays a level on the terminal.
+//! Plays a level in the terminal.
 
 use super::{Args, MAX_PACE};
 use crate::console::Console;

@@ -1,4 +1,4 @@
-//! `arcade studio --judge`: shows people pairs of games, which they judge without seeing the games' sources.
+//! `arcade studio --judge`: shows people pairs of games to judge without seeing where the games come from.
 
 use super::open;
 use crate::console::Console;
@@ -12,7 +12,7 @@ use snapshots::released::Released;
 use std::path::Path;
 use studio::judging::{Candidate, Judgements, Judging, JudgingError, MeasureRow, Report, Source, SourceRow};
 
-/// Opens the folders and the record.
+/// Opens the game folders and the record file.
 pub(super) fn session(
     folders: &[String],
     seed: &str,
@@ -29,7 +29,7 @@ pub(super) fn session(
     Ok(judging)
 }
 
-/// Prints a record's results.
+/// Prints the results in a record file.
 pub(super) fn report(file: &Path, console: &Console) -> Answer {
     let (judgements, remarks) = Judgements::read(file)?;
     remarks.iter().for_each(|remark| console.remark(remark));

@@ -69,7 +69,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if !args.judge.is_empty() {
         let pairs = usize::try_from(args.pairs).unwrap_or(MOST_PAIRS);
         let judging = judge::session(&args.judge, &args.seed, pairs, args.out.as_deref(), console)?;
-        // The page shows only the pairs, because a list of games would reveal their sources.
+        // The page shows only the pairs, because a list of games would reveal where they come from.
         let workspace = Workspace::new(Kind::Games, "pairs to judge", PathBuf::new(), Vec::new());
         return serve(Studio::new(workspace, version::version(), page).judging(judging), args, console);
     }
@@ -84,7 +84,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     serve(with_signatures(studio, root, &args.trust), args, console)
 }
 
-/// Adds the check of the opened release's signatures, if a key was given.
+/// Adds the signature check for the opened release, if a key was given.
 fn with_signatures(studio: Studio, root: Option<PathBuf>, trust: &TrustArgs) -> Studio {
     let Some(root) = root.filter(|_| !trust.is_empty()) else { return studio };
     let trust = trust.clone();
@@ -129,7 +129,7 @@ fn end_on_signal(stop: Stop) {
     });
 }
 
-/// Does nothing, because the system ends the program.
+/// Does nothing on non-Unix systems, where the system ends the program.
 #[cfg(not(unix))]
 fn end_on_signal(stop: Stop) {
     std::mem::forget(stop);

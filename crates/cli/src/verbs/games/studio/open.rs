@@ -1,4 +1,4 @@
-//! The sources that the studio can open: the corpus, the user's games, a release, and results.
+//! The sources that the studio can open: the corpus, the user's games, a release, or results.
 
 use crate::failure::Failure;
 use crate::input;
@@ -46,7 +46,7 @@ pub(crate) fn workspace(
     }
     let results = results(path)?;
     if !results.is_empty() {
-        // The results are opened at once, so that a damaged folder is reported here.
+        // The results are opened immediately, so that a damaged folder is reported here.
         results.iter().try_for_each(|folder| Evaluation::open(folder).map(drop))?;
         let mut workspace = Workspace::new(Kind::Results, place, copies(here)?, Vec::new());
         workspace.results = results;
@@ -73,7 +73,7 @@ fn is_in(file: &Path, place: &Path) -> bool {
     file == place || file.parent() == Some(place)
 }
 
-/// Returns the evaluation results at a path: the folder itself, or the results folders in it.
+/// Returns the evaluation results at a path: the folder itself, or the results folders inside it.
 fn results(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     if !path.is_dir() {
         return Ok(Vec::new());
@@ -138,7 +138,7 @@ fn entry(input: &GameInput) -> Result<GameEntry, Failure> {
     Ok(GameEntry { id, title, place, summary, card, witnesses })
 }
 
-/// Returns the card beside a game, or `None` if there is no readable card.
+/// Returns the card beside a game, or `None` if no readable card exists.
 pub(super) fn card(input: &GameInput) -> Option<serde_json::Value> {
     let folder = input.path.as_ref()?.parent()?;
     let read = |name: &str| input::text::read_text(&folder.join(name), MAX_CARD).ok();
@@ -180,7 +180,7 @@ fn corpus() -> Result<Vec<GameEntry>, Failure> {
     Ok(embedded::corpus()?.games.into_iter().map(entry).collect())
 }
 
-/// Opens a release, and optionally a second release to compare it with. Both are verified first.
+/// Opens a release, and optionally a second release for comparison. Both are verified first.
 fn release(path: &Path, against: Option<&Path>, copies: PathBuf) -> Result<Workspace, Failure> {
     let read = |path: &Path| Released::read(path).map_err(|error| unsound(path, &error));
     let mut workspace = of_release(path, read(path)?, copies);

@@ -16,7 +16,7 @@ pub(super) struct Document<'a> {
     pub(super) criteria: Option<&'a Criteria>,
     pub(super) problems: Vec<Placed>,
     pub(super) levels: Vec<LevelDocument<'a>>,
-    /// The judgements on the game over all its levels.
+    /// The judgements on the game across all its levels.
     pub(super) judgements: &'a [Judgement],
 }
 
@@ -28,7 +28,7 @@ pub(super) struct LevelDocument<'a> {
     pub(super) problems: Vec<Placed>,
     /// The level's characters, from top to bottom.
     pub(super) board: Vec<String>,
-    /// The winning terminations that can never apply in the level, each with its cause.
+    /// The winning terminations that can never apply in the level, each with the reason.
     pub(super) out_of_reach: Vec<String>,
     #[serde(flatten)]
     pub(super) report: Option<&'a Report>,

@@ -54,7 +54,7 @@ pub(crate) struct Args {
     witness: Option<PathBuf>,
 }
 
-/// A level and its findings: problems in its text, or judgements.
+/// A level and its findings: either problems in its text, or judgements.
 struct JudgedLevel<'a> {
     named: &'a Named,
     level: Result<Level, Diagnostics>,
@@ -99,7 +99,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let panel = Panel::new(criteria.check().map_err(Failure::malformed)?, Effort::Calls(args.budget));
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");
-    // The seed depends on the level, so that a level gets the same answer alone and with other levels.
+    // The seed depends on the level, so that a level gets the same answer alone as with other levels.
     let judge = |level: &Level| {
         let seed = seed.child(&level.digest().to_string(), 0);
         panel.judge(Judging::level(&game, level, seed))
@@ -113,7 +113,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let mut judged: Vec<JudgedLevel<'_>> = judged.collect();
     let sound: Vec<Level> = judged.iter().filter_map(|judged| judged.level.clone().ok()).collect();
     let reports: Vec<Report> = judged.iter().filter_map(|judged| judged.report.clone()).collect();
-    // Criteria about the game over all its levels require all levels.
+    // Criteria that judge the game across its levels require all levels.
     let all = sound.len() == judged.len() && judged.len() >= input.count();
     let together = || panel.judge(Judging::together(&game, &sound, &reports, seed));
     let mut of_game = if all { together() } else { Vec::new() };
@@ -179,8 +179,8 @@ fn levels(args: &Args, input: &GameInput) -> Result<Vec<Named>, Failure> {
     input.named_levels(&args.levels)
 }
 
-/// Returns the failure for a game that does not compile, with its problems and the certain problems of its
-/// levels.
+/// Returns the failure for a game that does not compile, with the game's problems and those problems of its
+/// levels that are certain despite them.
 fn malformed(args: &Args, console: &Console, input: &GameInput, problems: &[Diagnostic]) -> Failure {
     let mut told = vec![diagnostics::in_words(&input.source, problems)];
     let mapping = Some(&input.source.text).filter(|_| !args.as_reference);

@@ -1,4 +1,4 @@
-//! The human-readable answer: first the verdict, and then the reasons.
+//! The human-readable answer: first the verdict, then the reasons.
 
 use super::document::{Document, LevelDocument};
 use crate::diagnostics::Named;
@@ -15,7 +15,7 @@ const MOST_SEEN: usize = 6;
 const MOST_LINKS: usize = 16;
 
 /// Returns the complete answer: the verdicts, the warnings about the files, and the criteria. A quiet answer
-/// omits everything that passes, and is empty if everything passes.
+/// omits everything that passes, so it is empty if everything passes.
 pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String], quiet: bool) -> String {
     if quiet && document.passes {
         return String::new();
@@ -94,7 +94,8 @@ fn in_words(difficulty: Difficulty) -> String {
     difficulty.to_string().replace('_', " ")
 }
 
-/// Returns one line with the reason why a criterion does not pass, and the position of the quoted rule.
+/// Returns one line with the reason why a criterion does not pass, and the position of the rule that it
+/// quotes.
 fn obstacle(judgement: &Judgement, source: &Named) -> String {
     let Judgement { criterion, finding } = judgement;
     match &finding.verdict {
@@ -129,12 +130,12 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     };
     let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
-    // A criterion's name alone says little, so the criterion's question is added if the answer matters.
+    // A criterion's name alone says little, so its question is added if the answer matters.
     let is_asked = mark == "FAIL" || mark == "?" && !words.starts_with("needs a win");
     if is_asked {
         let _ = writeln!(text, "       asks: {}", criterion.question());
     }
-    // Evidence that the reason already contains is not repeated.
+    // Evidence already contained in the reason is not repeated.
     let is_new = |seen: &&Evidence| {
         seen.rule.is_some() || *criterion == Criterion::Winnable || !words.contains(seen.text.as_str())
     };
@@ -163,7 +164,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
     }
 }
 
-/// Writes a piece of evidence: its text, with tick, cell and line.
+/// Writes a piece of evidence: its text, followed by its tick, cell and line.
 fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
     let mut parts = Vec::new();
     if !said.contains(seen.text.as_str()) {

@@ -1,4 +1,4 @@
-//! Chooses levels with a scale, using `--plan`, `--adaptive` and their targets.
+//! Choosing levels by their difficulty on a scale, with `--plan`, `--adaptive` and their targets.
 
 use super::Args;
 use super::player::RequestedPlayer;
@@ -18,8 +18,8 @@ use std::path::{Path, PathBuf};
 
 /// The accepted range for targets, in logits.
 const TARGETS: RangeInclusive<f64> = 0.001..=100.0;
-/// The range of abilities for which a plan can be made, in logits. Outside this range, every episode is won
-/// or every episode is lost.
+/// The range of abilities for which levels can be planned, in logits. Below it, every episode is lost, and
+/// above it, every episode is won.
 const ABILITIES: RangeInclusive<f64> = -20.0..=20.0;
 
 /// The file in a results folder that records an adaptive choice.
@@ -83,13 +83,13 @@ pub(super) struct ChoiceArgs {
 pub(super) enum Choice {
     /// All levels specified by the user.
     All,
-    /// A plan's levels. The settings already contain only these levels.
+    /// The levels of a plan. The settings already contain only these levels.
     Planned(Box<Plan>),
     /// One level after another, each chosen from the results so far.
     Adaptive(Box<AdaptiveChoice>),
 }
 
-/// Chooses the levels. Either restricts the settings and subjects to a plan's levels, or prepares an adaptive
+/// Chooses the levels: either restricts the settings and subjects to a plan's levels, or prepares an adaptive
 /// choice.
 pub(super) fn choose(
     args: &Args,
@@ -208,7 +208,7 @@ pub(super) fn print(plan: &Plan, settings: &Settings, console: &Console) -> Answ
     Ok(plan.is_reached)
 }
 
-/// Returns a sentence that describes a plan.
+/// Returns a sentence describing a plan.
 pub(super) fn words(plan: &Plan) -> String {
     let PlannedErrors { episodes, games, error, difference } = plan.errors;
     let runs = if plan.runs > 1 { format!(", {} on each level", plan.runs) } else { String::new() };
@@ -224,7 +224,7 @@ pub(super) fn words(plan: &Plan) -> String {
     )
 }
 
-/// Records an adaptive evaluation's choices, and returns a sentence about why the evaluation ended.
+/// Records an adaptive evaluation's choices, and returns a sentence stating why the evaluation ended.
 pub(super) fn record(choice: &AdaptiveChoice, folder: &Path) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(&json!({ "format": 1, "choices": choice.choices() }));
     let text = text.map_err(|error| Failure::environment(error, "the choice of levels"))? + "\n";

@@ -1,4 +1,4 @@
-//! A human player, who reads a language model's prompts and types actions.
+//! A human player, who reads the same prompts as a language model and types actions.
 
 use evaluation::prompt::{Past, Prompter};
 use evaluation::{Agent, Choice, Halt, Journal, Turn};
@@ -17,7 +17,7 @@ impl Human {
         Human { prompter, past: Vec::new() }
     }
 
-    /// Returns the prompt for a turn. At the first turn, the prompt starts with the rules.
+    /// Returns the prompt for a turn. The first prompt starts with the rules.
     fn shown(&self, turn: &Turn<'_>) -> String {
         if turn.number == 0 {
             show(self.prompter.static_part());

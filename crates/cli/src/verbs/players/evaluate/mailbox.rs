@@ -32,8 +32,8 @@ impl RequestedMailbox {
         Ok(RequestedMailbox { folder: folder.into(), prompts, reasks })
     }
 
-    /// Returns the player's entry in results. The player's name is the value of `--name`, or else the
-    /// folder's last component.
+    /// Returns the player's entry in results. The player's name is the value of `--name`, by default the last
+    /// component of the folder's path.
     pub(super) fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let digest = match subjects.first() {
             Some(subject) => {
@@ -55,7 +55,7 @@ impl RequestedMailbox {
         })
     }
 
-    /// Opens the mailbox, and returns it with a constructor for the players of episodes.
+    /// Opens the mailbox, and returns it with a constructor for its episodes' players.
     pub(super) fn connect(
         &self,
         args: &Args,

@@ -198,7 +198,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         text.push('\n');
         whole_file::write(&folder.join(ORIGIN_FILE), text.as_bytes())?;
     }
-    // The spending of earlier runs of the evaluation counts towards the caps.
+    // Spending in earlier runs of this evaluation counts towards the caps.
     if let Some(model) = &model {
         for task in evaluation.tasks() {
             model.caps.charge_logged(&evaluation.events(&task)?);
@@ -253,7 +253,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     print_results(console, &folder, &settings, &tally, limited, model.as_deref())
 }
 
-/// Prints the expected effort, and the differences that the evaluation could detect.
+/// Prints the expected effort, and the differences between players that the evaluation could detect.
 fn forecast(
     requested: &RequestedPlayer,
     settings: &Settings,
@@ -411,7 +411,7 @@ fn print_results(
     }
 }
 
-/// Returns a warning about decisions without a usable answer.
+/// Returns a warning about decisions that got no usable answer.
 fn useless(answers: &Answers, logs: &Path) -> String {
     let longer = if answers.truncated > 0 {
         "; raise --max-output-tokens for the answers that were cut off"

@@ -1,4 +1,4 @@
-//! Language model flags, and the settings that they select.
+//! The language-model flags, and the settings that they select.
 
 use super::Args;
 use super::prompt_args::PromptArgs;
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The number of tokens per answer that dry runs assume if no limit is given.
+/// The number of tokens per answer that dry runs assume if answers are not limited.
 const ANSWER_TOKENS: u64 = 100;
 
 /// The model, its requests, and the limits on their cost.
@@ -84,13 +84,13 @@ pub(crate) struct ModelArgs {
     pub(crate) prompt: PromptArgs,
 }
 
-/// The defaults for flags that are rejected for players unaffected by them.
+/// Default values of flags that are rejected for players that they do not affect.
 const CONCURRENCY: NonZeroUsize = NonZeroUsize::new(4).expect("the default is positive");
 const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("the default is positive");
 const TIMEOUT: u64 = 600;
 
 impl ModelArgs {
-    /// Returns the first of the given flags that affects only language models.
+    /// Returns the first of the given flags that affects only language models, if any.
     pub(crate) fn unused_without_model(&self) -> Option<&'static str> {
         let given = [
             ("--base-url", self.base_url.is_some()),
@@ -118,7 +118,7 @@ impl ModelArgs {
         self.concurrency.unwrap_or(CONCURRENCY)
     }
 
-    /// Returns the time limit for a try, or for a program's answer.
+    /// Returns the time limit for a single try, or for a program's answer.
     pub(crate) fn timeout(&self) -> Duration {
         Duration::from_secs(self.timeout.unwrap_or(TIMEOUT))
     }
@@ -206,12 +206,12 @@ pub(crate) struct Forecast {
     max_output_tokens: Option<u64>,
     /// The cost in US dollars, assuming that all answers are as long as possible.
     max_cost: Option<f64>,
-    /// The number of requests, assuming that every episode lasts as long as the shortest known win of its
-    /// level. `None` if any level lacks a known win.
+    /// The number of requests, assuming that every episode lasts as long as its level's shortest known win.
+    /// `None` if any level lacks a known win.
     estimated_requests: Option<u64>,
     /// The cost of the estimated requests in US dollars.
     estimated_cost: Option<f64>,
-    /// The part of the forecast that exceeds a cap, or `None` if no cap is exceeded.
+    /// The cap that the forecast exceeds, as text, or `None` if no cap is exceeded.
     forbidden: Option<String>,
 }
 
@@ -305,7 +305,7 @@ impl RequestedModel {
         })
     }
 
-    /// Returns each episode's requests, assuming that the episode has `decisions(task)` decisions.
+    /// Returns each episode's requests, assuming that an episode makes `decisions(task)` decisions.
     fn batches(
         &self,
         tasks: &[Task<'_>],
@@ -313,7 +313,7 @@ impl RequestedModel {
         decisions: impl Fn(&Task<'_>) -> u64,
     ) -> Result<Vec<Batch>, Failure> {
         let mut batches = Vec::new();
-        // The number of decisions on the earlier levels in the same conversation.
+        // The number of decisions on earlier levels of the same conversation.
         let mut earlier = 0;
         for task in tasks {
             let prompter = self.prompter(task.subject, task.max_steps, task.commit)?;
@@ -348,8 +348,8 @@ impl RequestedModel {
     }
 }
 
-/// Returns the number of tokens that earlier turns occupy in the prompts of `steps` steps. The number grows
-/// by `turn` per step, up to `room`.
+/// Returns the total number of tokens that earlier turns occupy in the prompts of `steps` steps. The history
+/// grows by `turn` tokens per step, up to `room`.
 fn history(steps: u64, turn: u64, room: u64) -> u64 {
     let Some(most) = room.checked_div(turn) else { return 0 };
     let growing = steps.min(most + 1);

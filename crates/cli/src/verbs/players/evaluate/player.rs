@@ -1,4 +1,4 @@
-//! The player requested by the user, and its connection to the episodes.
+//! The player requested by the user, and how it connects to the episodes.
 
 use super::human::Human;
 use super::mailbox::RequestedMailbox;
@@ -38,7 +38,7 @@ pub(super) enum RequestedPlayer {
 /// A constructor for an episode's player.
 pub(super) type PlayerOf = Box<dyn Fn(&Task<'_>) -> Contestant + Sync>;
 
-/// A connected player: a constructor for players of episodes, and the state that outlives an episode.
+/// A connected player: a constructor for its episodes' players, and the state that outlives an episode.
 pub(super) struct Connected {
     pub(super) contestant: PlayerOf,
     pub(super) model: Option<Arc<ConnectedModel>>,
@@ -121,7 +121,7 @@ impl RequestedPlayer {
         }
     }
 
-    /// Connects the player, and returns a constructor for players of episodes.
+    /// Connects the player, and returns a constructor for its episodes' players.
     pub(super) fn connect(
         &self,
         args: &Args,
@@ -183,8 +183,8 @@ impl RequestedPlayer {
         Ok(contestant.into())
     }
 
-    /// Returns the number of concurrent episodes (at most the total number of episodes). Model episodes spend
-    /// most of their time waiting.
+    /// Returns the number of concurrent episodes, capped at the total number of episodes. Model episodes
+    /// spend most of their time waiting.
     pub(super) fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let requested = match self {
             RequestedPlayer::Model(_) => args.model.concurrency().get(),
@@ -203,7 +203,7 @@ impl RequestedPlayer {
     }
 }
 
-/// Rejects flags without an effect, because a user who specifies a flag expects an effect.
+/// Rejects flags that would have no effect, because a user who sets a flag expects it to have one.
 pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
     if args.budget.is_some() && !matches!(requested, RequestedPlayer::Planner(_)) {
         bail!(

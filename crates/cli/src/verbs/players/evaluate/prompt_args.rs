@@ -1,4 +1,4 @@
-//! Prompt flags, and the settings that they select.
+//! The prompt flags, and the settings that they select.
 
 use crate::failure::Failure;
 use crate::input::text::read_text;
@@ -58,7 +58,7 @@ fn track_named(name: String) -> Track {
     named.expect("the parser knows the names")
 }
 
-/// Returns a parser for a setting's JSON names.
+/// Returns a parser for a setting's values, by their JSON names.
 fn named<T, const N: usize>(names: [&'static str; N]) -> impl TypedValueParser<Value = T>
 where
     T: DeserializeOwned + Clone + Send + Sync + 'static,
@@ -113,7 +113,7 @@ impl PromptArgs {
             settings.mode = mode;
         }
         settings.history_tokens = self.history_tokens.unwrap_or(settings.history_tokens);
-        // The values that a flag sets must equal the track's values.
+        // Values set by flags must equal the track's values.
         let free = PromptSettings {
             mode: settings.mode,
             history_tokens: settings.history_tokens,
@@ -131,8 +131,8 @@ impl PromptArgs {
         Ok(settings)
     }
 
-    /// Returns the differences between the settings and the track's settings, as listed in results. Without a
-    /// track, the defaults replace the track's settings.
+    /// Returns the ways in which the settings differ from the track's settings, as listed in results. Without
+    /// a track, they are compared with the defaults.
     pub(super) fn aids(&self, settings: &PromptSettings) -> Vec<String> {
         let usual = self.track.map_or_else(PromptSettings::default, Track::settings);
         settings.aids_beyond(&usual)

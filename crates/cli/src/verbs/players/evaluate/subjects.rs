@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 /// The maximum number of game names listed in a message.
 const MAX_LISTED: usize = 12;
 
-/// The maximum size of a card, in bytes. The card of a game with many levels can occupy several hundred
+/// The maximum size of a card, in bytes. A card for a game with many levels can occupy several hundred
 /// kilobytes.
 const MAX_CARD: usize = 1 << 24;
 
@@ -41,7 +41,7 @@ pub(crate) struct Wanted<'a> {
 /// The games, and the snapshot's root digest if all games come from one snapshot.
 pub(crate) struct Subjects {
     pub(crate) snapshot: Option<Digest>,
-    /// The snapshot's name, or `None` unless all games come from one snapshot.
+    /// The snapshot's name, or `None` if the games do not all come from one snapshot.
     pub(crate) release: Option<String>,
     pub(crate) games: Vec<Subject>,
 }
@@ -81,7 +81,7 @@ pub(crate) fn read(args: &Wanted<'_>) -> Result<Subjects, Failure> {
     Ok(Subjects { snapshot, release, games })
 }
 
-/// Adds advice to the error about a missing file if `releases/` contains a release with that name.
+/// Adds advice to a missing-file error if `releases/` contains a release with that name.
 fn with_release(error: Failure, place: &Path) -> Failure {
     let release = Path::new("releases").join(place);
     match !place.exists() && is_snapshot(&release) {
@@ -119,8 +119,8 @@ fn of_input(input: &GameInput, args: &Wanted<'_>) -> Result<Subject, Failure> {
     })
 }
 
-/// Returns suggestions for an unknown game: a similar ID or title, a game whose name contains the word, or
-/// else a list of all games.
+/// Returns suggestions for an unknown game: a similar ID or title, a game whose name contains the word, or,
+/// failing that, a list of all games.
 fn help_with(unknown: &str, games: &[Subject]) -> String {
     let names =
         || games.iter().flat_map(|game| [(game.id.as_str(), game), (game.facts.title.as_str(), game)]);
@@ -153,7 +153,7 @@ enum Files<'a> {
 }
 
 impl<'a> Files<'a> {
-    /// Opens the release at `place`, and returns the release with its problems.
+    /// Opens the release at `place`, and returns it together with its problems.
     fn open(place: &'a Path) -> Result<(Integrity, Files<'a>), Failure> {
         if place.is_dir() {
             return Ok((check_integrity(place)?, Files::Folder(place)));
@@ -170,7 +170,7 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// Reads a text file in the release, of up to `limit` bytes.
+    /// Reads a text file of up to `limit` bytes in the release.
     fn text(&self, path: &str, limit: usize) -> Result<String, Failure> {
         let archive = match self {
             Files::Folder(root) => return read_text(&root.join(path), limit),
@@ -196,8 +196,8 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<S
         let (id, file) = item.path.strip_prefix("games/")?.split_once('/')?;
         (file == "card.json").then_some(id)
     });
-    // The marks of a sealed release are withheld, and marks of a different version cannot be read. Both count as
-    // missing.
+    // A sealed release's marks are withheld, and marks in a different version's format cannot be read. Both
+    // count as missing.
     let path = Marks::path_in(manifest);
     let marks = path.filter(|path| files.has(path)).map(|path| files.text(&path, MAX_MARKS)).transpose()?;
     let marks = marks.and_then(|text| Marks::read(text.as_bytes()).ok());

@@ -66,7 +66,7 @@ pub(super) fn check(args: &Args, requested: &RequestedPlayer) -> Result<(), Fail
     }
 }
 
-/// Prints a note about the games without any risk in exploring.
+/// Prints a note about games in which exploring carries no risk.
 pub(super) fn advise(track: Option<Track>, subjects: &[Subject], console: &Console) {
     if track != Some(Track::Discover) {
         return;

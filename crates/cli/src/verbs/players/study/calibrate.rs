@@ -1,4 +1,5 @@
-//! `arcade study calibrate`: measures the difficulties of a release's levels with unchanging examinees.
+//! `arcade study calibrate`: measures the difficulties of a release's levels with fixed reference players
+//! (examinees).
 
 use super::scale::left_out;
 use crate::console::Console;
@@ -62,7 +63,7 @@ pub(crate) struct Args {
     resume: bool,
 }
 
-/// The default seed text for evaluations, which mints also use for marks. Calibrations must use a different
+/// The default seed text for evaluations, also used for marks in mints. Calibrations must use a different
 /// seed text.
 const OTHERS: &str = "evaluate";
 
@@ -159,7 +160,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the participating examinees: all examinees, or the examinees of an earlier scale.
+/// Returns the examinees that take part: all examinees, or those of an earlier scale.
 fn examinees(
     earlier: Option<&ScaleFile>,
     path: &Option<PathBuf>,
@@ -229,7 +230,7 @@ fn calibrated(
     Ok(scale)
 }
 
-/// Rejects, before anything is played, reader results that could not be included.
+/// Rejects reader results that could not be included, before anything is played.
 fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) -> Result<(), Failure> {
     if args.readers.is_empty() {
         return Ok(());
@@ -279,10 +280,10 @@ fn plays(settings: &Settings, persons: &[PersonPlays], names: &[&str]) -> Vec<Ga
     settings.games.iter().map(of_game).collect()
 }
 
-/// Returns the name of the first subject's folder.
+/// Returns the default name: the name of the first subject's folder.
 fn default_name(subjects: &[String]) -> String {
     let path = Path::new(&subjects[0]);
-    // The published part of a sealed release lies in a folder that is named after the release.
+    // The published part of a sealed release lies in a folder named after the release.
     let path = if path.ends_with("public") { path.parent().unwrap_or(path) } else { path };
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
     name.unwrap_or_else(|| subjects[0].clone()).trim_end_matches(".tar.zst").to_owned()

@@ -40,7 +40,7 @@ pub(crate) struct Args {
     release: PathBuf,
 }
 
-/// The power below which a nonsignificant test is not informative.
+/// The power below which a nonsignificant test is uninformative.
 const SMALL: f64 = 0.8;
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(!players.iter().any(|player| player.evidence.is_seen()))
 }
 
-/// Returns a revealed release's coins.
+/// Returns a revealed release's coins (the random choices of which of two equivalent items it published).
 fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     let manifest = &released.manifest;
     let (name, place) = (&manifest.name, args.release.in_message());
@@ -199,7 +199,7 @@ fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
 }
 
 /// Returns the larger of the tests' powers against a player that knows half of the levels. Returns `None` if
-/// evidence was found, or if the power is not small.
+/// evidence was found, or if that power is high enough.
 fn weak(player: &PlayerMemory) -> Option<f64> {
     let half = player.power.iter().find(|power| power.share == 0.5)?;
     let greatest = half.solutions.into_iter().chain(half.games).reduce(f64::max)?;

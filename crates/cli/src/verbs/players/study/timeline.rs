@@ -36,7 +36,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    // An output folder that already has content is reported before the work starts.
+    // A non-empty output folder is reported before the work starts.
     let draft = protected::draft(&args.out)?;
     let scale = ScaleFile::read(&args.scale)?;
     let persons = played(&args.results, scale.max_steps)?;

@@ -1,4 +1,4 @@
-//! `arcade study well`: estimates the number of further games that a chain of months can invent.
+//! `arcade study well`: estimates how many more games a chain of months can invent.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};

@@ -1,5 +1,5 @@
-//! Files and folders left behind by interrupted runs. Each leftover is recognised by a property unique to
-//! arcade's files.
+//! Files and folders left behind by interrupted runs. Each kind is recognised by a property that only
+//! arcade's files have.
 
 use crate::failure::Failure;
 use base::MessagePath;
@@ -10,19 +10,19 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// A file or folder left behind by an interrupted run.
+/// A file or folder that an interrupted run left behind.
 pub(super) struct Leftover {
     pub(super) path: PathBuf,
     pub(super) kind: LeftoverKind,
 }
 
 pub(super) enum LeftoverKind {
-    /// The unfinished folder of a release, report or export. If the folder contains finished jobs, the run
-    /// was interrupted and can be resumed.
+    /// The unfinished folder of a release, report or export. If it contains finished jobs, the interrupted
+    /// run can be resumed.
     Draft(Abandoned),
     /// A release shard, with its description.
     Shard(String),
-    /// An unfinished file. While it is held open, other processes do not consider it abandoned.
+    /// An unfinished file. While this value holds it open, other processes do not consider it abandoned.
     File(#[expect(dead_code, reason = "the open file holds the lock")] File),
     Scratch,
     /// A file that redirected a browser to the `arcade studio` page.
@@ -30,7 +30,7 @@ pub(super) enum LeftoverKind {
 }
 
 impl Leftover {
-    /// Returns the leftover at the given path, or `None` if the path is anything else or in use.
+    /// Returns the leftover at the given path, or `None` if the path is in use or is not a leftover.
     pub(super) fn at(path: &Path) -> Result<Option<Leftover>, Failure> {
         let Ok(found) = fs::symlink_metadata(path) else { return Ok(None) };
         let kind = if found.is_file() {
@@ -96,7 +96,7 @@ fn is_drawn(text: &str) -> bool {
 
 /// The name prefix of players' scratch folders.
 const SCRATCH: &str = "arcade-player-";
-/// The minimum age at which a scratch folder cannot belong to a starting player.
+/// The age from which a scratch folder can no longer belong to a player that is just starting.
 const SETTLED: Duration = Duration::from_secs(3600);
 
 /// Returns the scratch folders of terminated players in the system's temporary folder. The list is empty on
@@ -116,8 +116,8 @@ pub(super) fn scratch() -> Vec<Leftover> {
     paths.into_iter().filter_map(of).collect()
 }
 
-/// Returns `true` for a file owned by the current user that redirected a browser to a studio at least an hour
-/// ago.
+/// Returns `true` for a file that redirected a browser to a studio, belongs to the current user, and is at
+/// least an hour old.
 fn is_page(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let drawn = name.and_then(|name| name.strip_prefix("arcade-studio-")?.strip_suffix(".html"));
@@ -125,7 +125,8 @@ fn is_page(path: &Path) -> bool {
     drawn.is_some_and(is_drawn) && found.is_file() && is_own(&found) && found.modified().is_ok_and(is_settled)
 }
 
-/// Returns `true` for a scratch folder of the current user's players, unchanged for at least an hour.
+/// Returns `true` for a player's scratch folder that belongs to the current user and has been unchanged for
+/// at least an hour.
 fn is_scratch(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str());
     let Ok(found) = fs::symlink_metadata(path) else { return false };
@@ -145,7 +146,7 @@ fn is_settled(touched: SystemTime) -> bool {
 #[cfg(unix)]
 fn is_own(found: &fs::Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;
-    // The entries of a process in /proc belong to its user.
+    // A process's entries in /proc belong to its user.
     fs::metadata("/proc/self").is_ok_and(|own| own.uid() == found.uid())
 }
 
@@ -159,7 +160,7 @@ fn working_folders() -> Option<Vec<PathBuf>> {
     let processes = fs::read_dir("/proc").ok()?;
     let folders: Vec<PathBuf> =
         processes.flatten().filter_map(|process| fs::read_link(process.path().join("cwd")).ok()).collect();
-    // This process itself has a working folder, so an empty list means that the system hides the working folders.
+    // This process itself has a working folder, so an empty list means that the system hides them.
     (!folders.is_empty()).then_some(folders)
 }
 

@@ -83,7 +83,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the reason for keeping a leftover, with advice, or `None` if the leftover will be removed.
+/// Returns the reason for keeping a leftover, with advice, or `None` if it will be removed.
 fn kept(args: &Args, kind: &LeftoverKind) -> Option<&'static str> {
     match kind {
         LeftoverKind::Draft(draft) if draft.finished_jobs > 0 && !args.interrupted => Some(

@@ -4,15 +4,15 @@ use super::probe;
 use snapshots::Corpus;
 use snapshots::mint::{Forecast, Job, Plan};
 
-/// The minimum expected duration at which a mint prints how to resume it, in seconds on one core.
+/// The expected duration, in seconds on one core, from which a mint prints how to resume it.
 pub(crate) const LONG: f64 = 30.0;
 
-/// The minimum expected duration, in seconds on one core, at which it is worth spending a third of a second
-/// to measure the machine's speed.
+/// The expected duration, in seconds on one core, from which it is worth spending a third of a second on
+/// measuring the machine's speed.
 const PROBED: f64 = 30.0;
 
-/// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns how many times
-/// slower this machine is than the machine on which costs were measured.
+/// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns its slowdown
+/// relative to the machine on which the costs were measured.
 pub(crate) fn forecast(plan: &Plan<'_>, jobs: &[Job], corpus: &Corpus) -> (Forecast, Option<f64>) {
     let usual = plan.forecast(jobs);
     let slowness = if usual.median >= PROBED { probe::slowness(corpus) } else { None };

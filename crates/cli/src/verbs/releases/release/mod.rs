@@ -102,9 +102,9 @@ impl Args {
 enum Request<'a> {
     /// Draw a secret for the recipe in the given file.
     Commit(&'a Path),
-    /// Join the public part of a sealed release with the withheld part.
+    /// Join the public part of a sealed release with its withheld part.
     Reveal { held: &'a Path, what: Reveal },
-    /// Print the public facts of a sealed release, without its secret.
+    /// Print the public facts of a sealed release without using its secret.
     Facts(Recipe),
     /// Print a mint's contents and cost.
     Outline(Order),
@@ -174,7 +174,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
 }
 
-/// Returns the binary's tools for minting.
+/// Returns the minting tools that this binary provides.
 pub(crate) fn tools(corpus: &Corpus) -> Tools<'_> {
     Tools { corpus, lockfile: embedded::lockfile(), players: &marks::Players }
 }
@@ -193,7 +193,7 @@ fn has_finished_jobs(out: &Path) -> bool {
     jobs.is_some_and(|jobs| jobs.flatten().any(is_result))
 }
 
-/// Mints the release or the shard, and reports the result.
+/// Mints the release or a shard, and reports the result.
 fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answer {
     let (out, resumed) = (&order.out, args.resumed(&order.out));
     let reporter = Reporter::new(console, tools.corpus, &resumed);
@@ -227,7 +227,7 @@ fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answ
     }
 }
 
-/// Reports a release minted into the folder `out`.
+/// Reports on a release minted into the folder `out`.
 pub(crate) fn report(
     minted: &Minted,
     recipe: &Recipe,

@@ -96,7 +96,7 @@ fn made(plan: &Plan<'_>, names: &[String], out: &Path) -> Result<Vec<bool>, Fail
     }
 }
 
-/// Prints the public facts of a sealed release, without its secret.
+/// Prints the public facts of a sealed release without using its secret.
 pub(super) fn without_secret(recipe: &Recipe, tools: Tools<'_>, console: &Console) -> Answer {
     // The number of games that can be made does not depend on the seed.
     let open = Recipe { seed: Some(recipe.name.clone()), commitment: None, beacon: None, ..recipe.clone() };

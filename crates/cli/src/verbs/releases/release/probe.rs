@@ -12,15 +12,16 @@ const GAMES: [&str; 3] = ["dormouse-millrace", "bellwether-down", "hailglass"];
 const TICKS: usize = 200;
 /// The number of forward-model calls per decision.
 const CALLS: u64 = 400;
-/// The number of repetitions. Only the fastest repetition counts, because other work can only slow episodes down.
+/// The number of repetitions. Only the fastest repetition counts, because other load can only slow episodes
+/// down.
 const TIMES: u64 = 3;
-/// The duration of the episodes on the machine described in docs/reference/recipes.md, in seconds on one
-/// core, with both cores playing.
+/// The duration of the episodes, in seconds, on the machine described in docs/reference/recipes.md: on one
+/// core, while both cores play.
 const USUAL: f64 = 0.109;
 
-/// Returns how many times slower this machine is than the machine on which costs were measured, with all
-/// threads in the current pool at work. Returns `None` if the corpus lacks any of the probe's games. Cost:
-/// about a third of a second per thread.
+/// Returns this machine's slowdown relative to the machine on which the costs were measured, with all threads
+/// in the current pool busy. Returns `None` if the corpus lacks any of the probe's games. Cost: about a third
+/// of a second per thread.
 pub(super) fn slowness(corpus: &Corpus) -> Option<f64> {
     let games = GAMES.iter().map(|name| compiled(corpus.games.iter().find(|game| game.name == *name)?));
     let games = games.collect::<Option<Vec<(Game, Level)>>>()?;

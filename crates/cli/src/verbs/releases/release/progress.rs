@@ -1,4 +1,4 @@
-//! A mint's progress, shown as a bar on a terminal, and otherwise as one line per tenth of the jobs.
+//! A mint's progress, shown as a bar on a terminal, or otherwise as one line per tenth of the jobs.
 
 use super::cost::{LONG, forecast, words as forecast_words};
 use crate::console::{Console, Stopwatch};
@@ -39,7 +39,7 @@ impl Progress for ProgressBars<'_> {
     fn begin(&self, jobs: usize, made: usize) {
         self.bar.set_length(jobs as u64);
         self.bar.set_position(made as u64);
-        // Jobs that were finished earlier say nothing about the time for the remaining jobs.
+        // Jobs finished in an earlier run say nothing about the time for the remaining jobs.
         self.bar.reset_eta();
         if let Ok(mut last_report) = self.last_report.lock() {
             *last_report = LastReport { jobs: jobs as u64, found: made as u64, ..LastReport::default() };

@@ -19,7 +19,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use trust::{Drawn, MAX_BEACON, check_source, read_bounded};
 
-/// Draws a secret for a recipe, and writes the secret to a file that only its owner can read.
+/// Draws a secret for a recipe, and writes it to a file that only its owner can read.
 pub(super) fn commit(
     file: &Path,
     parent: Option<&Path>,
@@ -97,7 +97,7 @@ fn mint_command(recipe: &Path, secret: &Path, parent: Option<&Path>) -> String {
     shell::command(mint)
 }
 
-/// Returns the failure for a path that already contains a secret, with advice on how to continue. A secret is
+/// Returns the failure for a path that already contains a secret, with advice on how to continue. Secrets are
 /// never overwritten.
 fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) -> Failure {
     let shown = format!("`{}` exists, and a secret is never overwritten", file.in_message());
@@ -146,7 +146,7 @@ pub(crate) fn check_beacon(recipe: &Recipe) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Fills in the value of a recipe's beacon.
+/// Fills in the value of the recipe's beacon.
 pub(super) fn take_beacon(recipe: &mut Recipe, file: &Path) -> Result<(), Failure> {
     let shown = file.in_message().to_string();
     let drawn = Drawn::parse(&read_bounded(file, MAX_BEACON)?, &shown)?;

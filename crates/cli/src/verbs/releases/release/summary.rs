@@ -83,7 +83,7 @@ pub(super) fn log_command<'a>(what: impl IntoIterator<Item = &'a OsStr>) -> Stri
     shell::command(command.map(OsStr::new).chain(what))
 }
 
-/// Returns the shortest answer: the release's contents, its root and its path.
+/// Returns the shortest answer: the release's contents, root and path.
 pub(super) fn in_short(minted: &Minted, out: &Path) -> String {
     let levels: usize = minted.cards.iter().map(|card| card.levels.len()).sum();
     let (games, levels) = (count(minted.cards.len(), "game"), count(levels, "level"));
@@ -91,7 +91,7 @@ pub(super) fn in_short(minted: &Minted, out: &Path) -> String {
     format!("{name}: {games}, {levels}; root {root} in {}", out.in_message())
 }
 
-/// Returns one of the new levels as text, as an illustration.
+/// Returns one of the new levels as text, as an example.
 fn example_board(minted: &Minted, out: &Path) -> Option<String> {
     let new = |card: &&Card| matches!(card.origin, Origin::Generated { .. });
     let card = minted.cards.iter().find(new).or_else(|| minted.cards.first())?;

@@ -1,4 +1,5 @@
-//! `arcade trust keys`: creates and shows a publisher's key sets, from the first set to the newest.
+//! `arcade trust keys`: creates and shows a publisher's key sets, each of which follows from the previous
+//! one.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -76,7 +77,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     say(args, &set, console)
 }
 
-/// Shows a key set, and whether it follows from the first set.
+/// Shows a key set, and states whether it follows from the first set.
 fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
     let found = Signatures::read(&args.folder)?;
     let mut problems = Vec::new();

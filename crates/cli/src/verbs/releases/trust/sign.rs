@@ -105,7 +105,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(signed.problems.is_empty())
 }
 
-/// Copies a key set beside the statement, with the earlier sets and their signatures.
+/// Copies a key set, with the earlier sets and their signatures, to the folder of the statement.
 fn copy_sets(args: &Args, set: &KeySet, file: &std::path::Path) -> Result<(), Failure> {
     let folder = args.out.clone().unwrap_or_else(|| signatures_of(&args.snapshot));
     let from = file.parent().unwrap_or(std::path::Path::new(""));

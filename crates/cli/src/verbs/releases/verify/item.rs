@@ -1,4 +1,4 @@
-//! Proofs for single items. Proofs are written from a snapshot, and checked without the snapshot.
+//! Proofs for single items, written from a snapshot and checked without it.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -56,7 +56,7 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
     let io = |action, path: &Path, source| SnapshotError::Io { action, path: path.to_path_buf(), source };
     let found = fs::metadata(place).map_err(|source| io("examine", place, source))?;
     if found.is_dir() {
-        // The place is the game's own folder, or a folder that contains the game's folder.
+        // The place is the game's own folder, or a folder that contains it.
         let inside = place.join("games").join(id);
         let top = if inside.is_dir() { inside } else { place.to_path_buf() };
         let prefix = format!("games/{id}/");
@@ -87,11 +87,11 @@ fn problems(place: &Path, id: &str, proof: &ItemProof, root: &Digest) -> Result<
         return Err(SnapshotError::TooLarge { path: place.to_path_buf(), limit });
     }
     let content = fs::read(place).map_err(|source| io("read", place, source))?;
-    // A single file can be only one of the item's files.
+    // A single file can match only one of the item's files.
     proof.check(id, root, |path| Ok((path == id).then(|| Digest::of(&content))))
 }
 
-/// Reads a proof of limited size.
+/// Reads a proof, up to its maximum size.
 fn read(file: &Path) -> Result<Vec<u8>, Failure> {
     let io = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => malformed!("`{}` does not exist", file.in_message()),

@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     args.write_proof.as_deref().map_or(Ok(()), protected::check)?;
     let bounds = args.max_work.map_or(Bounds::RELEASE, |work| Bounds { work, work_per_level: 0 });
     let mut verification = match verify_within(&args.snapshot, &bounds) {
-        // A manifest or an archive exists but is damaged, so this is an answer and not a failure.
+        // A manifest or an archive exists but is damaged, so this is an answer, not a failure.
         Err(
             error @ (SnapshotError::Syntax { .. }
             | SnapshotError::Manifest { .. }
@@ -235,14 +235,14 @@ fn damaged(error: SnapshotError, snapshot: &Path, console: &Console) -> Answer {
     Ok(false)
 }
 
-/// Formats a problem on one line. A problem may quote untrusted text, which must not look like a line of
-/// arcade's own output.
+/// Formats a problem on one line. A problem may quote untrusted text, which must not be mistaken for a line
+/// of arcade's own output.
 fn one_line(problem: &str) -> String {
     problem.replace('\n', "\\n")
 }
 
-/// Prints a note about a snapshot with unreplayed witnesses, for subcommands that use a snapshot without
-/// verifying it.
+/// Prints a note if a snapshot's witnesses have not been replayed, for subcommands that use snapshots without
+/// verifying them.
 pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     if manifest.semantics != engine::SEMANTICS {
         console.remark(format_args!(
@@ -281,8 +281,7 @@ fn absent(path: &Path) -> Failure {
     })
 }
 
-/// Returns a failure that states the kind of file found instead of a snapshot, and explains what a snapshot
-/// is.
+/// Returns a failure that states what was found instead of a snapshot, and explains what a snapshot is.
 fn no_snapshot(path: &Path) -> Failure {
     let shown = path.in_message();
     let ends = |end: &str| path.extension().is_some_and(|found| found == end);

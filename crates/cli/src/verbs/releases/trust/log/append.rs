@@ -180,7 +180,7 @@ fn keys(file: &Path) -> Result<Entry, Failure> {
 }
 
 /// Rejects a key set that does not yet follow from the sets known to the log's readers. If such a set were
-/// created again with different keys, the log could not accept any further set.
+/// later created anew with different keys, the log could not accept any further set.
 fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let found = Signatures::read(folder)?;
@@ -264,7 +264,8 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
     })
 }
 
-/// Returns the entry for a release. Only the release's signed statement depends on who creates the entry.
+/// Returns the entry for a release. The entry is the same for everyone who creates it, except for the
+/// release's signed statement.
 pub(super) fn release(manifest: Manifest, place: &Path) -> Result<Entry, Failure> {
     let folder = signatures_of(place);
     let statement = match folder.is_dir() {
@@ -283,7 +284,7 @@ pub(super) fn release(manifest: Manifest, place: &Path) -> Result<Entry, Failure
     })
 }
 
-/// Returns a release's manifest, after checking that the release's files match it.
+/// Returns a release's manifest after checking that the release's files match it.
 pub(super) fn sound(place: &Path) -> Result<Manifest, Failure> {
     let integrity = integrity_of(place)?;
     match integrity.problems.first() {

@@ -58,7 +58,7 @@ pub(crate) struct Args {
     growth: Option<PathBuf>,
 }
 
-/// Parses a month's name from the user.
+/// Parses a month's name as given by the user.
 fn month(text: &str) -> Result<String, String> {
     match is_month(text) {
         true => Ok(text.to_owned()),
@@ -79,12 +79,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }
     let folder = args.log.as_deref().expect("the arguments require the log's folder");
     let log = match Log::open(folder) {
-        // A log exists but is damaged, so this is an answer and not a failure.
+        // A log exists but is damaged, so this is an answer, not a failure.
         Err(error @ TrustError::Document { .. }) => return damaged(&error, console),
         Ok(None) => return Err(absent(folder)),
         log => log?.expect("the log exists"),
     };
-    // The checkpoint that was seen last may be replaced by the new checkpoint.
+    // The new checkpoint may replace the one seen last.
     if let Some(file) = &args.save {
         whole_file::check(file, &[folder, &args.key])?;
     }
@@ -169,7 +169,7 @@ fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {
     Ok(problems)
 }
 
-/// Returns the sentence about a month reached by the log.
+/// Returns a sentence about the month that the log has reached.
 fn reached(entries: &[Entry], month: &str) -> String {
     match root_of(entries, month) {
         Some(number) => format!("the release of {month} is entry {number}"),
@@ -177,7 +177,7 @@ fn reached(entries: &[Entry], month: &str) -> String {
     }
 }
 
-/// Returns the sentence about a release in the log.
+/// Returns a sentence about a release's entry in the log.
 fn placed(place: &Path, manifest: &Manifest, entries: &[Entry]) -> Option<String> {
     let number = root_of(entries, &manifest.name)?;
     Some(format!(
@@ -187,12 +187,12 @@ fn placed(place: &Path, manifest: &Manifest, entries: &[Entry]) -> Option<String
     ))
 }
 
-/// Returns the index of the entry with a release's root.
+/// Returns the index of the entry with the root of the named release.
 fn root_of(entries: &[Entry], name: &str) -> Option<usize> {
     entries.iter().position(|entry| matches!(entry, Entry::Root { release, .. } if release == name))
 }
 
-/// Returns the problem with a log that lacks the given release.
+/// Returns the problem that the log lacks the given release.
 fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option<String>, Failure> {
     let shown = place.in_message();
     let asked = append::release(manifest, place)?;
@@ -221,12 +221,12 @@ fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option
 #[derive(Default)]
 struct Replayed {
     problems: Vec<String>,
-    /// A note about an omitted comparison.
+    /// A note about a comparison that was omitted.
     note: Option<String>,
 }
 
-/// Returns the differences between the row in the log and the row recomputed from the episodes. The episodes
-/// are replayed on the release's games.
+/// Returns the differences between a row in the log and the same row recomputed from the episodes, which are
+/// replayed on the release's games.
 fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Replayed, Failure> {
     let shown = folder.in_message();
     let only = |problem: String| Ok(Replayed { problems: vec![format!("`{shown}`: {problem}")], note: None });
@@ -241,7 +241,7 @@ fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Rep
              or never appended"
         ));
     };
-    // If an episode does not replay, the row is wrong. This is an answer and not a failure.
+    // If an episode does not replay, the row is wrong. This is an answer, not a failure.
     let again = match row::of(folder, entries) {
         Ok(again) => again,
         Err(Failure::Malformed(error)) => return only(format!("{error:#}")),

@@ -1,4 +1,4 @@
-//! `arcade trust log`: maintains a public log from which nothing can be removed.
+//! `arcade trust log`: maintains a public, append-only log.
 
 mod append;
 mod check;
@@ -58,7 +58,7 @@ fn counted(size: u64) -> String {
     if size == 1 { "1 entry".to_owned() } else { format!("{size} entries") }
 }
 
-/// Formats an entry as one human-readable line. A commitment or a root is shown with its parent release.
+/// Formats an entry as one human-readable line. Commitments and roots are shown with their parent release.
 fn line(entry: &Entry, all: &[Entry]) -> String {
     let (Entry::Commitment { parent, .. } | Entry::Root { parent, .. }) = entry else { return entry.line() };
     let named = |parent: &Digest| {
@@ -71,7 +71,7 @@ fn line(entry: &Entry, all: &[Entry]) -> String {
     format!("{}, {}", entry.line(), parent.as_ref().map_or_else(|| "after no release".to_owned(), named))
 }
 
-/// Returns the failure for a folder without a log.
+/// Returns the failure for a folder that contains no log.
 fn absent(folder: &Path) -> Failure {
     malformed!(
         "`{}` does not contain a log, because it has no `checkpoint` file: pass a log's folder",
@@ -99,7 +99,7 @@ fn read_text(file: &Path, limit: u64) -> Result<String, Failure> {
     Ok(String::from_utf8_lossy(&read_bounded(file, limit)?).into_owned())
 }
 
-/// Returns the contradictions between a log's entries.
+/// Returns the contradictions among a log's entries.
 fn rules(entries: &[Entry]) -> Vec<String> {
     problems(entries, &commitment_of)
 }

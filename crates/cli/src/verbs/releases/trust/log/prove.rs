@@ -1,4 +1,5 @@
-//! `arcade trust log prove`: writes small files that prove a fact about a log to people without the log.
+//! `arcade trust log prove`: writes a small file that proves a fact about a log to people who do not have the
+//! log.
 
 use super::{checkpoint, open};
 use crate::console::Console;

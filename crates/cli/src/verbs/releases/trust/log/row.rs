@@ -12,7 +12,7 @@ use std::fs;
 use std::path::Path;
 use trust::log::{Entry, ResultRow};
 
-/// Computes the row for a results folder whose release is in the log. Every episode is replayed.
+/// Computes the row for a results folder whose release is in the log, replaying every episode.
 pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure> {
     let evaluation = Evaluation::open(folder)?;
     let settings = &evaluation.settings;
@@ -38,7 +38,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
         track: settings.track.clone(),
         horizon: settings.commit.to_string(),
         episodes: row.scores.episodes,
-        // Episodes without a log count as open, so that nobody can omit lost episodes.
+        // Episodes without a log count as open, so that nobody can hide losses by omitting their logs.
         open: (evaluation.tasks().len() as u64).saturating_sub(row.scores.episodes),
         wins: row.scores.wins,
         rate: rate.value,
@@ -47,7 +47,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
     })
 }
 
-/// Returns the games and levels in the results that do not belong to their release, or an empty list.
+/// Returns the games and levels in the results that do not belong to their release. The list may be empty.
 pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, Failure> {
     let mut problems = Vec::new();
     for Leaf { path, digest } in leaves(folder)? {
@@ -62,7 +62,7 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
     Ok(problems)
 }
 
-/// Returns a results folder's digest: the root of a tree like a release's, over all visible files in the
+/// Returns a results folder's digest: the root of a tree, as for a release, over all visible files in the
 /// folder.
 pub(super) fn digest(folder: &Path) -> Result<Digest, Failure> {
     merkle::root(&leaves(folder)?).map_err(|error| malformed!("`{}`: {error}", folder.in_message()))
@@ -85,7 +85,7 @@ fn leaves(folder: &Path) -> Result<Vec<Leaf>, Failure> {
                 folders.push(path);
                 continue;
             }
-            // Reading a pipe could block for ever, and a link could lead in a circle or out of the folder.
+            // Reading a pipe could block forever, and a link could form a cycle or lead out of the folder.
             if !kind.is_file() {
                 bail!("`{}` is a link, or not a file: restore the results folder", path.in_message());
             }
