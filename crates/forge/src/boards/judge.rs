@@ -54,7 +54,7 @@ const SEARCHED: f64 = 3.0;
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 11.0;
-/// The fraction of supplies that a win may leave where they were.
+/// The fraction of supplies that a win may leave where they were. One spare supply is always allowed.
 const SPARE: f64 = 0.25;
 
 /// The judge in a board search.
@@ -132,9 +132,9 @@ impl Judge<'_> {
         if !self.order.mechanics.is_empty() && events.handled < 1.0 {
             return Judged::failed(7.0, events.handled, calls);
         }
-        let spare = events.spare as f64 / events.supplies.max(1) as f64;
-        if !self.order.mechanics.is_empty() && spare > SPARE {
-            return Judged::failed(8.0, (1.0 - spare) / (1.0 - SPARE), calls);
+        let most_spare = (events.supplies as f64 * SPARE).max(1.0);
+        if !self.order.mechanics.is_empty() && events.spare as f64 > most_spare {
+            return Judged::failed(8.0, most_spare / events.spare as f64, calls);
         }
         // The mechanics matter most, so the other interactions are tried only after the mechanics.
         let ordered: BTreeSet<usize> = self.order.mechanics.iter().flatten().copied().collect();
@@ -143,11 +143,11 @@ impl Judge<'_> {
         let tried = ordered.iter().copied().filter(is_tried);
         let (mut needed, spent) = self.ablations.needed(tried, level, &win, self.budget.calls);
         calls += spent;
-        let (mechanics, spent) =
-            self.ablations.matter(self.analysis, &needed, level, &win, self.budget.calls);
+        let (matter, spent) = self.ablations.matter(self.analysis, &needed, level, &win, self.budget.calls);
         calls += spent;
-        if mechanics < 1.0 {
-            return Judged::failed(9.0, mechanics, calls);
+        let matter = matter.iter().filter(|matters| **matters).count() as f64 / matter.len().max(1) as f64;
+        if !self.order.mechanics.is_empty() && matter < self.order.matter {
+            return Judged::failed(9.0, matter, calls);
         }
         let mut choices = None;
         if !self.order.mechanics.is_empty() {
@@ -339,7 +339,6 @@ fn quality(measures: &BoardMeasures) -> f64 {
 pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
         && (WRONG.0..=WRONG.1).contains(&measures.wrong)
-        && measures.deaths >= DEATHS
         && measures.gates >= 1.0
         && measures.used >= 1.0
         && measures.dead <= DEAD

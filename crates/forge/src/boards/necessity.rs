@@ -35,11 +35,11 @@ impl Ablations {
         Ablations { without, mechanics }
     }
 
-    /// Returns the fraction of mechanics that matter for a level's win, and the number of calls. `needed` lists the
-    /// interactions that the win needs.
+    /// Returns which mechanics matter for a level's win, and the number of calls. `needed` lists the interactions that the
+    /// win needs. Mechanics without interactions are left out.
     ///
-    /// A mechanic matters if the win needs one of its interactions. It also matters as a threat: if wrong choices are
-    /// fatal because of the mechanic, or if a clearly shorter win exists without the mechanic.
+    /// A mechanic matters if the win needs one of its interactions. It also matters as a threat: if wrong keys are fatal
+    /// because of the mechanic, or if a clearly shorter win exists without the mechanic.
     pub(crate) fn matter(
         &self,
         analysis: &Analysis,
@@ -47,16 +47,13 @@ impl Ablations {
         level: &Level,
         win: &Episode,
         calls: u64,
-    ) -> (f64, u64) {
-        if self.mechanics.is_empty() {
-            return (1.0, 0);
-        }
+    ) -> (Vec<bool>, u64) {
         let (actions, seed) = (&win.actions[..], win.seed);
         let kills = |game: &Game, deviation: &Deviation| deviation.kills(game, level, actions, seed);
         let mut fatal = Deviation::draw(analysis.game(), level, actions, seed, DEVIATIONS);
         fatal.retain(|deviation| kills(analysis.game(), deviation));
-        let (mut matter, mut all) = (0, 0);
-        for (lines, without) in &self.mechanics {
+        let mut all = 0;
+        let mut matters = |(lines, without): &(Vec<usize>, Analysis)| {
             let spared = || fatal.iter().filter(|deviation| !kills(without.game(), deviation)).count();
             let mut is_shorter = || {
                 let ticks = win.actions.len() * 100 / LONGER;
@@ -66,10 +63,10 @@ impl Ablations {
                 // A win that also wins with the mechanic only shows that the known win is not the shortest.
                 found.win.is_some_and(|shorter| !wins(analysis.game(), level, &shorter, seed))
             };
-            let matters = lines.iter().any(|line| needed.contains(line)) || spared() >= FATAL || is_shorter();
-            matter += usize::from(matters);
-        }
-        (matter as f64 / self.mechanics.len() as f64, all)
+            lines.iter().any(|line| needed.contains(line)) || spared() >= FATAL || is_shorter()
+        };
+        let matter = self.mechanics.iter().map(&mut matters).collect();
+        (matter, all)
     }
 
     /// Returns which of the given interactions a level's win needs, and the number of calls. Each search for a
@@ -174,8 +171,8 @@ mod tests {
         };
         let detour = "wwwwwwwww\nwA t    w\nw wwww  w\nw       w\nw wwww ww\nwb  w  pw\nwwwwwwwww\n";
         let [thorn, bead] = [line("avatar", "thorn"), line("bead", "avatar")];
-        assert_eq!(matter("wwwwwww\nwA t pw\nw     w\nwwwwwww\n", thorn.clone()), 1.0);
-        assert_eq!(matter(detour, bead), 0.0);
-        assert_eq!(matter("wwwwwwww\nwA    pw\nw     tw\nwwwwwwww\n", vec![]), 1.0);
+        assert_eq!(matter("wwwwwww\nwA t pw\nw     w\nwwwwwww\n", thorn), [true]);
+        assert_eq!(matter(detour, bead), [false]);
+        assert!(matter("wwwwwwww\nwA    pw\nw     tw\nwwwwwwww\n", vec![]).is_empty());
     }
 }

@@ -5,17 +5,22 @@ use generators::boards::BoardBrief;
 use validators::CheckedCriteria;
 
 /// The minimum and maximum length of a shortest win in ticks, by slot.
-const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
+const LENGTHS: [(usize, usize); 5] = [(12, 32), (18, 55), (22, 70), (26, 90), (30, 110)];
+
+/// The minimum fraction of mechanics that must matter on a board: two of three, and both of two.
+const MATTER: f64 = 0.6;
 
 /// The requirements for a board.
 #[derive(Clone, Debug)]
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The mechanics that must all matter. Each mechanic is a list of interactions, as indices into
+    /// The mechanics that should matter. Each mechanic is a list of interactions, as indices into
     /// [`Description::interactions`](engine::Description). A mechanic matters if the win needs one of its interactions,
     /// if wrong choices are fatal because of the mechanic, or if a clearly shorter win exists without the mechanic.
     pub mechanics: Vec<Vec<usize>>,
+    /// The minimum fraction of the mechanics that must matter.
+    pub matter: f64,
     /// Earlier boards that the new board must not resemble.
     pub unlike: Vec<Level>,
     /// For each earlier win, the order of its first executions of interactions; see [`BoardMeasures::firsts`].
@@ -30,7 +35,15 @@ impl BoardOrder {
     /// Creates an order with the default contents and length for the brief's slot.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
-        BoardOrder { brief, mechanics: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
+        BoardOrder {
+            brief,
+            mechanics: Vec::new(),
+            matter: MATTER,
+            unlike: Vec::new(),
+            known: Vec::new(),
+            ticks,
+            gates: None,
+        }
     }
 }
 
@@ -41,15 +54,17 @@ base::with_defaults! {
         /// The number of initial compositions. The search then changes the best composition.
         pub compositions: usize = 24,
         /// The total number of boards that reach the win search, including compositions.
-        pub evaluations: usize = 60,
+        pub evaluations: usize = 90,
         /// The number of boards without improvement after which the search ends, once a board is winnable.
         pub patience: usize = 24,
+        /// The quality at which the search ends.
+        pub enough: f64 = 1.0,
         /// The number of boards without a win after which the search ends.
-        pub hopeless: usize = 32,
+        pub hopeless: usize = 60,
         /// The maximum number of forward-model calls in each search for a win: for the shortest win, for a win without
         /// an interaction, and for a win after a different choice. All searches have the same maximum, so that a search
         /// without success shows something.
-        pub calls: u64 = 12_000,
+        pub calls: u64 = 16_000,
         /// The factor by which `calls` is multiplied for the final judging of the best board. With a factor of 1, there
         /// is no final judging.
         pub scrutiny: u64 = 8,

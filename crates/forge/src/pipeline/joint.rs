@@ -7,12 +7,8 @@ use crate::tally::Tally;
 use engine::Analysis;
 use std::collections::BTreeSet;
 
-/// The reason for rejecting a game in which too few wins are shaped by all mechanics.
+/// The reason for rejecting a game with a mechanic that matters on no level.
 const JOINT: &str = "joint use";
-
-/// The minimum number of levels on which every mechanic must matter. For a game with one or two levels, the minimum is
-/// one.
-const LEVELS: usize = 2;
 
 /// The number of forward-model calls in the search for a win without an interaction or a mechanic.
 const CALLS: u64 = 96_000;
@@ -20,9 +16,9 @@ const CALLS: u64 = 96_000;
 impl Trial<'_> {
     pub(super) const JOINT: Stage<Self> = Stage {
         name: JOINT,
-        purpose: "for an invented game, requires two levels on which every mechanic matters: without the mechanic, \
-                  there is no win, only a clearly longer win, or (for a threat) a clearly shorter win or fewer \
-                  fatal choices",
+        purpose: "for an invented game, requires that every mechanic matters on some level: without the mechanic, \
+                  there is no win, only a clearly longer win, or (for a threat) a clearly shorter win or \
+                  fewer fatal keys",
         cost: "a second",
         reasons: &[JOINT],
         ..Stage::once(Self::ask_for_joint_use)
@@ -36,13 +32,15 @@ impl Trial<'_> {
         let analysis = Analysis::of(&self.candidate.game);
         let ablations = Ablations::of(&analysis, mechanics);
         let lines: BTreeSet<usize> = mechanics.iter().flatten().copied().collect();
-        let least = LEVELS.min(self.found.len().saturating_sub(1)).max(1);
-        let all_matter = self.found.iter().filter(|found| {
-            found.report.witness.as_ref().is_some_and(|win| {
-                let (needed, _) = ablations.needed(lines.iter().copied(), &found.level, win, CALLS);
-                ablations.matter(&analysis, &needed, &found.level, win, CALLS).0 >= 1.0
+        let wins = self.found.iter().filter_map(|found| Some((&found.level, found.report.witness.as_ref()?)));
+        let matter: Vec<Vec<bool>> = wins
+            .map(|(level, win)| {
+                let (needed, _) = ablations.needed(lines.iter().copied(), level, win, CALLS);
+                ablations.matter(&analysis, &needed, level, win, CALLS).0
             })
-        });
-        if all_matter.count() >= least { Ok(()) } else { Err(JOINT.into()) }
+            .collect();
+        let mechanics = matter.first().map_or(0, Vec::len);
+        let matters = |at: usize| matter.iter().any(|matter| matter[at]);
+        if (0..mechanics).all(matters) { Ok(()) } else { Err(JOINT.into()) }
     }
 }
