@@ -32,14 +32,14 @@ impl Choices {
     }
 }
 
-/// A deed of the player: the interactions that the avatar is involved in during a tick, with their cells. Guards do not
+/// An event of the player: the interactions that the avatar is involved in during a tick, with their cells. Guards do not
 /// count.
-type Deed = BTreeSet<(usize, (i32, i32))>;
+type Event = BTreeSet<(usize, (i32, i32))>;
 
 /// Examines what else the player could do at the decisions of a win.
 ///
-/// A decision is a tick from which the player's next deed differs if the player goes elsewhere. Up to three other deeds
-/// that can be reached first, and that do not lose the game at once, are examined at each of five decisions. A deed is
+/// A decision is a tick from which the player's next event differs if the player goes elsewhere. Up to three other events
+/// that can be reached first, and that do not lose the game at once, are examined at each of five decisions. An event is
 /// wrong if no win is found after it, although the same search finds a win from the decision itself.
 pub(super) fn choices(
     analysis: &Analysis,
@@ -69,15 +69,15 @@ pub(super) fn choices(
     choices
 }
 
-/// Returns the states after the deeds of a win, beginning with the start, each with the next deed.
-fn decisions(analysis: &Analysis, level: &Level, win: &[Action], seed: Seed) -> Vec<(State, Deed)> {
+/// Returns the states after the events of a win, beginning with the start, each with the next event.
+fn decisions(analysis: &Analysis, level: &Level, win: &[Action], seed: Seed) -> Vec<(State, Event)> {
     let mut decisions = Vec::new();
     let mut state = analysis.game().start(level, seed);
     let mut since = state.clone();
     for &action in win {
-        let (outcome, deed) = act(analysis, &mut state, action);
-        if !deed.is_empty() {
-            decisions.push((since, deed));
+        let (outcome, event) = act(analysis, &mut state, action);
+        if !event.is_empty() {
+            decisions.push((since, event));
             since = state.clone();
         }
         if outcome != Outcome::Ongoing {
@@ -87,11 +87,11 @@ fn decisions(analysis: &Analysis, level: &Level, win: &[Action], seed: Seed) -> 
     decisions
 }
 
-/// Returns the states after other deeds than the next one, nearest first, and the number of calls.
-fn others(analysis: &Analysis, start: &State, next: &Deed) -> (Vec<State>, u64) {
+/// Returns the states after other events than the next one, nearest first, and the number of calls.
+fn others(analysis: &Analysis, start: &State, next: &Event) -> (Vec<State>, u64) {
     let abstraction = analysis.abstraction(start).without_chance();
     let mut met: BTreeSet<SearchKey> = BTreeSet::from([abstraction.key(analysis, start)]);
-    let mut seen: BTreeSet<Deed> = BTreeSet::from([next.clone()]);
+    let mut seen: BTreeSet<Event> = BTreeSet::from([next.clone()]);
     let (mut queue, mut found, mut calls) = (VecDeque::from([start.clone()]), Vec::new(), 0);
     while let Some(state) = queue.pop_front() {
         for &action in analysis.game().actions(&state) {
@@ -100,13 +100,13 @@ fn others(analysis: &Analysis, start: &State, next: &Deed) -> (Vec<State>, u64) 
             }
             calls += 1;
             let mut child = state.clone();
-            let (outcome, deed) = act(analysis, &mut child, action);
+            let (outcome, event) = act(analysis, &mut child, action);
             if outcome != Outcome::Ongoing || !met.insert(abstraction.key(analysis, &child)) {
                 continue;
             }
-            if deed.is_empty() {
+            if event.is_empty() {
                 queue.push_back(child);
-            } else if seen.insert(deed) {
+            } else if seen.insert(event) {
                 found.push(child);
             }
         }
@@ -114,15 +114,15 @@ fn others(analysis: &Analysis, start: &State, next: &Deed) -> (Vec<State>, u64) 
     (found, calls as u64)
 }
 
-fn act(analysis: &Analysis, state: &mut State, action: Action) -> (Outcome, Deed) {
-    let mut log = Log { analysis, deed: Deed::new() };
+fn act(analysis: &Analysis, state: &mut State, action: Action) -> (Outcome, Event) {
+    let mut log = Log { analysis, event: Event::new() };
     let outcome = analysis.game().step_watched(state, action, &mut log);
-    (outcome, log.deed)
+    (outcome, log.event)
 }
 
 struct Log<'a> {
     analysis: &'a Analysis,
-    deed: Deed,
+    event: Event,
 }
 
 impl Watch for Log<'_> {
@@ -137,9 +137,9 @@ impl Watch for Log<'_> {
             let role = self.analysis.role(stype);
             matches!(role, Role::Avatar | Role::Shot | Role::Pushable)
         };
-        let is_deed = is_moved(meeting.first) || meeting.second.is_some_and(is_moved);
-        if is_deed && !is_guard(self.analysis, meeting.line) {
-            self.deed.insert((meeting.line, meeting.cell));
+        let is_event = is_moved(meeting.first) || meeting.second.is_some_and(is_moved);
+        if is_event && !is_guard(self.analysis, meeting.line) {
+            self.event.insert((meeting.line, meeting.cell));
         }
     }
 }
