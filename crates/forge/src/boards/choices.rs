@@ -32,15 +32,16 @@ impl Choices {
     }
 }
 
-/// An event of the player: the interactions that the avatar is involved in during a tick, with their cells. Guards do not
-/// count.
+/// An event: the interactions of one tick that involve the avatar, a shot or a pushed sprite, with their cells. Guards
+/// do not count.
 type Event = BTreeSet<(usize, (i32, i32))>;
 
 /// Examines what else the player could do at the decisions of a win.
 ///
-/// A decision is a tick from which the player's next event differs if the player goes elsewhere. Up to three other events
-/// that can be reached first, and that do not lose the game at once, are examined at each of five decisions. An event is
-/// wrong if no win is found after it, although the same search finds a win from the decision itself.
+/// A decision is the start of the level, or the tick after an event of the win. At up to five decisions, a breadth-first
+/// search finds up to three events that the player could cause instead of the win's next event. Events that end the game
+/// do not count. An event is wrong if no win is found after the event, although the same search finds a win from the
+/// decision.
 pub(super) fn choices(
     analysis: &Analysis,
     level: &Level,

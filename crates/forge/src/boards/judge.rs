@@ -54,6 +54,8 @@ const SEARCHED: f64 = 3.0;
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 11.0;
+/// The minimum fraction of the order's mechanics that must matter: both of two, and two of three.
+const MATTER: f64 = 0.6;
 /// The fraction of supplies that a win may leave where they were. One spare supply is always allowed.
 const SPARE: f64 = 0.25;
 
@@ -95,8 +97,7 @@ impl Judged {
 }
 
 impl Judge<'_> {
-    /// Judges a board. Skips the deviations if the board is clearly worse than the best so far, because no deviation
-    /// cost could change that. Skipped deviations count as costing nothing.
+    /// Judges a board. Does not examine the board closely if the board is clearly worse than the best so far.
     pub(super) fn judge(&self, level: &Level, best: f64) -> Judged {
         if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
             return Judged::failed(0.0, 0.0, 0);
@@ -129,11 +130,12 @@ impl Judge<'_> {
             return Judged::failed(6.0, 0.0, calls);
         }
         let events = events(self.analysis, level, &win);
-        if !self.order.mechanics.is_empty() && events.handled < 1.0 {
+        let is_ordered = !self.order.mechanics.is_empty();
+        if is_ordered && events.handled < 1.0 {
             return Judged::failed(7.0, events.handled, calls);
         }
         let most_spare = (events.supplies as f64 * SPARE).max(1.0);
-        if !self.order.mechanics.is_empty() && events.spare as f64 > most_spare {
+        if is_ordered && events.spare as f64 > most_spare {
             return Judged::failed(8.0, most_spare / events.spare as f64, calls);
         }
         // The mechanics matter most, so the other interactions are tried only after the mechanics.
@@ -145,17 +147,14 @@ impl Judge<'_> {
         calls += spent;
         let (matter, spent) = self.ablations.matter(self.analysis, &needed, level, &win, self.budget.calls);
         calls += spent;
-        let matter = matter.iter().filter(|matters| **matters).count() as f64 / matter.len().max(1) as f64;
-        if !self.order.mechanics.is_empty() && matter < self.order.matter {
+        let idle = matter.iter().filter(|matters| !**matters).count();
+        let matter = 1.0 - idle as f64 / matter.len().max(1) as f64;
+        if is_ordered && matter < MATTER {
             return Judged::failed(9.0, matter, calls);
         }
-        let mut choices = None;
-        if !self.order.mechanics.is_empty() {
-            let examined = self.choices(level, &win, &mut calls);
-            if examined.share() < LEAST_WRONG {
-                return Judged::failed(10.0, examined.share() / LEAST_WRONG, calls);
-            }
-            choices = Some(examined);
+        let choices = is_ordered.then(|| self.choices(level, &win, &mut calls));
+        if let Some(choices) = choices.filter(|choices| choices.share() < LEAST_WRONG) {
+            return Judged::failed(10.0, choices.share() / LEAST_WRONG, calls);
         }
         let others = events.firsts.iter().copied().filter(|line| !ordered.contains(line));
         let (others, spent) = self.ablations.needed(others, level, &win, self.budget.calls);

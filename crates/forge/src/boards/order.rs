@@ -7,20 +7,15 @@ use validators::CheckedCriteria;
 /// The minimum and maximum length of a shortest win in ticks, by slot.
 const LENGTHS: [(usize, usize); 5] = [(12, 32), (18, 55), (22, 70), (26, 90), (30, 110)];
 
-/// The minimum fraction of mechanics that must matter on a board: two of three, and both of two.
-const MATTER: f64 = 0.6;
-
 /// The requirements for a board.
 #[derive(Clone, Debug)]
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The mechanics that should matter. Each mechanic is a list of interactions, as indices into
+    /// The mechanics, most of which must matter. Each mechanic is a list of interactions, as indices into
     /// [`Description::interactions`](engine::Description). A mechanic matters if the win needs one of its interactions,
-    /// if wrong choices are fatal because of the mechanic, or if a clearly shorter win exists without the mechanic.
+    /// if wrong keys are fatal because of the mechanic, or if a clearly shorter win exists without the mechanic.
     pub mechanics: Vec<Vec<usize>>,
-    /// The minimum fraction of the mechanics that must matter.
-    pub matter: f64,
     /// Earlier boards that the new board must not resemble.
     pub unlike: Vec<Level>,
     /// For each earlier win, the order of its first executions of interactions; see [`BoardMeasures::firsts`].
@@ -35,15 +30,7 @@ impl BoardOrder {
     /// Creates an order with the default contents and length for the brief's slot.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
-        BoardOrder {
-            brief,
-            mechanics: Vec::new(),
-            matter: MATTER,
-            unlike: Vec::new(),
-            known: Vec::new(),
-            ticks,
-            gates: None,
-        }
+        BoardOrder { brief, mechanics: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
     }
 }
 

@@ -1,39 +1,13 @@
 //! The meanings of sprite types in legends, derived from the rules.
 
 use super::figure::Form;
-use super::glyph::{Glyph, changes_speed, is_avatar, is_spoilt};
-use super::{payments, remarks, wins};
-use engine::analysis::{
-    Attainable, Condition, EffectSummary, Encounter, Harm, Key, Motion, Precondition, Role, Side,
-};
+use super::glyph::{Glyph, is_avatar, is_spoilt};
+use super::{openings, payments, remarks, touches, wins};
+use engine::analysis::{Attainable, Condition, EffectSummary, Encounter, Harm, Key, Motion, Role, Side};
 use engine::{Analysis, Direction, SpriteType};
 
 /// The note on a type that does nothing to the avatar.
 const HARMLESS: &str = "harmless";
-
-/// Returns the types that a type's sprites open, and the types that use up the resource that the type is or
-/// gives.
-fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
-    let gives = |givers: &[(SpriteType, i32)]| givers.iter().any(|(giver, _)| *giver == stype);
-    let locks = analysis.locks().iter().filter(|lock| gives(&lock.givers)).map(|lock| lock.stype);
-    let resources = analysis.resources().iter();
-    let resources = resources.filter(|resource| resource.stype == stype || gives(&resource.givers));
-    locks.chain(resources.flat_map(|resource| resource.takers.iter().map(|(taker, _)| *taker))).collect()
-}
-
-/// Returns the types whose sprites all disappear or change when the avatar touches `stype`.
-fn opened(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
-    let avatars = analysis.avatars().iter();
-    let opened = avatars.flat_map(|avatar| analysis.touch(avatar.stype, stype).opens.iter().copied());
-    opened.filter(|opened| analysis.facts(*opened).possible && *opened != stype).collect()
-}
-
-/// Returns the types from [`opened`], the types that `stype` opens or pays for, and the type whose speed it
-/// changes.
-fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
-    let opened = opened(analysis, stype).into_iter();
-    opened.chain(uses(analysis, stype)).chain(changes_speed(analysis, stype)).collect()
-}
 
 /// Describes how a certain number of the type's sprites ends the game, if it can: `2 win`, `one, and you
 /// lose`. If one number wins and another loses, both are stated.
@@ -72,54 +46,6 @@ fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("; "))
 }
 
-/// Returns the resource that the avatar receives from a type.
-fn given(analysis: &Analysis, stype: SpriteType) -> Option<&str> {
-    let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
-    let resource = touches.find_map(|touch| touch.gives.iter().find(|(_, by)| *by > 0))?.0;
-    Some(analysis.game().name(resource))
-}
-
-/// Describes what the avatar turns into when it touches a type.
-fn becomes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
-    let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
-    let becomes = touches.find_map(|touch| touch.becomes)?;
-    Some(format!("makes you {}", analysis.game().name(becomes)))
-}
-
-/// Describes a type whose touch gives the avatar health. Returns `None` for any other type.
-fn health(analysis: &Analysis, stype: SpriteType) -> Option<String> {
-    let heals = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by > 0);
-    let mut avatars = analysis.avatars().iter();
-    let is_healed = avatars.any(|avatar| {
-        wins::met(analysis, avatar.stype, stype)
-            .any(|(encounter, own)| own == Side::First && encounter.does(heals))
-    });
-    is_healed.then(|| "heals you".to_owned())
-}
-
-/// Describes the change in a sprite that the avatar touches: `becomes gap when touched`, or `may become gap
-/// when touched` if the change is conditional.
-fn changes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
-    let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
-    let to = touches.find_map(|touch| touch.changes)?;
-    let certain = analysis.avatars().iter().all(|avatar| {
-        let becomes = |effect: &EffectSummary| *effect == EffectSummary::Become(to);
-        let mut met = wins::met(analysis, avatar.stype, stype);
-        met.any(|(encounter, own)| {
-            own == Side::Second && encounter.does(becomes) && encounter.precondition == Precondition::Always
-        })
-    });
-    let verb = if certain { "becomes" } else { "may become" };
-    Some(format!("{verb} {} when touched", analysis.game().name(to)))
-}
-
-/// Describes the sprites that appear when the avatar touches a type.
-fn makes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
-    let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
-    let made: Vec<SpriteType> = touches.flat_map(|touch| touch.makes.iter().copied()).collect();
-    Some(format!("makes {} when touched", remarks::names(analysis, &made)?))
-}
-
 /// Describes the effect on the avatar of an item that no rule requires.
 fn gain(analysis: &Analysis, stype: SpriteType) -> String {
     let touches = || analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
@@ -133,17 +59,21 @@ fn gain(analysis: &Analysis, stype: SpriteType) -> String {
         let is_own = |lock: &&engine::analysis::Lock| lock.stype == stype;
         analysis.locks().iter().find(is_own).and_then(|_| requirement(analysis, stype))
     };
-    becomes(analysis, stype)
-        .or_else(|| health(analysis, stype))
+    touches::becomes(analysis, stype)
+        .or_else(|| touches::health(analysis, stype))
         .or_else(|| payments::paid_here(analysis, stype))
-        .or_else(|| changes(analysis, stype))
-        .or_else(|| makes(analysis, stype))
+        .or_else(|| touches::changes(analysis, stype))
+        .or_else(|| touches::makes(analysis, stype))
         .or_else(locked)
         .or_else(|| {
-            Some(format!("touch it to change {}", remarks::names(analysis, &opened(analysis, stype))?))
+            Some(format!(
+                "touch it to change {}",
+                remarks::names(analysis, &touches::opened(analysis, stype))?
+            ))
         })
         .or_else(|| {
-            Some(format!("gives {}", given(analysis, stype)?)).filter(|_| !is_resource(analysis, stype))
+            Some(format!("gives {}", touches::given(analysis, stype)?))
+                .filter(|_| !is_resource(analysis, stype))
         })
         .or_else(points)
         .unwrap_or_else(|| Glyph::Gem.meaning().to_owned())
@@ -151,89 +81,6 @@ fn gain(analysis: &Analysis, stype: SpriteType) -> String {
 
 fn is_resource(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.facts(stype).is_resource
-}
-
-/// Returns the types whose contact with any sprite removes or changes all sprites of `stype`. Avatars are
-/// excluded, because an avatar brings about the contact itself. Types that turn into `stype` and back by
-/// themselves are excluded, too.
-fn openers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
-    let is_place = |written: SpriteType| analysis.role(written) == Role::Floor;
-    let thing = |encounter: &Encounter| match is_avatar(analysis, encounter.first) {
-        true => encounter.second,
-        false if is_place(encounter.first) => encounter.second.filter(|second| !is_avatar(analysis, *second)),
-        false => Some(encounter.first),
-    };
-    let can_be = |written: SpriteType| {
-        let mut types = analysis.game().sprite_types().filter(|stype| analysis.applies(written, *stype));
-        types.any(|stype| analysis.facts(stype).possible)
-    };
-    let is_possible =
-        |encounter: &&Encounter| can_be(encounter.first) && encounter.second.is_some_and(can_be);
-    let changing = analysis.encounters().iter().filter(|encounter| changes_all(encounter, stype));
-    let things = changing.filter(is_possible).filter_map(thing);
-    things.filter(|&opener| opener != stype && !alternates(analysis, opener, stype)).collect()
-}
-
-/// Returns `true` if an encounter removes or changes all sprites of a type.
-fn changes_all(encounter: &Encounter, stype: SpriteType) -> bool {
-    encounter.does(|effect| match effect {
-        EffectSummary::KillAll(of) | EffectSummary::BecomeAll(of, _) => *of == stype,
-        _ => false,
-    })
-}
-
-/// Returns `opened` if every change to all sprites of a type lets the avatar pass, and `changed` otherwise.
-fn opening_verb(analysis: &Analysis, stype: SpriteType) -> &'static str {
-    let bars = |effect: &EffectSummary| match effect {
-        EffectSummary::BecomeAll(from, to) => *from == stype && !remarks::is_passable(analysis, *to),
-        _ => false,
-    };
-    let bars = analysis.encounters().iter().any(|encounter| encounter.does(bars));
-    if bars { "changed" } else { "opened" }
-}
-
-/// Returns `true` if a rule triggered by the passing of time involves the type or one of its groups.
-fn is_timed(analysis: &Analysis, stype: SpriteType) -> bool {
-    let game = analysis.game();
-    let concerns = |text: &str| {
-        let mut names = text.split(',').filter_map(|name| game.sprite_type(name.trim()));
-        names.any(|named| analysis.applies(named, stype))
-    };
-    let is_clock = |name: &str| name == "TIME";
-    game.description().interactions.iter().any(|line| {
-        let timed = is_clock(&line.first.text)
-            || line.second.iter().any(|second| is_clock(&second.text))
-            || line.effect.text == "addTimer";
-        let named = concerns(&line.first.text) && line.effect.text != "addTimer";
-        let params = line.params.iter().any(|param| concerns(&param.value.text));
-        timed && (named || params)
-    })
-}
-
-/// Returns `true` if a switch turns into the type that it opens, like a portal that is closed for some ticks.
-fn alternates(analysis: &Analysis, switch: SpriteType, stype: SpriteType) -> bool {
-    analysis.turns(switch).iter().any(|(becomes, _)| *becomes == stype)
-}
-
-/// Returns `true` if some encounter turns all sprites of a type into a different type at once.
-fn changes_as_a_whole(analysis: &Analysis, stype: SpriteType) -> bool {
-    let changes =
-        |effect: &EffectSummary| matches!(effect, EffectSummary::BecomeAll(from, _) if *from == stype);
-    analysis.encounters().iter().any(|encounter| encounter.does(changes))
-}
-
-/// Returns the type of which `stype` is a later state. A type that levels place is not only a later state.
-fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
-    let possible = |from: SpriteType| analysis.facts(from).possible && !is_avatar(analysis, from);
-    let change = |encounter: &Encounter| {
-        encounter.effects.iter().find_map(|effect| match effect {
-            EffectSummary::Become(to) if *to == stype => Some(encounter.first),
-            EffectSummary::BecomeAll(from, to) if *to == stype => Some(*from),
-            _ => None,
-        })
-    };
-    let is_placed = !analysis.facts(stype).symbols.is_empty();
-    analysis.encounters().iter().filter_map(change).find(|&from| possible(from) && !is_placed)
 }
 
 /// Describes how a motionless type affects other sprites that reach it: it removes sprites that must
@@ -330,27 +177,24 @@ fn requirement(analysis: &Analysis, stype: SpriteType) -> Option<String> {
             format!("needs {}", wins::alternatives(analysis, &keys))
         }
         Key::Avatar(avatar) => format!("only as {}", game.name(avatar)),
-        Key::Switch(switch, _) if alternates(analysis, switch, stype) => "solid for a while".to_owned(),
+        Key::Switch(switch, _) if openings::alternates(analysis, switch, stype) => {
+            "solid for a while".to_owned()
+        }
         Key::Switch(switch, None) if analysis.role(switch) == Role::Floor => "solid as it is".to_owned(),
         Key::Switch(switch, Some(pushed)) => {
-            let verb = opening_verb(analysis, stype);
+            let verb = openings::opening_verb(analysis, stype);
             format!("{verb} by {} on {}", game.name(pushed), game.name(switch))
         }
         Key::Switch(switch, None) => {
-            format!("{} by {}", opening_verb(analysis, stype), game.name(switch))
+            format!("{} by {}", openings::opening_verb(analysis, stype), game.name(switch))
         }
     })
-}
-
-/// Returns the types from [`openers`] that are not ground.
-fn opening_things(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
-    openers(analysis, stype).into_iter().filter(|&opener| analysis.role(opener) != Role::Floor).collect()
 }
 
 /// Returns the meaning of a solid type: the type of which it is a state, or the means of opening or removing
 /// it.
 fn solid(analysis: &Analysis, stype: SpriteType) -> String {
-    let own = opened(analysis, stype);
+    let own = touches::opened(analysis, stype);
     if let Some(names) = remarks::names(analysis, &own) {
         return format!("touch it to change {names}");
     }
@@ -364,32 +208,34 @@ fn solid(analysis: &Analysis, stype: SpriteType) -> String {
     if let Some(use_of) = use_of_others(analysis, stype) {
         return format!("solid, {use_of}");
     }
-    let things = opening_things(analysis, stype);
+    let things = openings::opening_things(analysis, stype);
     if let Some(things) = remarks::names(analysis, &things) {
-        return format!("{} by {things}", opening_verb(analysis, stype));
+        return format!("{} by {things}", openings::opening_verb(analysis, stype));
     }
-    if changes_as_a_whole(analysis, stype) {
-        let passing = openers(analysis, stype).is_empty();
+    if openings::changes_as_a_whole(analysis, stype) {
+        let passing = openings::openers(analysis, stype).is_empty();
         return if passing { "solid for a while" } else { "solid as it is" }.to_owned();
     }
     if let Some(clearers) = cleared {
         return format!("solid, cleared by {clearers}");
     }
-    if let Some(made) = makes(analysis, stype) {
+    if let Some(made) = touches::makes(analysis, stype) {
         return format!("{made}, solid");
     }
     let changers = remarks::names(analysis, &remarks::reachable_removers(analysis, stype));
     let ends = |encounter: &Encounter| {
-        changes_all(encounter, stype)
+        openings::changes_all(encounter, stype)
             || (analysis.applies(encounter.first, stype) && encounter.ends(Side::First))
             || (encounter.second.is_some_and(|second| analysis.applies(second, stype))
                 && encounter.ends(Side::Second))
     };
-    match earlier(analysis, stype) {
+    match openings::earlier(analysis, stype) {
         _ if changers.is_some() => format!("solid, changed by {}", changers.unwrap_or_default()),
         _ if !analysis.turns(stype).is_empty() => "solid as it is".to_owned(),
         Some(from) => format!("was {}, solid", analysis.game().name(from)),
-        None if analysis.encounters().iter().any(ends) || is_timed(analysis, stype) => "solid".to_owned(),
+        None if analysis.encounters().iter().any(ends) || openings::is_timed(analysis, stype) => {
+            "solid".to_owned()
+        }
         None => Glyph::Wall.meaning().to_owned(),
     }
 }
@@ -446,7 +292,9 @@ fn spoilers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
 fn ward(analysis: &Analysis, stype: SpriteType) -> String {
     let protected = wins::is_to_keep(analysis, stype);
     // If a type is a state of a different type, the two are counted together.
-    if let Some(from) = earlier(analysis, stype).filter(|from| !analysis.aims().protect.contains(from)) {
+    if let Some(from) =
+        openings::earlier(analysis, stype).filter(|from| !analysis.aims().protect.contains(from))
+    {
         return format!("was {}", analysis.game().name(from));
     }
     if !protected {
@@ -473,26 +321,27 @@ fn ward(analysis: &Analysis, stype: SpriteType) -> String {
 
 /// Returns the meaning of a resource that the avatar holds, or of a type that gives a key.
 fn held(analysis: &Analysis, stype: SpriteType, meaning: &str) -> String {
-    let is_held = is_resource(analysis, stype) && given(analysis, stype).is_some();
+    let is_held = is_resource(analysis, stype) && touches::given(analysis, stype).is_some();
     payments::purposes(analysis, stype)
-        .or_else(|| becomes(analysis, stype))
+        .or_else(|| touches::becomes(analysis, stype))
         .or_else(|| is_held.then(|| Glyph::Token.meaning().to_owned()).filter(|token| token == meaning))
         .unwrap_or_else(|| gain(analysis, stype))
 }
 
 /// Returns the meaning of a motionless type that has no other role.
 fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
-    let state = || Some(format!("was {}", analysis.game().name(earlier(analysis, stype)?)));
+    let state = || Some(format!("was {}", analysis.game().name(openings::earlier(analysis, stype)?)));
     let changed = || {
-        let openers = openers(analysis, stype).into_iter();
+        let openers = openings::openers(analysis, stype).into_iter();
         let openers: Vec<SpriteType> =
             openers.filter(|&opener| analysis.role(opener) != Role::Floor).collect();
         Some(format!("changed by {}", remarks::names(analysis, &openers)?))
     };
     let swallowed =
         || Some(format!("swallows {}", remarks::names(analysis, &remarks::swallowed(analysis, stype))?));
-    let switch =
-        || Some(format!("touch it to change {}", remarks::names(analysis, &opened(analysis, stype))?));
+    let switch = || {
+        Some(format!("touch it to change {}", remarks::names(analysis, &touches::opened(analysis, stype))?))
+    };
     let turned = || {
         let all = |effect: &EffectSummary| match effect {
             EffectSummary::BecomeAll(from, to) if *from == stype => Some(*to),
@@ -506,11 +355,11 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
     ending(analysis, stype)
         .or_else(|| use_of_others(analysis, stype))
         .or_else(|| payments::paid_here(analysis, stype))
-        .or_else(|| becomes(analysis, stype))
-        .or_else(|| health(analysis, stype))
+        .or_else(|| touches::becomes(analysis, stype))
+        .or_else(|| touches::health(analysis, stype))
         .or_else(swallowed)
         .or_else(switch)
-        .or_else(|| makes(analysis, stype))
+        .or_else(|| touches::makes(analysis, stype))
         .or_else(changed)
         .or_else(state)
         .or_else(|| blocks(analysis, stype).then(|| "solid".to_owned()))
@@ -583,7 +432,7 @@ fn maker(analysis: &Analysis, stype: SpriteType) -> String {
     let Some(made) = remarks::names(analysis, &analysis.facts(stype).makes) else {
         return unwon(analysis, stype);
     };
-    let switch = remarks::names(analysis, &opened(analysis, stype));
+    let switch = remarks::names(analysis, &touches::opened(analysis, stype));
     let parts = [
         Some(format!("makes {made}")),
         switch.map(|names| format!("touch it to change {names}")),
@@ -683,16 +532,16 @@ fn own_meaning(analysis: &Analysis, stype: SpriteType, form: Form, glyph: Glyph)
         Glyph::Wall | Glyph::Breakable => solid(analysis, stype),
         Glyph::Ward if fleeting => "soon gone".to_owned(),
         Glyph::Ward => ward(analysis, stype),
-        Glyph::Switch => remarks::names(analysis, &changed(analysis, stype))
+        Glyph::Switch => remarks::names(analysis, &touches::changed(analysis, stype))
             .map_or_else(|| unwon(analysis, stype), |names| format!("touch it to change {names}")),
         Glyph::Key | Glyph::Token => held(analysis, stype, glyph.meaning()),
         Glyph::Gem if blocks(analysis, stype) && !analysis.turns(stype).is_empty() => {
             "solid as it is".to_owned()
         }
         Glyph::Gem => gain(analysis, stype),
-        Glyph::Spring if given(analysis, stype).is_none() => unwon(analysis, stype),
+        Glyph::Spring if touches::given(analysis, stype).is_none() => unwon(analysis, stype),
         Glyph::Spring if blocks(analysis, stype) => {
-            given(analysis, stype).map_or_else(plain, |name| format!("gives {name}"))
+            touches::given(analysis, stype).map_or_else(plain, |name| format!("gives {name}"))
         }
         Glyph::Socket => remarks::socket(analysis, stype).unwrap_or_else(|| unwon(analysis, stype)),
         Glyph::Crate => remarks::destinations(analysis, stype).unwrap_or_else(plain),
