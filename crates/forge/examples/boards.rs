@@ -122,11 +122,11 @@ fn search(analysis: &Analysis, seed: Seed, slot: u8, count: u64, folder: Option<
         };
         let measures = &made.measures;
         println!(
-            "board {at}: {} ticks{}, needed {:.2}, wrong {:.2} (deaths {:.2}), used {:.2}, dead {:.2}, sweep {:.1}, quality {:.3}, {} boards, {} calls{}",
+            "board {at}: {} ticks{}, needed {:.2}, traps {:.2} (dead {:.2}), used {:.2}, dead {:.2}, sweep {:.1}, quality {:.3}, {} boards, {} calls{}",
             measures.ticks,
             if measures.is_shortest { " (shortest)" } else { "" },
             measures.necessity(),
-            measures.wrong,
+            measures.traps,
             measures.deaths,
             measures.used,
             measures.dead,

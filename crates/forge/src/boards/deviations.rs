@@ -1,7 +1,8 @@
-//! Deviations from a win: wrong keys at some tick.
+//! Wrong choices: deviations from a win, and their consequences.
 
+use super::shortest::{Limits, shortest_win};
 use base::Seed;
-use engine::{Action, Game, Level, Outcome};
+use engine::{Action, Analysis, Game, Level, Outcome, State};
 
 /// The minimum and maximum number of key presses per deviation.
 const KEYS: (usize, usize) = (3, 5);
@@ -40,12 +41,63 @@ impl Deviation {
         (0..count).filter_map(draw).collect()
     }
 
-    /// Plays a win up to the deviation, and then the deviation. Returns `true` if the player loses during the deviation.
-    /// Costs a replay of a part of the win.
-    pub(super) fn kills(&self, game: &Game, level: &Level, win: &[Action], seed: Seed) -> bool {
+    /// Plays a win up to the deviation, and then the deviation. Returns the last state and its outcome. Costs a replay
+    /// of a part of the win.
+    pub(super) fn play(&self, game: &Game, level: &Level, win: &[Action], seed: Seed) -> (State, Outcome) {
         let mut state = game.start(level, seed);
         let keys = win[..self.tick].iter().copied().chain([self.key; KEYS.1].into_iter().take(self.presses));
-        let mut outcomes = keys.map(|key| game.step(&mut state, key));
-        outcomes.find(|outcome| *outcome != Outcome::Ongoing).is_some_and(|outcome| outcome != Outcome::Won)
+        let mut outcome = Outcome::Ongoing;
+        for key in keys {
+            outcome = game.step(&mut state, key);
+            if outcome != Outcome::Ongoing {
+                break;
+            }
+        }
+        (state, outcome)
     }
+
+    /// Returns `true` if the player loses during the deviation.
+    pub(super) fn kills(&self, game: &Game, level: &Level, win: &[Action], seed: Seed) -> bool {
+        !matches!(self.play(game, level, win, seed).1, Outcome::Ongoing | Outcome::Won)
+    }
+}
+
+/// The consequences of deviations from a win.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Costs {
+    /// The fraction of deviations after which the player is dead or no win is found.
+    pub(super) traps: f64,
+    /// The fraction of deviations after which the player is dead.
+    pub(super) deaths: f64,
+    /// The number of forward-model calls.
+    pub(super) calls: u64,
+}
+
+/// Measures the consequences of deviations: after each, a search looks for a win within the limits.
+pub(super) fn costs(
+    deviations: &[Deviation],
+    analysis: &Analysis,
+    level: &Level,
+    win: &[Action],
+    seed: Seed,
+    limits: Limits,
+) -> Costs {
+    let mut costs = Costs::default();
+    let (mut trapped, mut dead) = (0, 0);
+    for deviation in deviations {
+        match deviation.play(analysis.game(), level, win, seed) {
+            (_, Outcome::Won) => {}
+            (state, Outcome::Ongoing) => {
+                let found = shortest_win(analysis, &state, limits);
+                costs.calls += found.calls;
+                trapped += usize::from(found.win.is_none());
+            }
+            _ => {
+                dead += 1;
+                trapped += 1;
+            }
+        }
+    }
+    let share = |count: usize| count as f64 / deviations.len().max(1) as f64;
+    Costs { traps: share(trapped), deaths: share(dead), ..costs }
 }

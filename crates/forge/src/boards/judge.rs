@@ -1,12 +1,12 @@
 //! The judge in a board search. Checks constraints, from cheapest to most expensive, and then measures the quality.
 
-use super::choices::{Choices, choices};
-use super::deviations::Deviation;
+use super::deviations::{Deviation, costs};
 use super::likeness::are_one_board;
 use super::necessity::Ablations;
 use super::order::{BoardBudget, BoardMeasures, BoardOrder};
 use super::replay::{Events, events, is_guard};
 use super::shortest::{Limits, shortest_win};
+use agents::search::{Answer, Pushes, SearchLimits, best_first};
 use base::Seed;
 use engine::{Action, Analysis, Episode, Level, Outcome};
 use generators::Evaluation;
@@ -27,12 +27,10 @@ const LUCKY: u64 = 1;
 const RANDOM_TICKS: usize = 400;
 /// The number of ticks that a win search allows beyond the longest win requested.
 const BEYOND: usize = 20;
-/// The minimum and maximum fraction of other choices that should be wrong.
-const WRONG: (f64, f64) = (0.3, 0.8);
-/// The minimum fraction of other choices that must be wrong if the order lists mechanics.
-const LEAST_WRONG: f64 = 0.2;
-/// The desired fraction of fatal deviations. Some deviations must be fatal because players do not notice a mere dead
-/// end.
+/// The minimum and maximum fraction of deviations that should have a cost.
+pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
+/// The desired fraction of fatal deviations. Some deviations must be fatal because players do not notice the cost of a
+/// mere dead end.
 const DEATHS: f64 = 0.15;
 /// The number of cells that a mover should sweep.
 const SWEEP: f64 = 5.0;
@@ -40,10 +38,8 @@ const SWEEP: f64 = 5.0;
 const EMPTY: f64 = 0.25;
 /// The maximum fraction of a win that may pass without an event.
 const DEAD: f64 = 0.4;
-/// The weight of wrong choices in the quality.
-const WRONG_WEIGHT: f64 = 0.28;
-/// The weight of fatal deviations in the quality.
-const DEATHS_WEIGHT: f64 = 0.10;
+/// The weight of deviations in the quality.
+const TRAPS_WEIGHT: f64 = 0.28;
 /// The distance from the best quality beyond which a board is not examined closely.
 const MARGIN: f64 = 0.05;
 /// The number of alternative random futures in which a win is replayed.
@@ -53,9 +49,7 @@ const SEARCHED: f64 = 3.0;
 /// The fraction of its quality that a board loses if it fails every gate.
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
-const CONSTRAINTS: f64 = 11.0;
-/// The minimum fraction of the order's mechanics that must matter: both of two, and two of three.
-const MATTER: f64 = 0.6;
+const CONSTRAINTS: f64 = 10.0;
 /// The fraction of supplies that a win may leave where they were. One spare supply is always allowed.
 const SPARE: f64 = 0.25;
 
@@ -97,7 +91,8 @@ impl Judged {
 }
 
 impl Judge<'_> {
-    /// Judges a board. Does not examine the board closely if the board is clearly worse than the best so far.
+    /// Judges a board. Skips the deviations if the board is clearly worse than the best so far, because no deviation
+    /// cost could change that. Skipped deviations count as costing nothing.
     pub(super) fn judge(&self, level: &Level, best: f64) -> Judged {
         if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
             return Judged::failed(0.0, 0.0, 0);
@@ -130,12 +125,11 @@ impl Judge<'_> {
             return Judged::failed(6.0, 0.0, calls);
         }
         let events = events(self.analysis, level, &win);
-        let is_ordered = !self.order.mechanics.is_empty();
-        if is_ordered && events.handled < 1.0 {
+        if !self.order.mechanics.is_empty() && events.handled < 1.0 {
             return Judged::failed(7.0, events.handled, calls);
         }
         let most_spare = (events.supplies as f64 * SPARE).max(1.0);
-        if is_ordered && events.spare as f64 > most_spare {
+        if !self.order.mechanics.is_empty() && events.spare as f64 > most_spare {
             return Judged::failed(8.0, most_spare / events.spare as f64, calls);
         }
         // The mechanics matter most, so the other interactions are tried only after the mechanics.
@@ -143,25 +137,21 @@ impl Judge<'_> {
         // Guards leave no events in a win, so only a search without them can show whether they are needed.
         let is_tried = |line: &usize| events.firsts.contains(line) || is_guard(self.analysis, *line);
         let tried = ordered.iter().copied().filter(is_tried);
-        let (mut needed, spent) = self.ablations.needed(tried, level, &win, self.budget.calls);
+        let (mut needed, spent) = self.ablations.needed(tried, level, &win, self.budget.small_calls);
         calls += spent;
-        let (matter, spent) = self.ablations.matter(self.analysis, &needed, level, &win, self.budget.calls);
+        let (matter, spent) =
+            self.ablations.matter(self.analysis, &needed, level, &win, self.budget.small_calls);
         calls += spent;
         let idle = matter.iter().filter(|matters| !**matters).count();
-        let matter = 1.0 - idle as f64 / matter.len().max(1) as f64;
-        if is_ordered && matter < MATTER {
-            return Judged::failed(9.0, matter, calls);
-        }
-        let choices = is_ordered.then(|| self.choices(level, &win, &mut calls));
-        if let Some(choices) = choices.filter(|choices| choices.share() < LEAST_WRONG) {
-            return Judged::failed(10.0, choices.share() / LEAST_WRONG, calls);
+        if idle > 0 {
+            return Judged::failed(9.0, 1.0 - idle as f64 / matter.len() as f64, calls);
         }
         let others = events.firsts.iter().copied().filter(|line| !ordered.contains(line));
-        let (others, spent) = self.ablations.needed(others, level, &win, self.budget.calls);
+        let (others, spent) = self.ablations.needed(others, level, &win, self.budget.small_calls);
         needed.extend(others);
         calls += spent;
         let known = BoardMeasures { is_shortest, needed, ..BoardMeasures::default() };
-        let measures = self.measure(level, &win, (known, events, choices), best, &mut calls);
+        let measures = self.measure(level, &win, (known, events), best, &mut calls);
         let evaluation = Evaluation { feasibility: 1.0, objective: measures.quality, measures: Vec::new() };
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
@@ -210,19 +200,35 @@ impl Judge<'_> {
         wins
     }
 
-    /// Searches for a shortest win. If no win is found, returns how close the search came.
+    /// Searches for a shortest win or, if that fails, for any win. If no win is found, returns how close the search
+    /// came.
     fn win(&self, level: &Level, calls: &mut u64) -> Result<(Episode, bool), f64> {
         let game = self.analysis.game();
+        let start = game.start(level, self.seed);
         let limits = Limits { calls: self.budget.calls, ticks: self.order.ticks.1 + BEYOND };
-        let found = shortest_win(self.analysis, &game.start(level, self.seed), limits);
+        let found = shortest_win(self.analysis, &start, limits);
         *calls += found.calls;
-        let Some(actions) = found.win else { return Err(self.nearness(level, found.missing)) };
+        let (actions, is_shortest) = match found.win {
+            Some(actions) => (actions, found.is_proved),
+            None if found.is_proved || !self.analysis.is_deterministic_from(&start) => {
+                return Err(self.nearness(level, found.missing));
+            }
+            None => {
+                let limits = SearchLimits::calls(self.budget.calls / 2);
+                let any = best_first(self.analysis, &Pushes::default(), &start, limits);
+                *calls += any.calls;
+                let Answer::Won { actions, .. } = any.answer else {
+                    return Err(self.nearness(level, found.missing));
+                };
+                (actions, false)
+            }
+        };
         let (mut episode, mut state) = Episode::begin(game, level, self.seed);
         for action in actions {
             episode.play(game, &mut state, action);
         }
         match episode.outcome {
-            Outcome::Won => Ok((episode, found.is_proved)),
+            Outcome::Won => Ok((episode, is_shortest)),
             _ => Err(0.0),
         }
     }
@@ -239,7 +245,7 @@ impl Judge<'_> {
         &self,
         level: &Level,
         win: &Episode,
-        (known, events, choices): (BoardMeasures, Events, Option<Choices>),
+        (known, events): (BoardMeasures, Events),
         best: f64,
         calls: &mut u64,
     ) -> BoardMeasures {
@@ -256,12 +262,16 @@ impl Judge<'_> {
             ..known
         };
         measures.quality = quality(&measures);
-        if measures.quality + WRONG_WEIGHT + DEATHS_WEIGHT + MARGIN < best {
+        if measures.quality + TRAPS_WEIGHT + MARGIN < best {
             measures.gates = 0.0;
             return measures;
         }
-        measures.wrong = choices.unwrap_or_else(|| self.choices(level, win, calls)).share();
-        measures.deaths = self.deaths(level, &win.actions);
+        let limits = Limits { calls: self.budget.small_calls, ticks: self.order.ticks.1 + BEYOND };
+        let game = self.analysis.game();
+        let deviations = Deviation::draw(game, level, &win.actions, self.seed, self.budget.deviations);
+        let costs = costs(&deviations, self.analysis, level, &win.actions, self.seed, limits);
+        *calls += costs.calls;
+        (measures.traps, measures.deaths) = (costs.traps, costs.deaths);
         measures.gates = self.gates(level, win);
         measures.quality = quality(&measures);
         measures
@@ -269,21 +279,6 @@ impl Judge<'_> {
 }
 
 impl Judge<'_> {
-    fn choices(&self, level: &Level, win: &Episode, calls: &mut u64) -> Choices {
-        let limits = Limits { calls: self.budget.calls, ticks: self.order.ticks.1 + BEYOND };
-        let choices = choices(self.analysis, level, &win.actions, self.seed, limits);
-        *calls += choices.calls;
-        choices
-    }
-
-    /// Returns the fraction of deviations from the win that are fatal.
-    fn deaths(&self, level: &Level, win: &[Action]) -> f64 {
-        let game = self.analysis.game();
-        let deviations = Deviation::draw(game, level, win, self.seed, self.budget.deviations);
-        let fatal = deviations.iter().filter(|deviation| deviation.kills(game, level, win, self.seed));
-        fatal.count() as f64 / deviations.len().max(1) as f64
-    }
-
     /// Returns the fraction of the single-board gates that the board meets.
     fn gates(&self, level: &Level, win: &Episode) -> f64 {
         let Some(panel) = &self.panel else { return 1.0 };
@@ -313,18 +308,18 @@ pub(super) const ALONE: CriterionSet =
 /// Returns the quality of a won board. Necessity weighs most, followed by costly wrong choices. Missed gates lower the
 /// total.
 fn quality(measures: &BoardMeasures) -> f64 {
-    let (low, high) = WRONG;
-    let wrong = match measures.wrong {
-        wrong if wrong < low => wrong / low,
-        wrong if wrong > high => (1.0 - wrong) / (1.0 - high),
+    let (low, high) = TRAPS;
+    let traps = match measures.traps {
+        traps if traps < low => traps / low,
+        traps if traps > high => (1.0 - traps) / (1.0 - high),
         _ => 1.0,
     };
     let lively = if measures.dead <= DEAD { 1.0 } else { (1.0 - measures.dead) / (1.0 - DEAD) };
     let sweep = measures.sweep.map_or(1.0, |sweep| (sweep / SWEEP).min(1.0));
     let form = 1.0 - ((measures.emptiness - EMPTY) / EMPTY).clamp(0.0, 1.0);
     let own = 0.20 * measures.necessity()
-        + DEATHS_WEIGHT * (measures.deaths / DEATHS).min(1.0)
-        + WRONG_WEIGHT * wrong
+        + 0.10 * (measures.deaths / DEATHS).min(1.0)
+        + TRAPS_WEIGHT * traps
         + 0.08 * form
         + 0.10 * measures.used
         + 0.08 * lively
@@ -337,7 +332,8 @@ fn quality(measures: &BoardMeasures) -> f64 {
 /// Returns `true` if the board has every property that the search requires.
 pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
-        && (WRONG.0..=WRONG.1).contains(&measures.wrong)
+        && (TRAPS.0..=TRAPS.1).contains(&measures.traps)
+        && measures.deaths >= DEATHS
         && measures.gates >= 1.0
         && measures.used >= 1.0
         && measures.dead <= DEAD

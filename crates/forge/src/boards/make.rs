@@ -68,7 +68,6 @@ pub(crate) fn search_boards(
     while best.searched < budget.evaluations
         && best.calls < budget.total
         && !best.is_complete()
-        && !best.is_enough(budget)
         && !best.is_stale(budget)
         && !best.is_hopeless(budget)
     {
@@ -80,8 +79,8 @@ pub(crate) fn search_boards(
     }
     best.tidy(&variation, &judge);
     if budget.scrutiny > 1 {
-        let calls = budget.calls * budget.scrutiny;
-        best.scrutinize(&Judge { budget: &BoardBudget { calls, ..budget.clone() }, ..judge });
+        let (calls, small_calls) = (budget.calls * budget.scrutiny, budget.small_calls * budget.scrutiny);
+        best.scrutinize(&Judge { budget: &BoardBudget { calls, small_calls, ..budget.clone() }, ..judge });
     }
     let feasibility = search.best().map_or(0.0, |(_, evaluation)| evaluation.feasibility);
     BoardSearch { feasibility, calls: best.calls, made: best.into_board() }
@@ -112,11 +111,6 @@ impl Best {
     /// Returns `true` if many boards were searched, and no win met the order.
     fn is_hopeless(&self, budget: &BoardBudget) -> bool {
         self.boards.is_empty() && self.searched >= budget.hopeless
-    }
-
-    /// Returns `true` if a board has the quality at which the search ends.
-    fn is_enough(&self, budget: &BoardBudget) -> bool {
-        !self.boards.is_empty() && self.quality() >= budget.enough
     }
 
     fn is_complete(&self) -> bool {
@@ -250,7 +244,8 @@ mod tests {
             .replace("    plum avatar", "    bead avatar > killSprite scoreChange=1\n    plum avatar");
         let game = Game::from_source(&text).unwrap();
         let analysis = Analysis::of(&game);
-        let budget = BoardBudget { compositions: 8, evaluations: 24, calls: 4_000, ..BoardBudget::default() };
+        let budget =
+            BoardBudget { compositions: 8, evaluations: 24, calls: 20_000, ..BoardBudget::default() };
         let search = |mechanics: Vec<Vec<usize>>| {
             let order = BoardOrder { mechanics, ..BoardOrder::of(BoardBrief::of_demand(0)) };
             search_boards(&analysis, &order, Seed::from_text("ordered mechanics"), &budget)
@@ -260,8 +255,10 @@ mod tests {
             let kills = |line: &InteractionLine| line.first.text == first && line.effect.text == "killSprite";
             lines.iter().position(kills).expect("the game has such a rule")
         };
-        let [plum, bead] = ["plum", "bead"].map(|first| search(vec![vec![kills(first)]]));
-        assert!(bead.made.is_none());
-        assert!(plum.feasibility > bead.feasibility, "{} > {}", plum.feasibility, bead.feasibility);
+        let plum = kills("plum");
+        let made = search(vec![vec![plum]]).made.expect("every win takes the plum");
+        assert!(made.measures.needed.contains(&plum));
+        let found = search(vec![vec![kills("bead")]]);
+        assert!(found.made.is_none() && found.feasibility < 1.0, "{}", found.feasibility);
     }
 }

@@ -2,7 +2,6 @@
 //! then changes them until a shortest win needs every clause, wrong choices have a cost, and no piece is
 //! superfluous.
 
-mod choices;
 mod deviations;
 mod judge;
 pub(crate) mod likeness;

@@ -5,14 +5,14 @@ use generators::boards::BoardBrief;
 use validators::CheckedCriteria;
 
 /// The minimum and maximum length of a shortest win in ticks, by slot.
-const LENGTHS: [(usize, usize); 5] = [(12, 32), (18, 55), (22, 70), (26, 90), (30, 110)];
+const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
 
 /// The requirements for a board.
 #[derive(Clone, Debug)]
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The mechanics, most of which must matter. Each mechanic is a list of interactions, as indices into
+    /// The mechanics that must all matter. Each mechanic is a list of interactions, as indices into
     /// [`Description::interactions`](engine::Description). A mechanic matters if the win needs one of its interactions,
     /// if wrong keys are fatal because of the mechanic, or if a clearly shorter win exists without the mechanic.
     pub mechanics: Vec<Vec<usize>>,
@@ -41,19 +41,17 @@ base::with_defaults! {
         /// The number of initial compositions. The search then changes the best composition.
         pub compositions: usize = 24,
         /// The total number of boards that reach the win search, including compositions.
-        pub evaluations: usize = 90,
+        pub evaluations: usize = 60,
         /// The number of boards without improvement after which the search ends, once a board is winnable.
         pub patience: usize = 24,
-        /// The quality at which the search ends.
-        pub enough: f64 = 1.0,
         /// The number of boards without a win after which the search ends.
-        pub hopeless: usize = 60,
-        /// The maximum number of forward-model calls in each search for a win: for the shortest win, for a win without
-        /// an interaction, and for a win after a different choice. All searches have the same maximum, so that a search
-        /// without success shows something.
-        pub calls: u64 = 16_000,
-        /// The factor by which `calls` is multiplied for the final judging of the best board. With a factor of 1, there
-        /// is no final judging.
+        pub hopeless: usize = 32,
+        /// The maximum number of forward-model calls in a search for the shortest win.
+        pub calls: u64 = 40_000,
+        /// The maximum number of forward-model calls in a search for a win without an interaction or after a deviation.
+        pub small_calls: u64 = 5_000,
+        /// The factor by which `calls` and `small_calls` are multiplied for the final judging of the best board. With a
+        /// factor of 1, there is no final judging.
         pub scrutiny: u64 = 8,
         /// The number of deviations from the win to try.
         pub deviations: usize = 10,
@@ -92,9 +90,9 @@ pub struct BoardMeasures {
     pub steady: f64,
     /// The interactions without which every win is clearly longer or does not exist.
     pub needed: Vec<usize>,
-    /// The fraction of the player's other choices during the win after which no win is found.
-    pub wrong: f64,
-    /// The fraction of deviations from the win after which the player is dead.
+    /// The fraction of deviations from the win after which the player is dead or no win is found.
+    pub traps: f64,
+    /// The fraction of deviations after which the player is dead.
     pub deaths: f64,
     /// The fraction of placed types, not counting walls and floor, that take part in the win.
     pub used: f64,

@@ -15,30 +15,26 @@ use validators::CheckedCriteria;
 /// The demand on a board at difficulty 1.
 const DEMANDS: u8 = 4;
 
-/// The minimum demand at which most mechanics must matter on a board.
+/// The minimum demand at which every mechanic must matter on a board.
 const JOINT: u8 = 2;
 
 /// The demand on a quick look's boards.
 const LOOK_DEMAND: u8 = 1;
 /// The number of boards in a quick look.
-const LOOKS: usize = 16;
+const LOOKS: usize = 24;
 /// The number of boards in a quick look after which a game without a winnable board is rejected. With good rules, at
 /// least one in five compositions is winnable.
 const HOPELESS: usize = 12;
-/// The quality of a board that ends a quick look.
-const ENOUGH: f64 = 0.5;
 /// The total number of forward-model calls for a quick look's boards.
 const LOOK_CALLS: u64 = 1_500_000;
-/// The number of boards in the search for a board on which most mechanics matter.
-const JOINT_BOARDS: usize = 80;
-/// The number of forward-model calls in this search.
-const JOINT_CALLS: u64 = 2_500_000;
-/// The reason for rejecting a game without such a board.
-pub(super) const USELESS: &str = "too few mechanics matter";
+/// The number of forward-model calls in the search for a board on which every mechanic matters.
+const JOINT_CALLS: u64 = 2_000_000;
+/// The reason for rejecting a game without a board on which every mechanic matters.
+pub(super) const USELESS: &str = "a mechanic does not matter";
 /// The minimum fraction of necessary interactions on a quick look's best board.
 const LEAST_NECESSITY: f64 = 0.4;
-/// The minimum fraction of wrong choices, on a quick look's best board.
-const LEAST_WRONG: f64 = 0.1;
+/// The minimum fraction of costly wrong choices, on a quick look's best board.
+const LEAST_TRAPS: f64 = 0.1;
 /// The maximum value of an unmet condition.
 const NEARLY: f64 = 0.999;
 
@@ -80,7 +76,7 @@ impl BoardSource for InventedBoards {
         if let Some(obstacle) = self.look_quickly(game, seed).obstacle() {
             return Err(obstacle);
         }
-        if self.can_matter(game, seed.child("joint use", 0)) { Ok(()) } else { Err(USELESS) }
+        if self.can_all_matter(game, seed.child("joint use", 0)) { Ok(()) } else { Err(USELESS) }
     }
 
     fn mechanics(&self) -> &[Vec<usize>] {
@@ -121,15 +117,21 @@ pub(crate) struct QuickLook {
 impl QuickLook {
     /// Returns the reason why no board is worth a search; `None` if there is no such reason.
     pub(crate) fn obstacle(&self) -> Option<&'static str> {
-        let names = ["no board was won", "hardly anything is necessary", "no choice is wrong"];
+        let names = [
+            "no board was won",
+            "hardly anything is necessary",
+            "no wrong choice costs",
+            "no wrong choice kills",
+        ];
         self.constraints().iter().zip(names).find(|(met, _)| **met < 1.0).map(|(_, name)| name)
     }
 
     /// Returns the degree to which each condition is met, in the order of the obstacles.
-    fn constraints(&self) -> [f64; 3] {
-        let Some(board) = &self.board else { return [self.nearness.min(NEARLY), 0.0, 0.0] };
+    fn constraints(&self) -> [f64; 4] {
+        let Some(board) = &self.board else { return [self.nearness.min(NEARLY), 0.0, 0.0, 0.0] };
         let necessity = (board.necessity() / LEAST_NECESSITY).min(1.0);
-        [1.0, necessity, (board.wrong / LEAST_WRONG).min(1.0)]
+        let deaths = if board.deaths > 0.0 { 1.0 } else { 0.0 };
+        [1.0, necessity, (board.traps / LEAST_TRAPS).min(1.0), deaths]
     }
 
     /// Returns the degree to which all conditions are met: 1.0 exactly if there is no obstacle.
@@ -159,19 +161,12 @@ impl InventedBoards {
         BoardBrief { idioms, counts, ..BoardBrief::of_demand(demand) }
     }
 
-    /// Returns `true` if a short search finds a board on which most mechanics matter.
-    fn can_matter(&self, game: &Game, seed: Seed) -> bool {
+    /// Returns `true` if a short search finds a board on which every mechanic matters.
+    fn can_all_matter(&self, game: &Game, seed: Seed) -> bool {
         let analysis = Analysis::of(game);
         let order = BoardOrder::of(self.brief(&analysis, JOINT));
         let order = BoardOrder { mechanics: self.mechanics.clone(), ..order };
-        let budget = BoardBudget {
-            evaluations: JOINT_BOARDS,
-            hopeless: JOINT_BOARDS,
-            enough: 0.0,
-            total: JOINT_CALLS,
-            scrutiny: 1,
-            ..BoardBudget::default()
-        };
+        let budget = BoardBudget { total: JOINT_CALLS, patience: 1, scrutiny: 1, ..BoardBudget::default() };
         make_board(&analysis, &order, seed, &budget).is_some()
     }
 
@@ -183,7 +178,6 @@ impl InventedBoards {
             compositions: LOOKS,
             evaluations: LOOKS,
             hopeless: HOPELESS,
-            enough: ENOUGH,
             total: LOOK_CALLS,
             scrutiny: 1,
             ..BoardBudget::default()

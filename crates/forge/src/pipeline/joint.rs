@@ -10,8 +10,9 @@ use std::collections::BTreeSet;
 /// The reason for rejecting a game with a mechanic that matters on no level.
 const JOINT: &str = "joint use";
 
-/// The number of forward-model calls in the search for a win without an interaction or a mechanic.
-const CALLS: u64 = 96_000;
+/// The number of forward-model calls in the search for a win without an interaction or a mechanic. The board search
+/// found the known win with as many calls, so a search without success shows something.
+const CALLS: u64 = 320_000;
 
 impl Trial<'_> {
     pub(super) const JOINT: Stage<Self> = Stage {
@@ -19,7 +20,7 @@ impl Trial<'_> {
         purpose: "for an invented game, requires that every mechanic matters on some level: without the mechanic, \
                   there is no win, only a clearly longer win, or (for a threat) a clearly shorter win or \
                   fewer fatal keys",
-        cost: "a second",
+        cost: "up to a minute",
         reasons: &[JOINT],
         ..Stage::once(Self::ask_for_joint_use)
     };

@@ -42,10 +42,16 @@ impl Trial<'_> {
 
     pub(super) const QUICK_LOOK: Stage<Self> = Stage {
         name: "quick look",
-        purpose: "for an invented game, composes a few boards, and requires one win with wrong choices \
-                  and one board on which most mechanics matter",
-        cost: "up to 4 million forward-model calls",
-        reasons: &["no board was won", "hardly anything is necessary", "no choice is wrong", USELESS],
+        purpose: "for an invented game, composes a few boards, and requires one win with costly choices \
+                  and one board on which every mechanic matters",
+        cost: "up to 3.5 million forward-model calls",
+        reasons: &[
+            "no board was won",
+            "hardly anything is necessary",
+            "no wrong choice costs",
+            "no wrong choice kills",
+            USELESS,
+        ],
         ..Stage::once(Self::look_quickly)
     };
 
