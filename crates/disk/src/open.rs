@@ -115,11 +115,16 @@ fn open_or_create(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
 
 /// Opens an existing file, provided that it is a regular file and not a link.
 fn existing(path: &Path, options: &OpenOptions) -> io::Result<File> {
-    let examined = fs::symlink_metadata(path)?;
-    regular(&examined)?;
-    let file = options.open(path)?;
-    let found = file.metadata()?;
-    if is_same_file(&examined, &found) { Ok(file) } else { Err(invalid("is not a file")) }
+    // Another process may replace the file between the two steps.
+    for _ in 0..16 {
+        let examined = fs::symlink_metadata(path)?;
+        regular(&examined)?;
+        let file = options.open(path)?;
+        if is_same_file(&examined, &file.metadata()?) {
+            return Ok(file);
+        }
+    }
+    Err(invalid("is replaced again and again"))
 }
 
 fn regular(found: &Metadata) -> io::Result<()> {
@@ -153,6 +158,7 @@ mod tests {
     use std::io::Write;
     use std::os::unix::fs::symlink;
     use std::process::Command;
+    use std::thread;
 
     /// Checks that opening a file never changes the target of a link, nor creates the target of a dangling
     /// link.
@@ -186,6 +192,25 @@ mod tests {
         append_no_follow(&path).unwrap().write_all(b" two").unwrap();
         assert_eq!(read_no_follow(&path, 7).unwrap().unwrap(), b"one two");
         assert_eq!(read(&path, 6).unwrap(), None);
+    }
+
+    /// Checks that a file can be opened while a different thread keeps replacing it.
+    #[test]
+    fn replaced_files_are_opened() {
+        let home = tempfile::tempdir().unwrap();
+        let (path, next) = (home.path().join("file"), home.path().join("next"));
+        fs::write(&path, "new").unwrap();
+        thread::scope(|scope| {
+            let replacing = scope.spawn(|| {
+                for _ in 0..4_000 {
+                    fs::write(&next, "new").unwrap();
+                    fs::rename(&next, &path).unwrap();
+                }
+            });
+            while !replacing.is_finished() {
+                read_no_follow(&path, 3).expect("a file is always there");
+            }
+        });
     }
 
     /// Checks that pipes are not opened, because a pipe without a writer would block forever.
