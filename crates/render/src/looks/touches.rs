@@ -1,4 +1,4 @@
-//! What the avatar's touch of a sprite does: what it gives, makes, opens and changes.
+//! The effects of the avatar's touch of a sprite: the things that the touch gives, makes, opens and changes.
 
 use super::glyph::changes_speed;
 use super::{remarks, wins};
