@@ -44,7 +44,7 @@ pub(crate) use every_criterion;
 /// The assumptions that a level criterion makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// The criterion does not depend on play, or its failure is the reason for skipping other criteria.
+    /// The criterion does not depend on play, or other criteria are skipped if it fails.
     Start,
     /// The criterion examines episodes that get beyond the first tick.
     Play,

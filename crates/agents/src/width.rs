@@ -33,9 +33,9 @@ base::with_defaults! {
         pub horizon: usize = 12,
         /// The weight of a loss, in multiples of the largest gain seen.
         pub loss: f64 = 10.0,
-        /// The value, in points, of reaching a state with an atom that is new in this episode. An atom that
-        /// was present in one earlier tick is worth half as much, and an atom that was present in two a
-        /// third.
+        /// The value, in points, of reaching a state with an atom that is new in this episode. An atom present
+        /// in one earlier tick is worth half as much, one present in two earlier ticks a third as much, and so
+        /// on.
         pub curiosity: f64 = 0.1,
     }
 }

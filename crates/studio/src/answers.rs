@@ -143,7 +143,7 @@ pub(crate) fn asked<I: DeserializeOwned + Send + 'static, O: Serialize + 'static
     post(answer)
 }
 
-/// A flag that is set once the client no longer waits for the response.
+/// A flag that is set once the client is no longer waiting for the response.
 pub(crate) struct Asker(Arc<AtomicBool>);
 
 impl Asker {

@@ -173,7 +173,7 @@ fn rule(line: &str) -> Line<'_> {
     Line::styled(line, style)
 }
 
-/// Returns a text that describes the player and what triggers the next tick.
+/// Returns a description of the player and of what triggers the next tick.
 fn manner(session: &Session) -> String {
     let ticks = session.episode().actions.len();
     let who = match &session.player {

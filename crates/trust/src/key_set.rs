@@ -23,7 +23,7 @@ const FORMAT: u32 = 1;
 pub struct KeySet {
     /// The format version, currently 1.
     pub format: u32,
-    /// The set's number. The first set has number 1.
+    /// The set's number, starting at 1.
     pub version: u32,
     /// The minimum number of keys that must sign.
     pub threshold: u32,

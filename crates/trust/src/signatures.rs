@@ -81,9 +81,9 @@ pub struct Signed {
 /// The signed documents in a folder.
 #[derive(Clone, Debug, Default)]
 pub struct Signatures {
-    /// The key sets, by file name. If a set cannot be read, its fault is stored instead.
+    /// The key sets, by file name. If a set cannot be read, the error is stored instead.
     sets: BTreeMap<String, Result<KeySet, String>>,
-    /// The statements, by file name. If a statement cannot be read, its fault is stored instead.
+    /// The statements, by file name. If a statement cannot be read, the error is stored instead.
     statements: BTreeMap<String, Result<Statement, String>>,
     /// The signatures, by the name of the signed file.
     signatures: BTreeMap<String, Vec<String>>,

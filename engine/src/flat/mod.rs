@@ -3,9 +3,8 @@
 //! From the list of fields, the macro derives copies that reuse buffers, the size of a copy, and the
 //! differences between two values (`pack.rs`).
 
-/// Declares a struct. `copied` fields are copied, but differences omit them. `numbers` and `buffers` are part
-/// of differences. `scratch` buffers are empty between steps. `shared` fields are the same in all states of a
-/// level.
+/// Declares a struct. `copied` fields are copied but left out of diffs. `numbers` and `buffers` are included in
+/// diffs. `scratch` buffers are empty between steps. `shared` fields are the same in all states of a level.
 macro_rules! flat {
     (
         $(#[$doc:meta])*

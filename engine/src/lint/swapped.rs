@@ -26,9 +26,10 @@ const MAX_LINES: usize = 128;
 /// swapped rule.
 const MAX_TRIED: usize = 1 << 13;
 
-/// Returns the only interaction that makes the game winnable if its sides are swapped, but not if it is
-/// removed. `wins` returns whether a game can be won. Returns `None` if there is no such interaction or more
-/// than one. Skips unusually large games. Cost: two compilations and two calls of `wins` per line.
+/// Returns the single interaction for which swapping the sides makes the game winnable, but removing the
+/// interaction does not. Returns `None` if there is no such interaction or more than one. `wins` returns
+/// whether a game can be won. Skips unusually large games. Cost: two compilations and two calls to `wins` per
+/// line.
 pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<SwappedRule> {
     let description = game.description();
     let lines = &description.interactions;

@@ -204,7 +204,8 @@ impl<'k> Draft<'k> {
         walls as f64 / ((right - 1) * (bottom - 1)).max(1) as f64
     }
 
-    /// Returns the maximum number of a piece on any board. Lines of barriers may exceed the usual number.
+    /// Returns the maximum number of copies of a piece on any board. Barriers drawn as lines may exceed the
+    /// usual maximum.
     pub(crate) fn most(&self, piece: &Piece) -> usize {
         match piece.idiom {
             Idiom::Barrier | Idiom::Crossing | Idiom::Ground | Idiom::Road if !piece.asked => {

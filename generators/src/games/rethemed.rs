@@ -197,8 +197,8 @@ impl Assigner<'_> {
         self.of_roles(roles)
     }
 
-    /// Returns the new name of a compound. A direction or a state is unchanged, and a type name becomes that type's new
-    /// word.
+    /// Returns the new name for a compound name. Directions and states in it are kept, and each type name is replaced
+    /// by that type's new word.
     fn compound(&mut self, name: &str, roles: &[&'static str]) -> Option<String> {
         self.stems.as_ref()?;
         if let Some((stem, way)) = DIRECTIONS.iter().find_map(|way| Some((name.strip_suffix(way)?, way))) {

@@ -147,7 +147,8 @@ impl Trials<'_> {
         found
     }
 
-    /// Searches for a win in a changed game, with an equal fraction of the remaining calls.
+    /// Searches for a win in a changed game. The remaining calls are divided equally among the changed games
+    /// not yet searched.
     fn won(&mut self, changed: Changed, waiting: &mut u64) -> Option<Won> {
         let share = self.left / (*waiting).max(1);
         *waiting = waiting.saturating_sub(1);

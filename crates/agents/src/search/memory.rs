@@ -38,12 +38,12 @@ pub struct TooLittle {
     pub least: usize,
 }
 
-/// Limits this process to about `bytes` bytes of memory, if at most `threads` threads search at the same
-/// time. Searches wait for each other if necessary. No result depends on the limit.
+/// Limits this process to about `bytes` bytes of memory, assuming that at most `threads` threads search at the
+/// same time. Searches wait for each other if necessary. No result depends on the limit.
 ///
 /// # Errors
 ///
-/// Returns an error if the limit is too small for one search of a gibibyte and small searches on all threads.
+/// Returns an error if the limit is too small for one 1 GiB search plus a small search on every thread.
 pub fn bound(bytes: usize, threads: usize) -> Result<(), TooLittle> {
     let small = FREE.saturating_mul(threads).saturating_add(REST);
     let least = small.saturating_add(LARGEST - FREE);

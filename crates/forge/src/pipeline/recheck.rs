@@ -109,8 +109,8 @@ impl Levels<'_> {
         together.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 
-    /// Returns `true` if the game passes the gates with each of `times` further seeds. Each level's only known win is
-    /// then its witness.
+    /// Returns `true` if the game passes the gates with each of `times` further seeds. For these checks, the only
+    /// known win of each level is its witness.
     fn passes_gates_with(
         &self,
         game: &Game,

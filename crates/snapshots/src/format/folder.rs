@@ -114,10 +114,10 @@ pub(crate) fn list_but(root: &Path, limits: &Limits, names: &[&str]) -> Result<L
     Ok(Listing { entries, problems, passed_over, complete: true })
 }
 
-/// Reads the file at `relative` below `root`, which may have up to `limit` bytes.
+/// Reads the file at `relative` below `root`. The file may be at most `limit` bytes long.
 ///
 /// # Errors
-/// Returns an error if the path is unsafe, a component is a link, the entry is not a file, the file has more than
+/// Returns an error if the path is unsafe, a component is a link, the entry is not a file, the file is longer than
 /// `limit` bytes, or the file cannot be read.
 pub fn read(root: &Path, relative: &str, limit: u64) -> Result<Vec<u8>, SnapshotError> {
     let file = open(root, relative)?;

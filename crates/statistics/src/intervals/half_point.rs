@@ -36,7 +36,7 @@ const ITEM_PRECISION: f64 = 1.0 / (1.3 * 1.3 + 1.0);
 const SLOPE: (f64, f64) = (1.0, 1.0);
 /// The precision of the intercept's prior, whose mean is 0.
 const INTERCEPT_PRECISION: f64 = 1.0 / (20.0 * 20.0);
-/// The maximum number of Newton steps (typically 6).
+/// The maximum number of Newton steps. Typically, 6 are needed.
 const STEPS: usize = 60;
 /// The maximum factor by which a reported dose may lie outside the range of tried doses. The data say nothing
 /// about doses further outside.

@@ -7,9 +7,9 @@
 /// same model applies to levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spreads {
-    /// The standard deviation of game difficulty for planners.
+    /// For planners, the standard deviation of game difficulty.
     pub game: f64,
-    /// The standard deviation of level difficulty within a game for planners.
+    /// For planners, the standard deviation of level difficulty within a game.
     pub level: f64,
     /// The standard deviation of the match between a family of planners and a game.
     pub family: f64,

@@ -103,8 +103,8 @@ pub struct Aims {
     pub prevent: Vec<SpriteType>,
     /// The tick that wins the game if the player survives until then.
     pub survive: Option<i32>,
-    /// The first tick at which a Timeout loses the game, or may lose it, apart from the reference engine's
-    /// own tick limit.
+    /// The first tick at which a Timeout loses, or may lose, the game. The reference engine's own tick limit is
+    /// not considered.
     pub deadline: Option<i32>,
     /// `true` if losing the avatar loses the game.
     pub avatar_must_live: bool,

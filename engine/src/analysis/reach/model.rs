@@ -36,7 +36,7 @@ pub(super) struct Model<'a> {
     pub(super) scales: bool,
     /// For each type, the maximum number of cells by which other sprites can move its sprites in a tick.
     pub(super) pushed_far: Vec<i32>,
-    /// For each type, whether something other than its sprites themselves accelerates them.
+    /// For each type, whether its sprites can be accelerated by anything other than themselves.
     pub(super) forced: Vec<bool>,
     /// For each type, whether some effect gives it an orientation even if its class has no orientation.
     pub(super) takes_orientation: Vec<bool>,

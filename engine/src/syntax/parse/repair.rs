@@ -24,7 +24,7 @@ fn is_value(text: &str) -> bool {
     !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '.')
 }
 
-/// Returns the key and the value in a word without a separator between them.
+/// Splits a word that has no separator between its key and its value, and returns both.
 fn glued(word: &str) -> Option<(&str, &str)> {
     let truth = ["True", "False", "true", "false"].into_iter().find(|truth| word.ends_with(truth));
     let at = match truth {

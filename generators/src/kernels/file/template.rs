@@ -63,7 +63,7 @@ impl Template {
         Ok(Template(parts))
     }
 
-    /// Returns the text with the given values of the numbers.
+    /// Returns the text with its numbers set to the given values.
     pub(crate) fn fill(&self, values: &[u32]) -> String {
         let part = |part: &Part| match part {
             Part::Text(text) => text.clone(),

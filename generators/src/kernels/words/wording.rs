@@ -146,7 +146,8 @@ fn choices<'a>(
     ["floor", "wall"].map(|role| (role.to_owned(), of_role(role))).into_iter().chain(own).collect()
 }
 
-/// Returns the possible remainders of a text after a sentence filled with any of the nouns and any numbers.
+/// Matches a sentence, with any of the nouns and any numbers filled in, at the start of the text. Returns every
+/// possible rest of the text after the match.
 fn after<'t>(sentence: &str, nouns: &Choices, text: &'t str, is_start: bool) -> Vec<&'t str> {
     let Some(at) = sentence.find(['<', '{']) else {
         return text.strip_prefix(sentence).into_iter().collect();

@@ -250,15 +250,15 @@ impl Builder<'_> {
         self.board.steps(self.palette)
     }
 
-    /// Returns the distance in cells, ignoring obstacles, to the nearest sprite accepted by `like`; large if there is
-    /// no such sprite.
+    /// Returns the distance in cells, ignoring obstacles, to the nearest sprite accepted by `like`, or a large number
+    /// if there is no such sprite.
     pub(crate) fn apart(&self, cell: usize, like: impl Fn(SpriteType) -> bool) -> usize {
         let distances = self.log.iter().filter(|(_, stype)| like(*stype));
         distances.map(|(other, _)| self.board.grid.manhattan(cell, *other)).min().unwrap_or(99)
     }
 
-    /// Returns the distance in cells, ignoring obstacles, to the nearest sprite with a role; large if there is no such
-    /// sprite.
+    /// Returns the distance in cells, ignoring obstacles, to the nearest sprite with the given role, or a large number
+    /// if there is no such sprite.
     pub(crate) fn apart_from(&self, cell: usize, role: Role) -> usize {
         self.apart(cell, |stype| self.analysis.role(stype) == role)
     }

@@ -84,7 +84,8 @@ impl OfKernel<'_> {
 }
 
 impl Draws {
-    /// Returns a kernel's seed, and one game for each of its forms in the order in which they become sets.
+    /// Returns a kernel's seed, and one game for each of the kernel's forms, in the order in which the forms
+    /// are made into sets.
     fn of_kernel(&self, kernel: &str) -> (Seed, Vec<KernelGenome>) {
         let seed = self.seed.child("kernel", 0).child(kernel, 0);
         let mut all = KernelGenome::all_of(kernel);

@@ -6,7 +6,7 @@ use crate::sections::puzzles::PuzzleKind;
 use crate::sections::section::JobCost;
 use validators::{Criteria, Criterion, CriterionSet};
 
-/// The mean cost of a job per requested level, in seconds of one core: without gates or `skill`, with gates (as in
+/// The mean cost of a job per requested level, in core-seconds: without gates or `skill`, with gates (as in
 /// `starter`), and with both (as in `medium` and `2026-12`).
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
 /// The same for inventions. Without gates, four jobs of one seed took 17 seconds per level. With gates, the jobs of

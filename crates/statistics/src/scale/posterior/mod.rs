@@ -21,14 +21,14 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 /// The precision of the prior for an ability, or for a month's shift. The prior is weak, but it keeps the
 /// estimate defined if all episodes are lost.
 const FIXED_PRECISION: f64 = 1.0 / (5.0 * 5.0);
-/// The maximum number of Newton steps (typically 6, or 3 from a nearby mode).
+/// The maximum number of Newton steps. Typically, 6 are needed, or 3 when starting from a nearby mode.
 const STEPS: usize = 100;
 /// The step length below which the mode counts as found. Newton's method converges quadratically.
 const FOUND: f64 = 1e-5;
 /// The step length below which the expected values count as found. Steps to expected values converge only
 /// linearly.
 const FOUND_EXPECTED: f64 = 1e-6;
-/// The maximum number of steps to expected values (typically 15 to 60).
+/// The maximum number of steps to expected values. Typically, 15 to 60 are needed.
 const EXPECTED_STEPS: usize = 200;
 /// The fraction of each change in the variances that a step applies. Variances follow the means, so applying
 /// full changes can cause oscillation.

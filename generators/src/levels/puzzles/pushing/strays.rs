@@ -72,9 +72,10 @@ pub struct StrayLevel {
 
 /// A level generator for the rules in [`PushRules::AMONG_STRAYS`].
 ///
-/// Boards are open, so that the avatar is not cornered for long. The solution pushes one object after the other, always
+/// Boards are open, so that the avatar is not cornered for long. The solution pushes one object at a time, always
 /// choosing the object that takes the fewest steps. Strays pass over everything except walls. The win rate of a careful
-/// player that follows these pushes shows how often the level can be won by looking.
+/// player that follows these pushes shows how often the level can be won by a player that looks at the board before
+/// each action.
 pub struct StrayLevels {
     /// The game without strays.
     calm: Game,

@@ -129,7 +129,7 @@ impl<'a> Errands<'a> {
         Errands { yard, timetable, parcels }
     }
 
-    /// Returns the number of possible loads: an empty load, or a parcel of one of the kinds.
+    /// Returns the number of possible loads: one for carrying nothing, plus one for each kind of parcel.
     fn loads(&self) -> usize {
         self.yard.depots.len() + 1
     }

@@ -144,7 +144,7 @@ impl Yard {
         (self.carts.len() == carts).then_some(())
     }
 
-    /// Draws a sign for carts coming in a direction, preferring signs that lead to existing signs.
+    /// Draws a sign for carts travelling in the given direction, preferring signs that lead to existing signs.
     fn sign(&self, rules: YardRules, cell: usize, way: usize, sampler: &mut Sampler) -> Option<Sign> {
         let fixed = (0..WAYS.len()).filter(|&exit| exit != way).map(Sign::Fixed);
         let points = rules.has_points().then_some([Sign::Points(0), Sign::Points(RIGHT)]);

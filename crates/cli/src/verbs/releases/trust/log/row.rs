@@ -47,7 +47,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
     })
 }
 
-/// Returns the games and levels in the results that do not belong to their release. The list may be empty.
+/// Returns one message for each game or level file in the results that is not, byte for byte, in the release.
 pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, Failure> {
     let mut problems = Vec::new();
     for Leaf { path, digest } in leaves(folder)? {
