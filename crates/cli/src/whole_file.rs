@@ -58,8 +58,7 @@ impl Place {
         match fs::symlink_metadata(path) {
             Ok(found) if found.is_symlink() => Err(match target(path) {
                 Some(target) => malformed!(
-                    "cannot write `{name}`: it is a link; use the file that it leads to, `{}`, or remove the \
-                     link",
+                    "cannot write `{name}`: it is a link; use its target, `{}`, or remove the link",
                     target.in_message()
                 ),
                 None => malformed!("cannot write `{name}`: it is a link; remove it, or choose another file"),

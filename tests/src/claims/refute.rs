@@ -87,20 +87,20 @@ impl Fact {
             }),
             Fact::Absent(absent) => play.frames.iter().enumerate().find_map(|(at, frame)| {
                 let there = frame.sprites.iter().any(|record| stype(record) == *absent);
-                there.then(|| format!("{} is there in tick {at}", name(*absent)))
+                there.then(|| format!("{} is present in tick {at}", name(*absent)))
             }),
             Fact::OnlyTypes(types) => play.frames.iter().enumerate().find_map(|(at, frame)| {
                 let strange = |record: &&SpriteRecord| {
                     !types.contains(&stype(record)) && takes_part(case, stype(record))
                 };
                 let other = frame.sprites.iter().find(strange)?;
-                Some(format!("{} is there in tick {at}", name(stype(other))))
+                Some(format!("{} is present in tick {at}", name(stype(other))))
             }),
             Fact::OnlyMembers(group, types) => play.frames.iter().enumerate().find_map(|(at, frame)| {
                 let own = |record: &&SpriteRecord| case.analysis.applies(*group, stype(record));
                 let other =
                     frame.sprites.iter().filter(own).find(|record| !types.contains(&stype(record)))?;
-                Some(format!("{} is there in tick {at}", name(stype(other))))
+                Some(format!("{} is present in tick {at}", name(stype(other))))
             }),
             Fact::NeverMeet(first, second) => play.frames.iter().enumerate().find_map(|(at, frame)| {
                 let lines = &case.game.description().interactions;

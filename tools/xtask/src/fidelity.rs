@@ -34,7 +34,7 @@ pub(crate) struct Args {
     /// Published win rates to show for comparison: a CSV with the columns agent, setting and the games
     #[arg(long, value_name = "FILE")]
     paper: Option<PathBuf>,
-    /// Episodes of each planner on each level
+    /// Number of episodes per planner and level
     #[arg(long, value_name = "N", default_value_t = 5)]
     runs: u64,
     /// Maximum number of ticks per episode

@@ -135,7 +135,8 @@ fn refuse_python(path: &Path, text: &str) -> Result<(), Failure> {
     };
     let out = path.file_stem().map_or_else(|| "game".into(), |stem| stem.to_string_lossy());
     bail!(
-        "{}: this is a Python file with a game in the dialect of py-vgdl (line {}) and {levels}; convert it first: arcade fmt --from py-vgdl {} --out {}",
+        "{}: this is a Python file that contains a game in the py-vgdl dialect (line {}) and {levels}; \
+         convert it first: arcade fmt --from py-vgdl {} --out {}",
         path.in_message(),
         found.line,
         shell::quoted(path),

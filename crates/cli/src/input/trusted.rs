@@ -23,10 +23,12 @@ const MAX_ANCHOR: u64 = 1 << 16;
 /// The key on which trust in a release's root is based.
 #[derive(Clone, clap::Args)]
 pub(crate) struct TrustArgs {
-    /// The publisher's public key (NAME.pub) or set of keys (keys-N.json), from another source; the root must be signed with it
+    /// The publisher's public key (NAME.pub) or set of keys (keys-N.json), from a source other than the release; the
+    /// root must be signed with it
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
-    /// The folder of the signatures [default: `papers/signatures` in the snapshot, `NAME.signatures` beside an archive]
+    /// The folder with the signatures [default: `papers/signatures` in the snapshot, `NAME.signatures` beside an
+    /// archive]
     #[arg(long, value_name = "DIR", requires = "key")]
     signatures: Option<PathBuf>,
 }

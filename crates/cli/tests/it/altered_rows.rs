@@ -321,7 +321,7 @@ fn altered_logs_are_refused() {
         assert_ne!(altered, rows.honest, "{number}");
         rows.write(&altered);
         let (status, said) = rows.check("log", &[]);
-        let words = "no row of the log has the digest of these results, ";
+        let words = "no row in the log has the digest of these results, ";
         assert!(status == Some(1) && said.contains(words), "{number}: {said}");
         let digest = said.split(words).nth(1).unwrap().split(':').next().unwrap();
         rows.forge(digest.parse().unwrap());
@@ -359,7 +359,7 @@ fn altered_bytes_are_refused() {
         rows.write(&altered);
         let (status, said) = rows.check("log", &[]);
         assert!(
-            status == Some(1) && said.contains("no row of the log has the digest of these results"),
+            status == Some(1) && said.contains("no row in the log has the digest of these results"),
             "{number}: {said}"
         );
     }

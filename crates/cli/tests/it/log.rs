@@ -148,10 +148,10 @@ fn a_sealed_month_waits_for_its_beacon() {
     prove(&["--since", "seen", "--out", "growth"], 0, "from 1 to 4 entries");
     let proved = ["trust", "log", "check", "--key", "log.pub", "--proof", "proof", "--entry"];
     says(folder, &[&proved[..], &["entry"]].concat(), 0, "entry 2 of 4 in the log example.org/arcade");
-    says(folder, &[&proved[..], &["2027-01.toml"]].concat(), 1, "NOT proved");
+    says(folder, &[&proved[..], &["2027-01.toml"]].concat(), 1, "NOT proven");
     let growth = ["trust", "log", "check", "--key", "log.pub", "--growth", "growth", "--seen"];
     says(folder, &[&growth[..], &["seen"]].concat(), 0, "has grown from 1 to 4 entries");
-    says(folder, &[&growth[..], &["seen-2"]].concat(), 1, "NOT proved to have only grown");
+    says(folder, &[&growth[..], &["seen-2"]].concat(), 1, "NOT proven to be append-only");
 
     // A witness signs only extensions of the checkpoint that it signed before.
     run(folder, &["trust", "keygen", "w", "--no-password"], 0);
@@ -471,7 +471,7 @@ fn rows_are_replayed() {
     };
     assert_ne!(honest, altered);
     fs::write(&episode, altered).unwrap();
-    says(folder, &check, 1, "no row of the log has the digest of these results");
+    says(folder, &check, 1, "no row in the log has the digest of these results");
     let said = text(&run(folder, &again, 2).stderr);
     assert!(!said.contains("are already in the log"), "{said}");
 }

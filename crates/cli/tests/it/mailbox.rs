@@ -103,9 +103,12 @@ fn malformed_requests_are_reported() {
     };
     check(&["mailbox", "box"], "there is no mailbox here");
     check(&["evaluate", "hailglass", "--player", "mailbox:"], "`mailbox:` has no folder");
-    check(&["evaluate", "hailglass", "--player", "random", "--name", "bob"], "--name applies to the players");
+    check(
+        &["evaluate", "hailglass", "--player", "random", "--name", "bob"],
+        "--name applies only to the players",
+    );
     for flag in ["--timeout", "--tries", "--concurrency"] {
-        let applies = format!("{flag} applies to language models");
+        let applies = format!("{flag} applies only to language models");
         check(&["evaluate", "hailglass", "--player", "mailbox:box", flag, "5"], &applies);
     }
     std::fs::write(home.path().join("box"), "a file").unwrap();

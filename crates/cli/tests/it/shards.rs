@@ -140,7 +140,7 @@ fn kill_and_resume(folder: &Path, mint: &[&str]) {
     }
     if !folder.join("out").exists() {
         let output = run(folder, &[mint, &["--out", "out", "--resume"]].concat(), 0);
-        assert!(text(&output.stderr).contains("jobs were finished before"), "{}", text(&output.stderr));
+        assert!(text(&output.stderr).contains("jobs were already finished"), "{}", text(&output.stderr));
     }
     assert!(!folder.join("out.partial").exists());
 }
@@ -213,7 +213,7 @@ fn more_candidates_reuse_finished_jobs() {
     recipe(folder);
     let output = run(folder, &["release", "slices.toml", "--out", "out", "--resume"], 0);
     let said = text(&output.stderr);
-    assert!(said.contains("4 of 4 jobs were finished before"), "{said}");
+    assert!(said.contains("4 of 4 jobs were already finished"), "{said}");
     assert!(said.contains("minting takes 0 seconds: there is nothing to make"), "{said}");
     run(folder, &["verify", "out"], 0);
 }

@@ -31,7 +31,7 @@ fn releases_are_signed_by_enough_keys() {
         let mode = fs::metadata(folder.join("ada.key")).unwrap().permissions().mode();
         assert_eq!(mode & 0o777, 0o600);
     }
-    says(folder, &["trust", "keygen", "ada", "--no-password"], 2, "a key is never overwritten");
+    says(folder, &["trust", "keygen", "ada", "--no-password"], 2, "keys are never overwritten");
     // A lost public key is written again.
     let public = fs::read(folder.join("ada.pub")).unwrap();
     fs::remove_file(folder.join("ada.pub")).unwrap();

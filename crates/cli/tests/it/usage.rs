@@ -390,7 +390,7 @@ fn files_are_written_where_they_were_named() {
         &["play", "game", "--record"],
     ] {
         for (out, words) in [
-            ("link.txt", "it is a link; use the file that it leads to"),
+            ("link.txt", "it is a link; use its target"),
             ("pipe.txt", "it is not a file; choose a regular file"),
             ("game/lvl0.txt", "this command reads that file; choose another file"),
             ("game/../game/lvl0.txt", "this command reads that file; choose another file"),

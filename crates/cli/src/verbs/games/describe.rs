@@ -22,7 +22,7 @@ pub(crate) struct Args {
     /// A level file, or the number of one of the game's own levels
     #[arg(value_name = "LEVEL")]
     level: Option<String>,
-    /// Load the game as the reference engine does, and overlook the faults that the reference engine overlooks
+    /// Load the game as the reference engine does, and tolerate the faults that it tolerates
     #[arg(long)]
     as_reference: bool,
 }

@@ -13,10 +13,10 @@ use engine::{Diagnostics, MAX_SOURCE, dialect, syntax};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// Prints a game in canonical form: sections in order, an indent of four spaces, comments kept.
+/// Prints a game in canonical form: sections in order, indented by four spaces, with its comments.
 ///
-/// With --from, converts a game from a different dialect. Everything with an exact equivalent is converted, and the rest is
-/// listed with its lines on standard error. Exit status 1 means that something could not be converted.
+/// With --from, converts a game from a different dialect. Everything with an exact equivalent is converted, and the
+/// rest is listed on standard error with line numbers. Exit status 1 means that something could not be converted.
 ///
 /// Examples: arcade fmt my-game.vgdl > tidy.vgdl, arcade fmt --from py-vgdl aliens.py --out aliens
 #[derive(clap::Args)]
@@ -31,7 +31,8 @@ pub(crate) struct Args {
     /// The dialect that the game is written in
     #[arg(long, value_name = "DIALECT")]
     from: Option<From>,
-    /// Write the converted game and its levels to this folder, as game.vgdl and lvl0.txt …, instead of printing it
+    /// Write the converted game and its levels to this folder, as game.vgdl, lvl0.txt and so on, instead of printing
+    /// it
     #[arg(long, value_name = "DIR", requires = "from")]
     out: Option<PathBuf>,
 }

@@ -12,10 +12,10 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use studio::{TEMPLATES, Template};
 
-/// Writes a new game to start from: a folder with commented rules of some twenty lines and two levels.
+/// Writes a new game to start from: a folder with about twenty lines of commented rules and two levels.
 ///
-/// The game is playable at once, and its comments explain the language. `arcade docs first-game` leads from the first game to a
-/// game of your own.
+/// The game is playable at once, and its comments explain the language. `arcade docs first-game` explains how to turn
+/// it into a game of your own.
 ///
 /// Example: arcade new river-post --like crossing
 #[derive(clap::Args)]

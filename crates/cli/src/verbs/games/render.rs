@@ -19,8 +19,8 @@ const GIF_SIDE: u32 = 480;
 
 /// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the extension of the file.
 ///
-/// A sprite's shape shows its role: spikes, teeth and angry eyes harm, a star wins, bricks block, the figure in the bright ring
-/// is the player. The colour is the game's own.
+/// A sprite's shape shows its role: spikes, teeth and angry eyes harm, a star wins, bricks block, and the figure in
+/// the bright ring is the player. The colours are the game's own.
 ///
 /// Example: arcade render hailglass 0 --planner mcts --budget 500 -o hailglass.gif
 #[derive(clap::Args)]
@@ -55,13 +55,13 @@ pub(crate) struct Args {
     /// Ticks per second of a GIF
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=50))]
     fps: u16,
-    /// Add the sprite types of the game with their names
+    /// Add a legend with the game's sprite types and their names
     #[arg(long)]
     legend: bool,
-    /// Leave out the caption: tick, score, resources of the avatar, outcome
+    /// Leave out the caption (tick, score, the avatar's resources, outcome)
     #[arg(long)]
     bare: bool,
-    /// Load the game as the reference engine does, and overlook the faults that the reference engine overlooks
+    /// Load the game as the reference engine does, and tolerate the faults that it tolerates
     #[arg(long)]
     as_reference: bool,
     /// The file to write, ending in .png, .svg, .gif or .txt; `-` for text on standard output
@@ -247,7 +247,7 @@ impl Subject<'_> {
 
 /// Converts a rendering error into a malformed question, because only an invalid size can cause one.
 fn failed(error: RenderError) -> Failure {
-    let help = "--scale sets the pixels of a cell";
+    let help = "--scale sets the number of pixels per cell";
     match error {
         RenderError::Cell { .. } => malformed!("--scale: {error}"),
         RenderError::TooLarge { .. } | RenderError::TooLargeForGif { .. } => {

@@ -20,10 +20,12 @@ const PAUSE: Duration = Duration::from_millis(100);
 /// checks take two seconds.
 const PATIENCE: u32 = 20;
 
-/// Shows the prompts that wait in the mailbox of an evaluation, one at a time, and answers them with the lines that you type.
+/// Shows the prompts that are waiting in an evaluation's mailbox, one at a time, and answers them with the lines that
+/// you type.
 ///
-/// A line is an action, such as `left`, its first letters or an arrow key, or a command: `list`, `rules`, `show`, `skip`, `quit`,
-/// `help`; `say TEXT` answers with the text as it is. With --json, the waiting prompts are listed and nothing is answered.
+/// A line is an action, such as `left`, its first letters or an arrow key, or a command: `list`, `rules`, `show`,
+/// `skip`, `quit`, `help`; `say TEXT` sends the text verbatim. With --json, the waiting prompts are listed and
+/// nothing is answered.
 ///
 /// Exit status 0: listed, or the evaluation is over. 1: it is not over. 2: there is no mailbox. 3: the disk failed.
 ///
@@ -268,9 +270,9 @@ impl Session<'_> {
 }
 
 const HELP: &str = "an action, its first letters, or an arrow key: answers the prompt
-say TEXT: answers with the text as it is
+say TEXT: sends the text verbatim
 show: shows the turn again; rules: the rules, the legend and the format
-list: shows the prompts that are waiting; skip: answers another episode first; quit: leaves, and the evaluation keeps waiting";
+list: shows the prompts that are waiting; skip: moves on to another episode; quit: leaves, and the evaluation keeps waiting";
 
 /// Returns the terminal's width in columns, or `None` if the output is not a terminal or the width is
 /// unknown.
@@ -343,7 +345,7 @@ fn listed(desk: &Desk, view: &View) -> String {
     let waiting = |open: &OpenPrompt| {
         let prompt = &open.prompt;
         let problem = open.problem.as_ref().map_or(String::new(), |problem| format!("; {problem}"));
-        format!("{}: step {} waits for {}{problem}", prompt.episode, prompt.address.step, prompt.answer)
+        format!("{}: step {} is waiting for {}{problem}", prompt.episode, prompt.address.step, prompt.answer)
     };
     let state = match (&view.finished, view.waiting.len(), view.is_running) {
         (Some(finished), ..) => {
@@ -376,7 +378,7 @@ fn words(outcome: engine::Outcome) -> &'static str {
         engine::Outcome::Won => "won",
         engine::Outcome::Lost => "lost",
         engine::Outcome::Ended => "over without a winner",
-        engine::Outcome::Ongoing => "not won within the limit of steps",
+        engine::Outcome::Ongoing => "not won within the step limit",
         engine::Outcome::Stopped(_) => "stopped by an error in the rules",
     }
 }

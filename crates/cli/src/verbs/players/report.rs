@@ -21,13 +21,13 @@ use std::path::PathBuf;
 /// Example: arcade report results/random results/mcts-100 --out report
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Results folders, as `arcade evaluate` writes them
+    /// Results folders written by `arcade evaluate`
     #[arg(value_name = "RESULTS", required = true)]
     results: Vec<PathBuf>,
     /// Folder for the report, absent or empty
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// The number of episodes of each player that the page shows step by step, failures first; 0 for none
+    /// Number of episodes per player that the page shows step by step, failures first; 0 for none
     #[arg(long, value_name = "N", default_value_t = 4)]
     replays: usize,
     /// The published root of the release to which all results must belong

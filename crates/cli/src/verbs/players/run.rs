@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Plays planners on games and reports win rates with 95% intervals, per game and pooled.
+/// Runs planners on games and reports win rates with 95% intervals, per game and pooled.
 ///
 /// Exit status 0: done. 1: the engine stopped an episode because of a fault in its game, so that the rate says nothing about the
 /// player.
@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 /// Example: arcade run corpora --planner random,mcts,olets:500 --budget 1000 --runs 5
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Games, or folders of games; corpus games by name. A level file counts for its game alone
+    /// Games, or folders of games; corpus games by name. A level file is played instead of its game's other levels
     #[arg(value_name = "GAMES", required = true)]
     games: Vec<String>,
     /// Planners, each optionally with its own budget: `mcts,olets:500` (see `arcade docs planners`)
@@ -38,7 +38,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "CALLS", default_value_t = 1000, allow_negative_numbers = true,
         value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: u64,
-    /// Episodes of each planner on each level
+    /// Number of episodes per planner and level
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES), allow_negative_numbers = true)]
     runs: u64,
     /// Maximum number of ticks per episode
@@ -50,7 +50,7 @@ pub(crate) struct Args {
     /// Add a row for each level
     #[arg(long)]
     by_level: bool,
-    /// Load games as the reference engine does, and overlook the faults that the reference engine overlooks
+    /// Load games as the reference engine does, and tolerate the faults that it tolerates
     #[arg(long)]
     as_reference: bool,
     /// Also write one line per episode to this file

@@ -10,11 +10,11 @@ use std::fmt::Write;
 
 /// Prints a page of the manual as text. Without PAGE, lists the pages. Any other word is searched for in all pages.
 ///
-/// The code of a diagnostic is a page (no-avatar), and so is every sprite class, effect and termination of VGDL
+/// Every diagnostic code is a page, such as no-avatar, and so is every sprite class, effect and termination of VGDL
 /// (killSprite). Names in [brackets] in a page are pages themselves. --json prints the page as Markdown.
 ///
-/// Examples: arcade docs first-game
-/// and: arcade docs boat
+/// Examples: arcade docs first-game,
+/// arcade docs boat
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The page's name, or words to look for
@@ -96,7 +96,7 @@ fn found(pages: &[Page], wanted: &str, about_verb: &[&str], console: &Console) -
     if !about_verb.is_empty() {
         console.say(format_args!("`arcade {wanted} --help` lists the flags of `{wanted}`"));
     }
-    console.say(format_args!("there is no page `{wanted}`; these pages are about it:\n"));
+    console.say(format_args!("there is no page `{wanted}`; these pages mention the term:\n"));
     let width = hits.iter().map(|(page, _)| page.name.len()).max().unwrap_or_default();
     for (page, line) in &hits {
         console.say(format_args!("{:<width$}  {line}", page.name));

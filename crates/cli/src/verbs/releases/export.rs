@@ -55,9 +55,9 @@ enum FormatName {
     /// Apache Parquet
     #[cfg(feature = "parquet")]
     Parquet,
-    /// A folder for each game, with game.vgdl and its levels, as `arcade evaluate` and `arcade run` take them
+    /// A folder for each game, with game.vgdl and its levels, as accepted by `arcade evaluate` and `arcade run`
     Games,
-    /// The release itself as one .tar.zst, which `arcade verify` takes
+    /// The release itself as one .tar.zst, as accepted by `arcade verify`
     Archive,
 }
 

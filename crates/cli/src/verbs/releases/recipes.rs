@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 
 /// Lists the recipes that come with arcade, prints one, or writes a new one with comments.
 ///
-/// Examples: arcade recipes new 2027-01
-/// and: arcade recipes show starter > mine.toml
+/// Examples: arcade recipes new 2027-01,
+/// arcade recipes show starter > mine.toml
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(subcommand)]
@@ -73,7 +73,7 @@ fn list(console: &Console) -> Answer {
         let what = recipe.description.trim();
         console.say(format_args!("{:<width$}  {games:>3} games, {levels:>3} levels  {what}", recipe.name));
     }
-    console.say("\nprint one: arcade recipes show starter; begin your own: arcade recipes new NAME; what each line means: arcade docs recipes");
+    console.say("\nprint one: arcade recipes show starter; start your own: arcade recipes new NAME; look up what each line means: arcade docs recipes");
     Ok(true)
 }
 
@@ -105,7 +105,10 @@ fn new(path: &Path, console: &Console) -> Answer {
     protected::check(&file)?;
     disk::create(&file, text.as_bytes(), Access::Shared).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => {
-            malformed!("`{}` exists, and no recipe is overwritten: choose another name", file.in_message())
+            malformed!(
+                "`{}` already exists, and recipes are never overwritten: choose another name",
+                file.in_message()
+            )
         }
         _ => Failure::write(&file, error),
     })?;

@@ -175,12 +175,15 @@ fn malformed_requests_are_reported() {
         (&["hailglass", "--model", "openai:m", "--jobs", "3"], "--concurrency"),
         (&["hailglass", "--model", "m", "--base-url", "http://127.0.0.1:99999/v1"], "from 1 to 65535"),
         (&["hailglass", "--player", "random", "--timeout", "0"], "0 is not in 1.."),
-        (&["hailglass", "--player", "random", "--tries", "2"], "--tries applies to language models"),
+        (&["hailglass", "--player", "random", "--tries", "2"], "--tries applies only to language models"),
         (
             &["hailglass", "--player", "mcts", "--timeout", "9"],
-            "--timeout applies to language models (--model) and",
+            "--timeout applies only to language models (--model) and",
         ),
-        (&["hailglass", "--player", "random", "--max-cost", "5"], "--max-cost applies to language models"),
+        (
+            &["hailglass", "--player", "random", "--max-cost", "5"],
+            "--max-cost applies only to language models",
+        ),
         (&["hailglass", "--player", "random", "--temperature", "1"], "remove it for the player `random`"),
         (&["hailglass", "--player", "random", "--with", "image"], "remove them for the player `random`"),
         (

@@ -28,16 +28,17 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use validators::{Criteria, Effort, GameForm, Judging, Panel};
 
-/// Makes new games: invented rules, names for their things, and levels from introduction to exam. The same flags give the
-/// same bytes, on any number of threads.
+/// Makes new games: invented rules, names for the sprites, and levels that range from introduction to exam. The same
+/// flags give the same bytes, on any number of threads.
 ///
-/// A game takes some minutes of one core. With --kind, the rules are drawn from hand-written kernels instead, in half a
-/// minute each.
+/// A game takes a few minutes on one core. With --kind, the rules are drawn from hand-written kernels instead, and a
+/// game takes about half a minute.
 ///
-/// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random players win, that
-/// the game passes all gates (`arcade docs gates`), and that it is not close to any corpus game or any other game of the set. The
-/// output folder contains one folder per game, as a release does: game.vgdl, lvl0.txt and so on, card.json, witness/;
-/// `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is complete or absent.
+/// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random
+/// players win, that the game passes all gates (`arcade docs gates`), and that it is not close to any corpus game or
+/// to any other game in the set. Like a release, the output folder contains one folder per game, with game.vgdl,
+/// lvl0.txt and so on, card.json and witness/; `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is
+/// complete or absent.
 ///
 /// An interrupted run leaves its finished attempts in OUT.partial; --resume continues it and gives the same bytes.
 ///
@@ -57,10 +58,10 @@ pub(crate) struct Args {
     /// Text to derive the seeds from
     #[arg(long, value_name = "TEXT", default_value = "games")]
     seed: String,
-    /// Make only games of hand-written kernels of this kind, such as shooter or rescue. May be repeated
+    /// Make only games from hand-written kernels of this kind, such as shooter or rescue. May be repeated
     #[arg(long, value_name = "KIND", value_parser = kind)]
     kind: Vec<Kind>,
-    /// Number of levels of each game
+    /// Number of levels per game
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=20))]
     levels: u32,
     /// Judge the games again, and write a report to this folder, absent or empty: report.html, report.json,
@@ -318,7 +319,8 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     if missing > 0 {
         let _ = writeln!(
             text,
-            "{missing} could not be made: all attempts are used up: request fewer games or other kinds, or use a different seed"
+            "{missing} could not be made, because all attempts are used up: request fewer games or different \
+             kinds, or use a different seed"
         );
     }
     let out = args.out.in_message();

@@ -24,10 +24,10 @@ use validators::{Criterion, Difficulty, RuleRef};
 
 /// Makes new levels for a game. The same flags give the same bytes, on any number of threads.
 ///
-/// `search` and `evolutionary` levels come with a winning episode. Doing nothing never wins them, and random keys do so rarely at
-/// most. `constructive` levels are instant and not judged, unless you request a property that has to be measured: a difficulty, a
-/// length or a rule. The folder contains the game, its new levels, and levels.json with facts about each level;
-/// `arcade validate DIR` and `arcade play DIR` accept it directly. It is complete or absent.
+/// `search` and `evolutionary` levels come with a winning episode. Doing nothing never wins them, and random keys
+/// rarely do. `constructive` levels are instant and not judged, unless you request a property that has to be
+/// measured: a difficulty, a length or a rule. The folder contains the game, its new levels, and levels.json with
+/// facts about each level; `arcade validate DIR` and `arcade play DIR` accept it directly. It is complete or absent.
 ///
 /// Exit status 0: all requested levels were made. 1: fewer, or none. 2: the game or a flag is malformed.
 ///
@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// own levels
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(usize, usize)>,
-    /// Minimum number of ticks of the shortest win found
+    /// Minimum number of ticks in the shortest win found
     #[arg(long, value_name = "TICKS")]
     min_solution: Option<usize>,
     /// A rule that the win must use, given by its two sprites (`box hole`), with the effect if necessary, or
@@ -67,7 +67,7 @@ pub(crate) struct Args {
     /// sheet.png
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// Load the game as the reference engine does, and overlook the faults that the reference engine overlooks
+    /// Load the game as the reference engine does, and tolerate the faults that it tolerates
     #[arg(long)]
     as_reference: bool,
     /// The folder for the new levels, absent or empty

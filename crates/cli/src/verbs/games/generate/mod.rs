@@ -8,8 +8,8 @@ use crate::failure::{Answer, Failure};
 
 /// Makes new games, or new levels for a hand-made or generated game.
 ///
-/// Examples: arcade generate games --count 5 --out new-games
-/// and: arcade generate levels --game hailglass --count 5 --out new-levels
+/// Examples: arcade generate games --count 5 --out new-games,
+/// arcade generate levels --game hailglass --count 5 --out new-levels
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(subcommand)]

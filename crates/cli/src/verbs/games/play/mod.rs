@@ -16,8 +16,8 @@ const MAX_PACE: i64 = 60;
 ///
 /// Keys: arrows or WASD move, space uses, `.` waits, `p` pauses, `n` plays one tick, `u` takes one back, `r`
 /// restarts, `+` and `-` change the pace, `t` changes between turn by turn and real time, Page Up and Page Down
-/// scroll the rules, `q` quits. A game in which nothing happens unless you act waits for you; in the others the clock
-/// runs.
+/// scroll the rules, `q` quits. A game in which nothing happens unless you act waits for you; in other games, the
+/// clock runs.
 ///
 /// Example: arcade play quiet-jars 0 --record win.json
 #[derive(clap::Args)]
@@ -49,7 +49,7 @@ pub(crate) struct Args {
     /// Use ASCII symbols only
     #[arg(long)]
     ascii: bool,
-    /// Load the game as the reference engine does, and overlook the faults that the reference engine overlooks
+    /// Load the game as the reference engine does, and tolerate the faults that it tolerates
     #[arg(long)]
     as_reference: bool,
 }
@@ -57,5 +57,5 @@ pub(crate) struct Args {
 /// Rejects the command, because this build lacks the terminal player.
 #[cfg(not(feature = "terminal"))]
 pub(crate) fn run(_: &Args, _: &crate::console::Console) -> crate::failure::Answer {
-    Err(malformed!("this program was built without the feature `terminal`: use `arcade studio`"))
+    Err(malformed!("this program was built without the `terminal` feature: use `arcade studio`"))
 }

@@ -110,10 +110,12 @@ fn text(report: &Report) -> String {
         let preferred = percent(*rate, *low, *high);
         let again = percent(again.rate, again.low, again.high);
         text += &format!(
-            "{name}: better in {wins}, worse in {losses}, equal in {ties}; preferred {preferred}; again {again}"
+            "{name}: better in {wins}, worse in {losses}, equal in {ties}; preferred {preferred}; would play \
+             again {again}"
         );
         if machine.of > 0 {
-            text += &format!("; taken for a machine's {}", percent(machine.rate, machine.low, machine.high));
+            text +=
+                &format!("; judged to be machine-made {}", percent(machine.rate, machine.low, machine.high));
         }
         text.push('\n');
     }

@@ -16,10 +16,10 @@ use studio::{Kind, Server, Stop, Studio, Workspace};
 
 /// Opens a page on this machine to write, check, play and browse games, until Ctrl-C.
 ///
-/// Without an argument, it shows the games that this program carries. In a folder of games, every game can be edited; a game of
-/// the corpus or of a release is copied first. The first line of output is the address of the page. Only this machine can reach
-/// it, and only with the token in the address; see `arcade docs studio`. With --judge, it shows pairs of games instead, without
-/// revealing where they come from, and records people's judgements.
+/// Without an argument, it shows the games that are built into this program. In a folder of games, every game can be
+/// edited; a game of the corpus or of a release is copied first. The first line of output is the address of the page.
+/// Only this machine can reach it, and only with the token in the address; see `arcade docs studio`. With --judge, it
+/// shows pairs of games instead, without revealing where they come from, and records people's judgements.
 ///
 /// Example: arcade studio my-game/
 #[derive(clap::Args)]
@@ -47,7 +47,7 @@ pub(crate) struct Args {
     chain: Vec<PathBuf>,
     #[command(flatten)]
     trust: TrustArgs,
-    /// Games to judge in pairs, blindly: a folder of games, a release, or `corpus`. Give this flag at least twice
+    /// Games to judge blindly, in pairs: a folder of games, a release, or `corpus`. Give this flag at least twice
     #[arg(long, value_name = "GAMES", conflicts_with = "place")]
     judge: Vec<String>,
     /// Text to derive the pairs and their sides from

@@ -224,6 +224,7 @@ pub(crate) fn of_release(path: &Path, released: Released, copies: PathBuf) -> Wo
 pub(super) fn unsound(path: &Path, error: &snapshots::released::ReleasedError) -> Failure {
     let name = path.in_message();
     malformed!(
-        "{name}: {error}; `arcade verify {name}` lists all problems, `arcade studio {name}/games` opens its games without trust"
+        "{name}: {error}; `arcade verify {name}` lists all problems, `arcade studio {name}/games` opens its \
+         games without verifying them"
     )
 }

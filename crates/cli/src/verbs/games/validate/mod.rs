@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use std::path::PathBuf;
 use validators::{Criteria, CriterionSet, Effort, Judging, Panel, Report};
 
-/// Judges a game and its levels: all problems of all files first, then each criterion of a release.
+/// Judges a game and its levels: all problems in all files first, then each criterion for a release.
 ///
 /// The verdict comes first: one line per level and one for the game. The warnings about the files follow, and then the criteria,
 /// each with its observations and advice. If no level is left out, the use of every rule is checked for the game over all its
@@ -46,7 +46,7 @@ pub(crate) struct Args {
     /// Text to derive the validators' seed from
     #[arg(long, value_name = "TEXT", default_value = "validate")]
     seed: String,
-    /// Load the game as the reference engine does, and overlook the faults that the reference engine overlooks
+    /// Load the game as the reference engine does, and tolerate the faults that it tolerates
     #[arg(long)]
     as_reference: bool,
     /// Write the winning episode to this file (for one level only)
@@ -158,7 +158,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                     console.say(format_args!("witness written to {}", path.in_message()));
                 }
             }
-            None => console.remark(format_args!("{}: not written, as no win was found", path.in_message())),
+            None => {
+                console.remark(format_args!("{}: not written, because no win was found", path.in_message()))
+            }
         }
     }
     Ok(passes)

@@ -83,7 +83,7 @@ fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
         .as_ref()
         .map_or(String::new(), |won| format!(": won in {}", base::count(won.actions.len(), "tick")));
     let hard = report.ladder().map_or(String::new(), |ladder| match ladder.difficulty {
-        Difficulty::Unbeaten => "; no planner of the ladder wins it".to_owned(),
+        Difficulty::Unbeaten => "; no planner on the ladder wins it".to_owned(),
         difficulty => format!(", {} for the planners", in_words(difficulty)),
     });
     format!("passes{won}{hard}")
@@ -198,7 +198,7 @@ fn board(text: &mut String, rows: &[String]) {
 fn ladder_results(text: &mut String, ladder: &Ladder) {
     let ease = ladder.ease.map_or(String::new(), |ease| format!(" (ease {ease:.2})"));
     let _ = match ladder.difficulty {
-        Difficulty::Unbeaten => writeln!(text, "       difficulty: no planner of the ladder wins it{ease}"),
+        Difficulty::Unbeaten => writeln!(text, "       difficulty: no planner on the ladder wins it{ease}"),
         difficulty => writeln!(text, "       difficulty: {} for the planners{ease}", in_words(difficulty)),
     };
     let _ = writeln!(
@@ -222,5 +222,5 @@ fn ladder_results(text: &mut String, ladder: &Ladder) {
 
 fn rate(rate: &Rate) -> String {
     let Rate { wins, plays, interval: [low, high], .. } = rate;
-    format!("{wins} of {plays} plays won (95%: {:.0} to {:.0}%)", 100.0 * low, 100.0 * high)
+    format!("{wins} of {plays} episodes won (95%: {:.0} to {:.0}%)", 100.0 * low, 100.0 * high)
 }

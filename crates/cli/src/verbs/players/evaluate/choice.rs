@@ -27,8 +27,8 @@ const SELECTION_FILE: &str = "selection.json";
 
 #[derive(clap::Args)]
 pub(super) struct ChoiceArgs {
-    /// Choose the levels by this scale (a file of `arcade study calibrate`), to reach a target, spread over games first; --runs
-    /// is the maximum number of episodes on a level
+    /// Choose the levels by this scale (a file from `arcade study calibrate`) to reach a target, spreading them over
+    /// games first; --runs is the maximum number of episodes per level
     #[arg(long, value_name = "FILE", help_heading = "Choice of levels")]
     scale: Option<PathBuf>,
     /// Choose as many levels as it takes to reach this standard error of the ability, in logits
@@ -67,11 +67,11 @@ pub(super) struct ChoiceArgs {
         value_parser = number(ABILITIES)
     )]
     ability: Option<f64>,
-    /// Print only the choice of levels, their number, and the expected errors
+    /// Print only the chosen levels, their number, and the expected errors
     #[arg(long, requires = "scale", conflicts_with = "adaptive", help_heading = "Choice of levels")]
     plan: bool,
-    /// Choose each level after the episodes so far: the level that is most informative at the ability estimated from them. The
-    /// choices are recorded in selection.json
+    /// Choose each level based on the episodes so far: the most informative level at the ability estimated from them.
+    /// The choices are recorded in selection.json
     #[arg(long, requires = "scale", help_heading = "Choice of levels")]
     adaptive: bool,
     /// Number of episodes that --adaptive chooses at a time, to be played concurrently
@@ -217,7 +217,8 @@ pub(super) fn words(plan: &Plan) -> String {
         false => "; these levels cannot reach the target: raise --runs, or use a larger release",
     };
     format!(
-        "{} on {}{runs}: at an ability of {:+.1}, an error of {error:.2} logits; between two players a difference of {difference:.2}{reached}",
+        "{} on {}{runs}: at an ability of {:+.1}, the standard error is {error:.2} logits, and the \
+         detectable difference between two players is {difference:.2}{reached}",
         count(episodes as usize, "episode"),
         count(games as usize, "game"),
         plan.ability

@@ -52,10 +52,10 @@ pub(crate) struct Args {
     /// A snapshot's folder or .tar.zst; or games, folders of games, corpus games by name, `corpus` for all of them
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
-    /// A built-in player: `random`, `nil`, a planner such as `mcts:100` (see `arcade docs planners`), `replay:FILE`, `human`,
-    /// `reflex` (see `arcade docs serve-player`), `touch-everything`; a program of yours, `"cmd:python3 my_agent.py"` (see
-    /// `arcade docs agents`); or `mailbox:DIR`, for any program or person that answers the files in a folder (see
-    /// `arcade docs mailbox`)
+    /// A built-in player: `random`, `nil`, a planner such as `mcts:100` (see `arcade docs planners`), `replay:FILE`,
+    /// `human`, `reflex` (see `arcade docs serve-player`), `touch-everything`; your own program, `"cmd:python3
+    /// my_agent.py"` (see `arcade docs agents`); or `mailbox:DIR`, for any program or person that answers the files
+    /// in a folder (see `arcade docs mailbox`)
     #[arg(long, value_name = "NAME", conflicts_with = "model")]
     player: Option<String>,
     /// The player's name in results, for a model (--model), `human` or `mailbox:DIR`
@@ -70,7 +70,7 @@ pub(crate) struct Args {
     /// Forward-model calls per decision, unless the planner's name states them [default: 1000]
     #[arg(long, value_name = "CALLS", value_parser = clap::value_parser!(u64).range(0..=Budget::MOST.0))]
     budget: Option<u64>,
-    /// Episodes on each level
+    /// Number of episodes per level
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES))]
     runs: u64,
     /// Maximum number of actions per episode [default: 1000, or that of the --scale]
@@ -88,7 +88,7 @@ pub(crate) struct Args {
     /// Resume the evaluation in the --out folder
     #[arg(long)]
     resume: bool,
-    /// Load games as the reference engine does, and overlook the faults that the reference engine overlooks
+    /// Load games as the reference engine does, and tolerate the faults that it tolerates
     #[arg(long)]
     as_reference: bool,
     /// Only print the forecast

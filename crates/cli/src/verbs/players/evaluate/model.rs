@@ -32,10 +32,10 @@ pub(crate) struct ModelArgs {
     /// The environment variable that holds the key, if not the provider's usual one
     #[arg(long, value_name = "VARIABLE", requires = "model")]
     key_variable: Option<String>,
-    /// Sampling temperature; not sent if not given
+    /// Sampling temperature; not sent by default
     #[arg(long, value_name = "T", requires = "model", value_parser = number(0.0..=2.0))]
     temperature: Option<f64>,
-    /// Nucleus sampling threshold; not sent if not given
+    /// Nucleus sampling threshold; not sent by default
     #[arg(long, value_name = "P", requires = "model", value_parser = number(0.0..=1.0))]
     top_p: Option<f64>,
     /// Maximum number of tokens per answer, reasoning included
@@ -44,13 +44,13 @@ pub(crate) struct ModelArgs {
     /// The provider's sampling seed
     #[arg(long, value_name = "N", requires = "model")]
     sampling_seed: Option<u64>,
-    /// `low`, `medium`, `high`, or a different value that the provider accepts
+    /// `low`, `medium`, `high`, or another value that the provider accepts
     #[arg(long, value_name = "EFFORT", requires = "model")]
     reasoning_effort: Option<String>,
-    /// Number of repeated requests after an answer without a usable action
+    /// Maximum number of repeated requests after an answer without a usable action
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) reasks: u32,
-    /// Maximum US dollars to spend, by the table of prices
+    /// Maximum US dollars to spend, according to the price table
     #[arg(long, value_name = "USD", requires = "model", value_parser = number(0.0..=1e9))]
     max_cost: Option<f64>,
     /// Maximum number of tokens to spend, prompts and answers together
@@ -62,13 +62,13 @@ pub(crate) struct ModelArgs {
     /// TOML file with prices that override the embedded ones
     #[arg(long, value_name = "FILE", requires = "model")]
     prices: Option<PathBuf>,
-    /// Folder of a cache of answers, which is kept between evaluations
+    /// Folder for an answer cache, which is kept between evaluations
     #[arg(long, value_name = "DIR", requires = "model")]
     cache: Option<PathBuf>,
     /// Number of concurrent requests, and so of concurrent episodes [default: 4]
     #[arg(long, value_name = "N", requires = "model")]
     concurrency: Option<NonZeroUsize>,
-    /// Maximum number of requests to begin per minute
+    /// Maximum number of requests to start per minute
     #[arg(long, value_name = "N", requires = "model")]
     requests_per_minute: Option<NonZeroU64>,
     /// Maximum number of tokens per minute, requests and answers together

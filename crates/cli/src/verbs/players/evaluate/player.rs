@@ -196,7 +196,7 @@ impl RequestedPlayer {
         let episodes = episodes.max(1);
         if threads::jobs().is_some() && requested > episodes {
             console.remark(format_args!(
-                "--jobs {requested}: there are {episodes} episodes, so {episodes} run at a time"
+                "--jobs {requested}: there are only {episodes} episodes, so {episodes} run at a time"
             ));
         }
         requested.min(episodes)
@@ -221,23 +221,26 @@ pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> R
     }
     let player = args.player.as_deref().unwrap_or_default();
     if let Some(flag) = args.model.unused_without_model() {
-        bail!("{flag} applies to language models (--model) only; remove it for the player `{player}`");
+        bail!("{flag} applies only to language models (--model); remove it for the player `{player}`");
     }
     if args.model.timeout.is_some() && !matches!(requested, RequestedPlayer::Process(_)) {
         bail!(
-            "--timeout applies to language models (--model) and programs (`cmd:`) only; remove it for the player `{player}`"
+            "--timeout applies only to language models (--model) and programs (`cmd:`); remove it for the \
+             player `{player}`"
         );
     }
     let is_named = matches!(requested, RequestedPlayer::Human(_) | RequestedPlayer::Mailbox(_));
     if args.name.is_some() && !is_named {
         bail!(
-            "--name applies to the players `human` and `mailbox:DIR` and to models (--model) only; remove it for the player `{player}`"
+            "--name applies only to the players `human` and `mailbox:DIR` and to models (--model); remove it \
+             for the player `{player}`"
         );
     }
     let is_shown_prompts = is_named || matches!(requested, RequestedPlayer::Prompted(..));
     if !is_shown_prompts && args.model.prompt.has_flags()? {
         bail!(
-            "the flags of prompts (--mode, --rules, --with and so on) apply to players that read prompts only; remove them for the \
+            "the prompt flags (--mode, --rules, --with and so on) apply only to players that read prompts; \
+             remove them for the \
              player `{player}`"
         );
     }

@@ -15,9 +15,9 @@ const MAX_STRATEGY: usize = 1 << 16;
 #[derive(clap::Args)]
 #[command(next_help_heading = "Prompts (see `arcade docs prompts`)")]
 pub(crate) struct PromptArgs {
-    /// A bundle of prompt settings, whose results are never mixed with results of other settings: the default
-    /// prompts, meaningless names, three
-    /// levels for discovering the rules in place of the rules, or an image in place of the board (see `arcade docs tracks`)
+    /// A bundle of prompt settings, whose results are never mixed with those of other settings: the default prompts,
+    /// meaningless names, three levels for discovering the rules in place of the rules, or an image in place of the
+    /// board (see `arcade docs tracks`)
     #[arg(long, value_parser = PossibleValuesParser::new(Track::ALL.map(Track::name)).map(track_named))]
     pub(super) track: Option<Track>,
     /// The earlier turns in prompts: left out or shown [default: zero-shot]
@@ -88,7 +88,7 @@ enum Aid {
     Rotated,
     /// A line of JSON
     Json,
-    /// A picture
+    /// An image
     Image,
 }
 

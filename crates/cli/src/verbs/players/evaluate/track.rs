@@ -75,7 +75,7 @@ pub(super) fn advise(track: Option<Track>, subjects: &[Subject], console: &Conso
     let free: Vec<&str> = subjects.iter().filter(is_free).map(|subject| subject.id.as_str()).collect();
     if !free.is_empty() {
         console.remark(format_args!(
-            "in {}, no contact does harm or costs points, so exploring is free of risk (`arcade docs tracks` \
+            "in {}, no contact does harm or costs points, so exploring is risk-free (`arcade docs tracks` \
              says which games suit `discover`)",
             free.join(", ")
         ));

@@ -40,10 +40,10 @@ pub(crate) struct Args {
     /// The scale that the release is added to
     #[arg(long, value_name = "FILE")]
     scale: Option<PathBuf>,
-    /// Results of readers to include, as `arcade evaluate` writes them: models whose versions do not change
+    /// Results to include, written by `arcade evaluate`, from readers: models whose versions do not change
     #[arg(long, value_name = "RESULTS", num_args = 1..)]
     readers: Vec<PathBuf>,
-    /// Episodes of each examinee on each level
+    /// Number of episodes per examinee and level
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
     runs: u64,
     /// Maximum number of actions per episode [default: 500, or that of the scale]
@@ -69,7 +69,7 @@ const OTHERS: &str = "evaluate";
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.seed == OTHERS {
-        bail!("--seed {OTHERS} is the seed of evaluations; a calibration needs a different one");
+        bail!("--seed {OTHERS} is the seed for evaluations; a calibration needs a different one");
     }
     let earlier = args.scale.as_deref().map(ScaleFile::read).transpose()?;
     let wanted = Wanted { subjects: &args.subjects, games: &[], levels: &[], as_reference: false };
@@ -111,7 +111,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     first.check().map_err(|problem| malformed!("{problem}; see --runs and --max-steps"))?;
     check_readers(args, &first, earlier.as_ref())?;
     let hint = format!(
-        "interrupted: finished plays are in {}; run the same command with --resume to continue",
+        "interrupted: finished episodes are in {}; run the same command with --resume to continue",
         args.out.in_message()
     );
     interrupt::watch(|| (), hint);
@@ -137,7 +137,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
             .map_err(stopped)?;
         for StoppedEpisodes { game, reason, episodes } in &tally.stopped {
             console.remark(format_args!(
-                "warning: the engine stopped {} of {} in {game}: {reason}; these plays are left out",
+                "warning: the engine stopped {} of {} in {game}: {reason}; these episodes are left out",
                 count(*episodes as usize, "episode"),
                 examinee.name
             ));
@@ -186,7 +186,7 @@ fn calibrated(
     persons: &[PersonPlays],
     name: &str,
 ) -> Result<ScaleFile, Failure> {
-    let failed = || malformed!("there are too few plays to calibrate; raise --runs");
+    let failed = || malformed!("there are too few episodes to calibrate; raise --runs");
     if let Some(mut scale) = earlier {
         if scale.months.iter().any(|month| month.name == name) {
             bail!("the scale already has a release `{name}`; give this one a different name with --name");

@@ -19,12 +19,13 @@ use std::path::PathBuf;
 
 /// Tests whether players have seen the games of a release, or their published solutions.
 ///
-/// A sealed release whose recipe has [memory] contains coins: of two renamings of each game, and of two wins of each level, a
-/// coin published one and withheld the other. A player that knows nothing of the published ones cannot tell them apart, so the
-/// tests are exact. Does it win more often on the published games than on their siblings? Do its episodes begin like the
-/// published wins rather than like the withheld ones? At most 1% of clean models are flagged. The tests are valid for models
-/// trained before the full reveal (see `arcade docs memory`). An open release, such as `starter`, has no coins and cannot be
-/// tested. Without RESULTS, prints what the tests could detect if every level were played once.
+/// In a sealed release whose recipe has [memory], coin tosses decided which of two renamings of each game was
+/// published, and which of two wins of each level; the other one is withheld. A player that has never seen the
+/// published ones cannot tell the two apart, so the tests are exact. Does the player win more often on the published
+/// games than on their siblings? Do its episodes begin like the published wins rather than the withheld ones? At most
+/// 1% of clean models are flagged. The tests are valid for models trained before the full reveal (see
+/// `arcade docs memory`). An open release, such as `starter`, has no coins and cannot be tested. Without RESULTS,
+/// prints what the tests could detect if every level were played once.
 ///
 /// Exit status 0: consistent with not having seen the release, or too few coins to tell. 1: a player has seen something. 2:
 /// malformed, or nothing could be tested.
@@ -32,7 +33,7 @@ use std::path::PathBuf;
 /// Example: arcade study contamination results/a-model results/a-model-siblings --release releases/2027-01
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Results folders, as `arcade evaluate` writes them: of the release, and of its siblings
+    /// Results folders written by `arcade evaluate`, for the release and for its siblings
     #[arg(value_name = "RESULTS")]
     results: Vec<PathBuf>,
     /// The release's folder or .tar.zst, revealed
@@ -71,8 +72,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let mut unknown = found.players.iter().map(|player| player.unknown).zip(&players);
         let is_of_release = unknown.any(|(unknown, player)| unknown < player.episodes.len() as u64);
         let what = match is_of_release {
-            true => "nobody has played both a game and its sibling, or a level with two wins",
-            false => "these results have no episode on a level of the release",
+            true => "no player has played both a game and its sibling, or a level with two wins",
+            false => "these results contain no episode on any level of the release",
         };
         bail!("{name}: {what}; {}", next(args));
     }
@@ -174,15 +175,16 @@ fn say(player: &PlayerMemory, needed: u64, args: &Args, console: &Console) {
     if let Some(SideTest { coins, informative, episodes, published, withheld, p, .. }) = &player.solutions {
         let levels = count(*coins as usize, "level");
         console.say(format_args!(
-            "  solutions: of {} on {levels}, {published} begin like the published win, {withheld} like the \
-             withheld one; {informative} informative coins, p = {p:.6}",
+            "  solutions: {published} of {} on {levels} begin like the published win, {withheld} like the \
+             withheld \
+             one; {informative} informative coins, p = {p:.6}",
             count(*episodes as usize, "episode")
         ));
     }
     if let Some(SideTest { coins, informative, episodes, published, withheld, p, .. }) = &player.games {
         let games = count(*coins as usize, "game");
         console.say(format_args!(
-            "  games: of {} of episodes on {games}, {published} won as published, {withheld} as the sibling; \
+            "  games: in {} of episodes on {games}, {published} won as published, {withheld} as the sibling; \
              {informative} informative coins, p = {p:.6}",
             count(*episodes as usize, "pair")
         ));

@@ -15,8 +15,8 @@ use crate::failure::Answer;
 /// (`arcade docs scale`). `contamination` tests whether players have seen the games of a sealed release (`arcade docs memory`).
 /// `well` measures how many new games a chain of months can still invent (`arcade docs well`).
 ///
-/// Examples: arcade study calibrate releases/2026-11 --out scales/2026-11
-/// and: arcade study scale results/a-model --scale scales/2026-11/scale.json
+/// Examples: arcade study calibrate releases/2026-11 --out scales/2026-11,
+/// arcade study scale results/a-model --scale scales/2026-11/scale.json
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(subcommand)]

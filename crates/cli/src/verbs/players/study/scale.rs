@@ -22,10 +22,10 @@ use std::path::PathBuf;
 /// Example: arcade study scale results/a-model/2026-11 results/a-model/2026-12 --scale scales/2026-12/scale.json
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Results folders, as `arcade evaluate` writes them
+    /// Results folders written by `arcade evaluate`
     #[arg(value_name = "RESULTS", required = true)]
     results: Vec<PathBuf>,
-    /// The scale, as `arcade study calibrate` writes it
+    /// The scale, a scale.json written by `arcade study calibrate`
     #[arg(long, value_name = "FILE")]
     scale: PathBuf,
 }

@@ -24,10 +24,10 @@ use std::path::PathBuf;
 /// Example: arcade study timeline results/*/* scales/*/plays/* --scale scales/2027-12/scale.json --out timeline
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Results folders, as `arcade evaluate` writes them
+    /// Results folders written by `arcade evaluate`
     #[arg(value_name = "RESULTS", required = true)]
     results: Vec<PathBuf>,
-    /// The scale with all months, as `arcade study calibrate` writes it
+    /// The scale with all months, a scale.json written by `arcade study calibrate`
     #[arg(long, value_name = "FILE")]
     scale: PathBuf,
     /// Folder for the page and its numbers, absent or empty

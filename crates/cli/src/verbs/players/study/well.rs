@@ -15,9 +15,10 @@ use validators::novelty::GameForm;
 
 /// Simulates a chain of monthly releases with rules only, and measures how many new games are left.
 ///
-/// Each month draws the invented games of the recipe as minting does: it knows all games of the earlier months, prefers the
-/// mechanics that they used least, and rejects rules close to theirs or to the corpus. No boards are made. Instead, a fraction of
-/// the rules fails, as the seed decides. Without RECIPE, a month has 100 games. `arcade docs well` explains the columns.
+/// Each month draws the invented games of the recipe as minting does: it knows all games of the earlier months,
+/// prefers the mechanics that they used least, and rejects rules close to theirs or to the corpus. No boards are
+/// made. Instead, a fraction of the rules fails, chosen by the seed. Without RECIPE, a month has 100 games. `arcade
+/// docs well` explains the columns.
 ///
 /// Exit status 0: simulated. 2: malformed.
 ///
@@ -27,7 +28,7 @@ pub(crate) struct Args {
     /// Recipe: a TOML file, or the name of a built-in recipe; its `[invented]` section specifies what a month draws
     #[arg(value_name = "RECIPE")]
     recipe: Option<PathBuf>,
-    /// Months of the chain
+    /// Number of months in the chain
     #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(1..=1200))]
     months: u32,
     /// Invented games per month [default: the number in the recipe, or 100]
@@ -51,8 +52,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     bar.finish_and_clear();
     console.document(&well)?;
     console.say(format_args!(
-        "{:.0} rule sets: choices of mechanics and an ending that can be built, {:.0}% of all; {:.0}% of \
-         them are assumed to pass",
+        "{:.0} rule sets: combinations of mechanics and an ending that can be built ({:.0}% of all \
+         combinations); {:.0}% of the rule sets are assumed to pass",
         well.sets,
         100.0 * well.sound,
         100.0 * order.passing

@@ -57,7 +57,9 @@ impl Leftover {
             LeftoverKind::Shard(shard) => ("shard", shard.clone()),
             LeftoverKind::File(_) => ("file", "an unfinished file".to_owned()),
             LeftoverKind::Scratch => ("scratch", "temporary files of a player".to_owned()),
-            LeftoverKind::Page => ("page", "a file that led to the page of `arcade studio`".to_owned()),
+            LeftoverKind::Page => {
+                ("page", "a file that redirected to the page of `arcade studio`".to_owned())
+            }
         }
     }
 

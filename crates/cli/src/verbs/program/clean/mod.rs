@@ -16,9 +16,10 @@ use std::path::{Path, PathBuf};
 /// Removes files that killed runs left behind: unfinished `.partial` folders and files, and the scratch folders of
 /// players.
 ///
-/// Searches the folders and all their subfolders, and the system's temporary folder for players' scratch folders. It removes only
-/// files that were certainly made by arcade and that no running process uses; it never follows links. It lists, and removes only
-/// on request, interrupted runs with finished jobs, which --resume continues, and shards, which `arcade merge` joins.
+/// Searches the folders and all their subfolders, and the system's temporary folder for players' scratch folders. It
+/// removes only files that were certainly made by arcade and that no running process uses; it never follows links.
+/// Interrupted runs with finished jobs, which --resume continues, and shards, which `arcade merge` joins, are listed,
+/// and removed only on request.
 ///
 /// Example: arcade clean releases --dry-run
 #[derive(clap::Args)]

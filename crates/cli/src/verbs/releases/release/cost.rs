@@ -24,7 +24,7 @@ pub(crate) fn words(Forecast { median, tail }: Forecast) -> String {
     if tail == 0.0 {
         return "0 seconds: there is nothing to make".to_owned();
     }
-    format!("about {} of one core; one mint in twenty takes more than {}", duration(median), duration(tail))
+    format!("about {} on one core; one mint in twenty takes more than {}", duration(median), duration(tail))
 }
 
 /// Formats a number of seconds in a suitable unit.

@@ -45,7 +45,7 @@ impl Progress for ProgressBars<'_> {
             *last_report = LastReport { jobs: jobs as u64, found: made as u64, ..LastReport::default() };
         }
         if made > 0 {
-            self.console.remark(format_args!("{made} of {jobs} jobs were finished before"));
+            self.console.remark(format_args!("{made} of {jobs} jobs were already finished"));
         }
     }
 

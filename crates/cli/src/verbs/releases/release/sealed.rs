@@ -100,7 +100,7 @@ fn mint_command(recipe: &Path, secret: &Path, parent: Option<&Path>) -> String {
 /// Returns the failure for a path that already contains a secret, with advice on how to continue. Secrets are
 /// never overwritten.
 fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) -> Failure {
-    let shown = format!("`{}` exists, and a secret is never overwritten", file.in_message());
+    let shown = format!("`{}` already exists, and secrets are never overwritten", file.in_message());
     let Ok(there) = read_secret(file) else {
         return malformed!("{shown}: choose another --out");
     };

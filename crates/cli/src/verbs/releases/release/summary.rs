@@ -18,7 +18,7 @@ pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Opt
     let levels: usize = cards.iter().map(|card| card.levels.len()).sum();
     let mut text = String::new();
     let (made, with) = (count(cards.len(), "game"), count(levels, "level"));
-    let _ = writeln!(text, "{}: {made}, {with}, every one with a winning episode\n", manifest.name);
+    let _ = writeln!(text, "{}: {made}, {with}, each with a winning episode\n", manifest.name);
     let width = cards.iter().map(|card| card.title.chars().count()).max().unwrap_or(0);
     for card in cards {
         let origin = match card.origin {

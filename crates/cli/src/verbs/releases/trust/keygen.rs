@@ -38,7 +38,10 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let (secret, public) = (named(".key"), named(".pub"));
     protected::check(&secret)?;
     if public.exists() {
-        bail!("`{}` exists, and a key is never overwritten: choose another name", public.in_message());
+        bail!(
+            "`{}` already exists, and keys are never overwritten: choose another name",
+            public.in_message()
+        );
     }
     if secret.exists() {
         let key = open_secret(&secret, args.password_file.as_deref())?.public();

@@ -22,7 +22,7 @@ use trust::{KeySet, NamedKey, PublicKey, Signatures, read_bounded, sign_into};
 /// Example: arcade trust keys trust --add ada=ada.pub bo=bo.pub cy=cy.pub --threshold 2
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The folder of the sets
+    /// The folder that contains the sets
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// New keys, each with the name of its holder
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     /// Keys to revoke, each with the reason
     #[arg(long, value_name = "NAME=REASON", num_args = 1..)]
     revoke: Vec<String>,
-    /// The number of keys that have to sign [default: as in the previous set]
+    /// The number of keys that must sign [default: as in the previous set]
     #[arg(long, value_name = "N")]
     threshold: Option<u32>,
     #[command(flatten)]

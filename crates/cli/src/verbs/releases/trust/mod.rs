@@ -12,8 +12,8 @@ use crate::failure::Answer;
 ///
 /// Readers check a signed release with `arcade verify --key`. `arcade docs trust` has the steps for publishers.
 ///
-/// Examples: arcade trust keygen ada
-/// and: arcade trust sign releases/2027-01 --secret ada.key
+/// Examples: arcade trust keygen ada,
+/// arcade trust sign releases/2027-01 --secret ada.key
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(subcommand)]

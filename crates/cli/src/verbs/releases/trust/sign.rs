@@ -13,11 +13,12 @@ use trust::{Anchor, KeySet, KeysInForce, Provenance, Signatures, Statement, sign
 
 /// Signs the root of a release, for `arcade verify --key`.
 ///
-/// It signs a statement: the name and root of the release, the set of keys in force, and the software's version, lock file and
-/// commit. The statement lies in papers/signatures, beside one minisign file per key, and the root does not cover it. Other
-/// holders sign the same statement on their machines. The release is not replayed, so verify it first.
+/// It signs a statement: the name and root of the release, the set of keys in force, and the software's version, lock
+/// file and commit. The statement is stored in papers/signatures, beside one minisign file per key, and the root does
+/// not cover it. Other holders sign the same statement on their machines. The release is not replayed, so verify it
+/// first.
 ///
-/// Exit status 0: signed by enough keys. 1: more keys have to sign. 2: not a snapshot, or not a sound one.
+/// Exit status 0: signed by enough keys. 1: more keys must sign. 2: not a snapshot, or not a sound one.
 ///
 /// Example: arcade trust sign releases/2027-01 --secret ada.key --keys trust/keys-1.json
 #[derive(clap::Args)]
@@ -34,7 +35,8 @@ pub(crate) struct Args {
     /// The commit of the sources [default: as recorded in this build]
     #[arg(long, value_name = "COMMIT")]
     commit: Option<String>,
-    /// The folder of the signatures [default: `papers/signatures` in the snapshot, `NAME.signatures` beside an archive]
+    /// The folder with the signatures [default: `papers/signatures` in the snapshot, `NAME.signatures` beside an
+    /// archive]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

@@ -21,7 +21,10 @@ pub(super) fn write(manifest: &Manifest, id: &str, file: &Path) -> Result<String
     let bytes = proof.to_bytes()?;
     disk::create(file, &bytes, Access::Shared).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => {
-            malformed!("`{}` exists: choose another --write-proof or remove it", file.in_message())
+            malformed!(
+                "`{}` already exists: choose another path for --write-proof, or remove it",
+                file.in_message()
+            )
         }
         _ => Failure::write(file, error),
     })?;
@@ -47,7 +50,7 @@ pub(super) fn check(place: &Path, id: &str, file: &Path, root: &Digest, console:
         true => {
             console.say(format_args!("{id}: in the release with root {root}; {}", count(paths.len(), "file")))
         }
-        false => console.say(format_args!("{}: NOT proved to be `{id}` of that release", place.in_message())),
+        false => console.say(format_args!("{}: NOT proven to be `{id}` in that release", place.in_message())),
     }
     Ok(sound)
 }

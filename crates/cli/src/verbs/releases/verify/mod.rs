@@ -21,19 +21,20 @@ use trust::Signed;
 
 /// Checks a snapshot: paths, sizes, digests, root; then parses every game and level and replays every witness.
 ///
-/// Without --root, this shows only that the snapshot is consistent in itself; only the published root shows that it is the
-/// published one. If the witnesses have the semantics of a different arcade, they cannot be replayed here, and the answer is no
-/// unless --accept-unreplayed is given. Replays may take 2147483648 units of work and 2097152 for each level, ten to sixty
-/// seconds of one core; --max-work sets a different limit (`arcade docs limits`).
+/// Without --root, this shows only that the snapshot is consistent in itself; only the published root shows that it
+/// is the published one. If the witnesses need a version of arcade with different semantics, they cannot be replayed
+/// here, and the answer is no unless --accept-unreplayed is given. Replays may take 2147483648 units of work plus
+/// 2097152 per level, which is ten to sixty seconds on one core; --max-work sets a different limit
+/// (`arcade docs limits`).
 ///
-/// With --key, the root must be signed by that key, or by enough keys of that set, as `arcade trust sign` does it
+/// With --key, the root must be signed by that key, or by enough keys of that set, as with `arcade trust sign`
 /// (`arcade docs trust`).
 ///
 /// With --chain, follows the roots back through the earlier releases. With --item and --write-proof, writes a small file that
 /// proves one file or one game. With --item, --proof and --root, checks such a proof against the file or the game's folder alone.
 ///
-/// Exit status 0: sound. 1: not sound, with every problem named, or not replayed, or not checked because the bound is
-/// too small. 2: not a snapshot.
+/// Exit status 0: sound. 1: not sound, with every problem listed, or not replayed, or not checked because the bound
+/// is too small. 2: not a snapshot.
 ///
 /// Example: arcade verify releases/starter
 #[derive(clap::Args)]
@@ -58,7 +59,7 @@ pub(crate) struct Args {
     root: Option<Digest>,
     #[command(flatten)]
     trust: TrustArgs,
-    /// Accept a snapshot of other semantics as sound although its witnesses were not replayed
+    /// Accept a snapshot with different semantics as sound, although its witnesses were not replayed
     #[arg(long)]
     accept_unreplayed: bool,
     /// Maximum number of units of work for all replays together, instead of the default above

@@ -22,10 +22,11 @@ use trust::{Anchor, Drawn, KeySet, MAX_BEACON, Signatures, read_bounded};
 
 /// Appends entries to a log, or starts one. Entries are appended in the order of the flags in this help.
 ///
-/// An entry is rejected if it contradicts the log: a second commitment or root of one name, a beacon that was known before the
-/// commitment, a release that differs from the committed one. An entry is also rejected if a later one would have to contradict
-/// it. A commitment needs --parent, the release before it, or --first. A release needs a signature, or --unsigned. The files are
-/// complete before the new state is signed, so a loss of power leaves the log as it was.
+/// An entry is rejected if it contradicts the log: a second commitment or root for the same name, a beacon that was
+/// known before the commitment, a release that differs from the committed one. An entry is also rejected if a later
+/// one would have to contradict it. A commitment needs --parent, the release before it, or --first. A release needs a
+/// signature, or --unsigned. The files are complete before the new state is signed, so a power failure leaves the log
+/// unchanged.
 ///
 /// Example: arcade trust log append log --secret log.key --commitment 2027-02.toml --parent releases/2027-01
 #[derive(clap::Args)]
@@ -48,19 +49,19 @@ pub(crate) struct Args {
     /// A recipe with a commitment, before its release is minted
     #[arg(long, value_name = "RECIPE")]
     commitment: Option<PathBuf>,
-    /// The folder of the previous release, as it was given to `arcade release --commit`
+    /// The folder of the previous release, as passed to `arcade release --commit`
     #[arg(long, value_name = "DIR", requires = "commitment", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
     /// The committed release has no parent, although the log has earlier releases
     #[arg(long, requires = "commitment", conflicts_with = "parent")]
     first: bool,
-    /// Values of public randomness, as JSON files
+    /// Public randomness values, as JSON files
     #[arg(long, value_name = "FILE", num_args = 1..)]
     beacon: Vec<PathBuf>,
     /// Releases, in folders or archives
     #[arg(long, value_name = "SNAPSHOT", num_args = 1.., value_parser = crate::paths::release_parser())]
     release: Vec<PathBuf>,
-    /// Append releases that nobody has signed; their entries refer to no signed statement
+    /// Append unsigned releases, whose entries do not refer to a signed statement
     #[arg(long, requires = "release")]
     unsigned: bool,
     /// Sealed releases that were revealed
@@ -69,7 +70,7 @@ pub(crate) struct Args {
     /// The scale of a release (scale.json of `arcade study calibrate`), with the name of the release
     #[arg(long, value_name = "NAME=FILE", num_args = 1..)]
     calibration: Vec<String>,
-    /// Results of players on a release of the log, as `arcade evaluate` writes them; every episode is replayed
+    /// Results of players on a release in the log, in folders written by `arcade evaluate`; every episode is replayed
     #[arg(long, value_name = "RESULTS", num_args = 1..)]
     result: Vec<PathBuf>,
 }

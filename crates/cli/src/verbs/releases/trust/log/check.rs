@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// The entry that the proof is about
     #[arg(long, value_name = "FILE", requires = "proof")]
     entry: Option<PathBuf>,
-    /// A proof that the log has only grown since the checkpoint of --seen
+    /// A proof that the log has only been appended to since the checkpoint in --seen
     #[arg(long, value_name = "FILE", requires = "seen")]
     growth: Option<PathBuf>,
 }
@@ -152,7 +152,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 fn damaged(error: &TrustError, console: &Console) -> Answer {
     console.document(&json!({ "problems": [error.to_string()] }))?;
     console.say(error);
-    console.say("the log is NOT sound: files were changed, cut or removed");
+    console.say("the log is NOT sound: files were changed, truncated or removed");
     Ok(false)
 }
 
@@ -237,7 +237,7 @@ fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Rep
     });
     let Some(logged) = logged else {
         return only(format!(
-            "no row of the log has the digest of these results, {digest}: the results were altered later, \
+            "no row in the log has the digest of these results, {digest}: the results were altered later, \
              or never appended"
         ));
     };
@@ -271,7 +271,7 @@ fn inclusion(proof: &Path, entry: &Path, key: &PublicKey, console: &Console) -> 
     problems.iter().for_each(|problem| console.say(problem));
     console.say(match problems.is_empty() {
         true => format!("{}: entry {index} of {size} in the log {origin}", entry.in_message()),
-        false => format!("{}: NOT proved to be in the log {origin}", entry.in_message()),
+        false => format!("{}: NOT proven to be in the log {origin}", entry.in_message()),
     });
     Ok(problems.is_empty())
 }
@@ -283,8 +283,8 @@ fn consistency(growth: &Path, seen: &Path, key: &PublicKey, console: &Console) -
     console.document(&json!({ "origin": origin, "old": old, "size": size, "problems": problems }))?;
     problems.iter().for_each(|problem| console.say(problem));
     console.say(match problems.is_empty() {
-        true => format!("{origin}: has grown from {old} to {size} entries, and nothing before was changed"),
-        false => format!("{origin}: NOT proved to have only grown"),
+        true => format!("{origin}: has grown from {old} to {size} entries, and no earlier entry was changed"),
+        false => format!("{origin}: NOT proven to be append-only"),
     });
     Ok(problems.is_empty())
 }

@@ -12,8 +12,8 @@ use trust::log::{check_name, verifier_key};
 
 /// Signs the checkpoint of a log as a witness who has seen that it extends an earlier one.
 ///
-/// A witness signs nothing that contradicts what it has signed before. So readers who trust the witness need not fear that the
-/// log shows others a different history. The signature has the form of C2SP tlog-cosignature.
+/// A witness signs nothing that contradicts what it has signed before. So readers who trust the witness need not fear
+/// that the log shows others a different history. The signature is in the C2SP tlog-cosignature format.
 ///
 /// Example: arcade trust log cosign log --key log.pub --witness w.example --secret w.key --seen log.seen --time 1800000000
 #[derive(clap::Args)]

@@ -18,11 +18,11 @@ use trust::{Anchor, PublicKey, read_bounded};
 
 /// Keeps a public log of commitments, roots, reveals and results, from which nothing can be removed unnoticed.
 ///
-/// A log is a folder of files that any web server can hold, in the form of C2SP tlog-tiles; its states are signed. See
-/// `arcade docs trust`.
+/// A log is a folder of files that any web server can serve, in the C2SP tlog-tiles format; its states are signed.
+/// See `arcade docs trust`.
 ///
-/// Examples: arcade trust log append log --origin example.org/arcade --secret log.key --release releases/2027-01
-/// and: arcade trust log check log --key log.pub --seen checkpoint.old --release releases/2027-01
+/// Examples: arcade trust log append log --origin example.org/arcade --secret log.key --release releases/2027-01,
+/// arcade trust log check log --key log.pub --seen checkpoint.old --release releases/2027-01
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(subcommand)]

@@ -10,9 +10,10 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use trust::log::Entry;
 
-/// Writes a proof that an entry is in a log, or that the log has only grown since a checkpoint.
+/// Writes a proof that an entry is in a log, or that the log has only been appended to since a checkpoint.
 ///
-/// The proof of an entry has the form of C2SP tlog-proof. `arcade trust log check` checks both without the log.
+/// The proof of an entry is in the C2SP tlog-proof format. `arcade trust log check` checks either proof without the
+/// log.
 ///
 /// Example: arcade trust log prove log --release 2027-01 --out 2027-01.proof --write-entry 2027-01.entry
 #[derive(clap::Args)]
