@@ -23,10 +23,10 @@ pub enum SnapshotError {
         source: io::Error,
     },
     /// The output path is already occupied.
-    #[error("`{}` exists and is not an empty folder: choose another --out", .0.in_message())]
+    #[error("`{}` already exists and is not an empty folder: choose another --out", .0.in_message())]
     Occupied(PathBuf),
     /// The output path lies below a file.
-    #[error("`{}` cannot be created: a folder above it is a file; choose another --out", .0.in_message())]
+    #[error("`{}` cannot be created, because part of its path is a file; choose another --out", .0.in_message())]
     BelowFile(PathBuf),
     /// A folder whose name ends in `.partial` was not left by a killed run.
     #[error("`{}` was not made by arcade: choose another --out or move it away", .0.in_message())]
@@ -91,7 +91,7 @@ pub enum SnapshotError {
         expected: &'static str,
     },
     /// A file exceeds the size limit.
-    #[error("`{}` is larger than {limit} bytes, the limit of a file in a snapshot: split it", .path.in_message())]
+    #[error("`{}` is larger than {limit} bytes, the limit for a file in a snapshot: split it", .path.in_message())]
     TooLarge {
         /// The oversized file.
         path: PathBuf,
@@ -107,7 +107,8 @@ pub enum SnapshotError {
     NotAFolder(PathBuf),
     /// The path is inside a `.partial` folder.
     #[error(
-        "`{}` is unfinished: continue its mint with `arcade release RECIPE --out {} --resume`, or mint it again",
+        "`{}` is unfinished: continue minting it with `arcade release RECIPE --out {} --resume`, or mint it \
+         again",
         .0.in_message(), finished(.0)
     )]
     Unfinished(PathBuf),
@@ -155,10 +156,10 @@ pub enum SnapshotError {
         message: String,
     },
     /// A file to be written already exists.
-    #[error("`{}` exists: choose another --out", .0.in_message())]
+    #[error("`{}` already exists: choose another --out", .0.in_message())]
     Taken(PathBuf),
     /// A sound release is required, but a release does not match its manifest.
-    #[error("`{}` does not verify ({first}; {more} more): run `arcade verify` on it", .path.in_message())]
+    #[error("`{}` does not verify ({first}; and {more} more): run `arcade verify` on it", .path.in_message())]
     Unsound {
         /// The path of the unsound release.
         path: PathBuf,
@@ -221,7 +222,7 @@ mod tests {
         let occupied = SnapshotError::Occupied("releases/new".into());
         assert_eq!(
             occupied.to_string(),
-            "`releases/new` exists and is not an empty folder: choose another --out"
+            "`releases/new` already exists and is not an empty folder: choose another --out"
         );
     }
 

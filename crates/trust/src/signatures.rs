@@ -37,7 +37,7 @@ impl Anchor {
     /// Returns an error if the bytes are neither a public key nor a key set.
     pub fn parse(bytes: &[u8], place: &str) -> Result<Anchor, TrustError> {
         const NEXT_STEP: &str =
-            "pass the NAME.pub of `arcade trust keygen`, or the keys-N.json of `arcade trust keys`";
+            "pass the NAME.pub from `arcade trust keygen`, or the keys-N.json from `arcade trust keys`";
         if bytes.starts_with(b"{") {
             let set = KeySet::parse(bytes, place).map_err(|error| match error {
                 TrustError::Document { place, fault } => {
@@ -289,7 +289,7 @@ impl Signatures {
                 let Some(set) = self.ancestor(&newest, keys.version, keys.digest) else {
                     problems.push(format!(
                         "{file}: the statement specifies the set of keys {} with digest {}, which is not \
-                         connected with the set that you trust, {} ({})",
+                         connected to the set that you trust, {} ({})",
                         keys.version,
                         keys.digest,
                         anchor.version,

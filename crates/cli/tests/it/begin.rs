@@ -123,7 +123,7 @@ fn new_recipes_are_accepted_as_they_are() {
     let secret = ["--secret", "2027-01.secret.json", "--dry-run"];
     says(folder, &[&["release", "2027-01.toml"], &secret[..]].concat(), 0, &["8 new games"]);
 
-    says(folder, &["recipes", "new", "2027-01"], 2, &["`2027-01.toml` exists"]);
+    says(folder, &["recipes", "new", "2027-01"], 2, &["`2027-01.toml` already exists"]);
     assert_eq!(answer(folder, &["recipes", "new", "b.toml"])["file"], "b.toml");
     for bad in ["My Month", "a\"\nseed='x", "..", "é", &"a".repeat(41)] {
         says(folder, &["recipes", "new", bad], 2, &["isn't a valid release name"]);

@@ -310,5 +310,5 @@ fn what_was_withheld_is_verified() {
     let foreign = |files: &mut BTreeMap<String, Vec<u8>>| {
         files.insert("held/siblings/x/game.vgdl".to_owned(), files[&sibling].clone());
     };
-    forged(&foreign, "held/siblings/x/game.vgdl: not a file of a sealed release");
+    forged(&foreign, "held/siblings/x/game.vgdl: not part of a sealed release");
 }

@@ -182,7 +182,7 @@ fn a_sealed_month_waits_for_its_beacon() {
 
     // The copy is rolled back to its first entry and continued in a different way.
     let rolled = ["trust", "log", "check", "copy", "--key", "log.pub", "--seen", "seen-2"];
-    says(folder, &rolled, 1, "the log was rolled back: its number of entries is 1, but 4 were seen before");
+    says(folder, &rolled, 1, "the log was rolled back: 4 entries were seen before, but now it has only 1");
     let forks =
         ["trust", "log", "append", "copy", "--secret", "log.key", "--beacon", "dice.json", "other.json"];
     beacon(folder, "dice.json", "dice", 1, &"ef".repeat(32));
@@ -330,7 +330,7 @@ fn wrong_files_are_named() {
         let cases: [(&[&str], &str); 8] = [
             (
                 &["trust", "log", "check", "log", "--key", file],
-                next("pass the NAME.pub of `arcade trust keygen`, or the keys-N.json of"),
+                next("pass the NAME.pub from `arcade trust keygen`, or the keys-N.json from"),
             ),
             (
                 &["trust", "log", "check", "log", "--key", "log.pub", "--seen", file],
@@ -351,7 +351,7 @@ fn wrong_files_are_named() {
             (&["trust", "sign", "tiny", "--secret", file], next("use the file `NAME.key`")),
             (
                 &["verify", "tiny", "--key", file],
-                next("pass the NAME.pub of `arcade trust keygen`, or the keys-N.json of"),
+                next("pass the NAME.pub from `arcade trust keygen`, or the keys-N.json from"),
             ),
             (
                 &[
@@ -387,7 +387,7 @@ fn wrong_files_are_named() {
     let beside = ["trust", "sign", "tiny", "--secret", "log.key", "--out", "empty"];
     says(folder, &beside, 2, "there is a file where its folder should be; choose another folder");
     let slip = ["trust", "log", "append", "lag", "--secret", "log.key", "--release", "tiny", "--unsigned"];
-    says(folder, &slip, 2, "`lag` has no log, and a new log needs a name: --origin");
+    says(folder, &slip, 2, "`lag` contains no log, and a new log needs a name: --origin");
     assert!(!folder.join("lag").exists());
     says(
         folder,

@@ -301,7 +301,7 @@ fn files_in_the_way_are_reported() {
     fs::write(folder.path().join("file"), "x").unwrap();
     let said = |out: &str| text(&run(folder.path(), &["release", "tiny", "--out", out], 2).stderr);
     let below = said("file/x");
-    assert!(below.contains("a folder above it is a file"), "{below}");
+    assert!(below.contains("part of its path is a file"), "{below}");
     let file = said("file");
     assert!(file.contains("choose another --out") && !file.contains("remove"), "{file}");
     fs::write(folder.path().join("long.toml"), "x".repeat(5000)).unwrap();

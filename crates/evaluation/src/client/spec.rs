@@ -98,7 +98,7 @@ impl Server {
         let uri: Uri = url.trim().parse().map_err(|_| malformed("is not a URL"))?;
         let encrypted = match uri.scheme_str() {
             Some("https") if !cfg!(feature = "https") => {
-                return Err(malformed("needs https, but this program was built without the feature `https`"));
+                return Err(malformed("needs https, but this program was built without the `https` feature"));
             }
             Some("https") => true,
             Some("http") => false,

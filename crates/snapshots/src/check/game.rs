@@ -141,7 +141,7 @@ impl Checking<'_> {
             return Ok(check);
         }
         if card.canary != *canary {
-            wrong("card.json", "the canary differs from that of the release".to_owned());
+            wrong("card.json", "the canary differs from the release's canary".to_owned());
         }
         if card.levels.is_empty() {
             wrong("card.json", "the game has no levels".to_owned());
@@ -195,7 +195,7 @@ impl Checking<'_> {
             };
             match witness.map(|text| serde_json::from_str::<Witness>(&text)) {
                 Some(Ok(witness)) if witness.canary != *canary => {
-                    wrong(&witness_file, "the canary differs from that of the release".to_owned());
+                    wrong(&witness_file, "the canary differs from the release's canary".to_owned());
                 }
                 Some(Ok(witness))
                     if self
@@ -234,7 +234,7 @@ impl Checking<'_> {
             }
         }
         for file in files.difference(&known) {
-            wrong(file, "not a file of a game".to_owned());
+            wrong(file, "not part of a game".to_owned());
         }
         if loaded.len() == card.levels.len() {
             let checked = CheckedGame { folder, game: &game, levels: &loaded, is_again: twin.is_some() };

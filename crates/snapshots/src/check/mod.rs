@@ -213,7 +213,7 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     for (key, stated) in stated {
         let recipe = manifest.recipe.get(key).and_then(|value| value.as_str());
         if recipe != stated.as_deref() {
-            problems.push(format!("{MANIFEST_FILE}: the `{key}` differs from that of the recipe"));
+            problems.push(format!("{MANIFEST_FILE}: the `{key}` differs from the recipe's"));
         }
     }
     let (of, source) = match manifest.commitment {
@@ -231,7 +231,7 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     let is_known = BeaconPart::of(&manifest.recipe).is_some_and(|beacon| beacon.value.is_some());
     if has_beacon && !(is_known && manifest.commitment.is_some()) {
         problems
-            .push(format!("{MANIFEST_FILE}: the recipe has a beacon, but no value for it, or is not sealed"));
+            .push(format!("{MANIFEST_FILE}: the recipe has a beacon, but lacks its value or is not sealed"));
     }
     if let Some(what) = impossible(&manifest.minted_by()) {
         problems.push(format!("{MANIFEST_FILE}: {what}"));
@@ -254,7 +254,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     };
     let names: BTreeSet<&String> = known.releases.iter().collect();
     if names.len() < known.releases.len() || names.contains(&manifest.name) {
-        wrong("lists a release twice, or the release itself");
+        wrong("lists a release twice, or lists the release itself");
     }
     match manifest.parent {
         Some(_) if known.releases.is_empty() => wrong("lists no release, but there is a parent"),
@@ -281,7 +281,7 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     };
     let absent = awaited.difference(&listed).filter(|path| !is_hidden(path));
     let absent = absent.map(|path| format!("{path}: not covered by the commitment"));
-    let foreign = listed.difference(&awaited).map(|path| format!("{path}: not a file of a sealed release"));
+    let foreign = listed.difference(&awaited).map(|path| format!("{path}: not part of a sealed release"));
     problems.extend(absent.chain(foreign));
 }
 
@@ -297,7 +297,7 @@ fn game_folders(manifest: &Manifest, problems: &mut Vec<String>) -> BTreeMap<Str
             None if [README_FILE, RELEASE_CARD_FILE].contains(&item.path.as_str()) => {}
             None if summaries.contains(&item.path) => {}
             None if manifest.kind == ReleaseKind::Sealed && item.path.starts_with(HELD) => {}
-            None => problems.push(format!("{}: not a file of a release", item.path)),
+            None => problems.push(format!("{}: not part of a release", item.path)),
         }
     }
     if folders.is_empty() {

@@ -92,7 +92,7 @@ fn of_ladder(ladder: &Ladder) -> Vec<String> {
         problems.extend(of_rate(rate).map(|what| format!("`{name}` {what}")));
         let in_time = win_ticks.is_none_or(|ticks| (0.0..=f64::from(MAX_TICKS)).contains(&ticks));
         if win_ticks.is_some() != (rate.wins > 0) || !in_time {
-            problems.push(format!("`{name}` has an impossible mean of ticks for {} wins", rate.wins));
+            problems.push(format!("`{name}` has an impossible mean number of ticks for {} wins", rate.wins));
         }
         if !reward.is_none_or(is_share) {
             problems.push(format!("`{name}` has a reward outside 0 to 1"));
@@ -179,6 +179,6 @@ mod tests {
         check_ladder(&Ladder { difficulty: Difficulty::Unbeaten, ..ladder.clone() }, &["some player wins"]);
         check_ladder(&Ladder { rungs: vec![result(0)], ..ladder.clone() }, &["no player wins"]);
         let odd = PlayerResult { reward: Some(2.0), win_ticks: None, ..result(2) };
-        check_ladder(&Ladder { rungs: vec![odd], ..ladder }, &["mean of ticks", "reward outside"]);
+        check_ladder(&Ladder { rungs: vec![odd], ..ladder }, &["mean number of ticks", "reward outside"]);
     }
 }

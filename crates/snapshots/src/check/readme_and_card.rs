@@ -42,12 +42,12 @@ pub(super) fn problems(
 fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     let value: Value = match serde_json::from_slice(text) {
         Ok(value @ Value::Object(_)) => value,
-        Ok(_) => return vec!["not the card of a release: not an object".to_owned()],
-        Err(error) => return vec![format!("not the card of a release: {error}")],
+        Ok(_) => return vec!["not a release card: not an object".to_owned()],
+        Err(error) => return vec![format!("not a release card: {error}")],
     };
     let mut problems = Vec::new();
     if value.get("canary").and_then(Value::as_str) != Some(&manifest.canary) {
-        problems.push("the canary differs from that of the release".to_owned());
+        problems.push("the canary differs from the release's canary".to_owned());
     }
     let is_new = |card: &&&Card| matches!(card.origin, Origin::Generated { .. });
     let levels = cards.iter().map(|card| card.levels.len()).sum::<usize>();
@@ -64,7 +64,7 @@ fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     }
     match serde_json::from_value::<ReleaseCard>(value) {
         Ok(card) => problems.extend(of_known_card(&card, cards)),
-        Err(error) => problems.push(format!("not the card of a release: {error}")),
+        Err(error) => problems.push(format!("not a release card: {error}")),
     }
     problems
 }
@@ -74,7 +74,7 @@ fn of_known_card(card: &ReleaseCard, cards: &[&Card]) -> Vec<String> {
     let mut problems = Vec::new();
     let mut expect = |key: &str, holds: bool| {
         if !holds {
-            problems.push(format!("the card's `{key}` does not match the cards of the games"));
+            problems.push(format!("the card's `{key}` does not match the games' cards"));
         }
     };
     let levels = || cards.iter().flat_map(|card| &card.levels);

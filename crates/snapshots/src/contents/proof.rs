@@ -162,7 +162,7 @@ impl ItemProof {
             }
             if [HEADER_LEAF, MANIFEST_FILE].iter().any(|reserved| file.path.eq_ignore_ascii_case(reserved)) {
                 return unsound(format!(
-                    "`{path}` is the reserved name of the manifest, not a file of a release"
+                    "`{path}` is the reserved name of the manifest, not part of a release"
                 ));
             }
             // The manifest's header is also a leaf, so there are at most as many leaves as a release can have
@@ -173,10 +173,13 @@ impl ItemProof {
             }
             let of_the_game = game_of(&file.path) == Some(proof.item.as_str());
             if file.path != proof.item && !of_the_game {
-                return unsound(format!("`{path}` isn't a file of `{}`", proof.item.escape_debug()));
+                return unsound(format!("`{path}` isn't part of `{}`", proof.item.escape_debug()));
             }
             if file.proof.siblings.len() > MAX_HEIGHT {
-                return unsound(format!("`{path}` has {} steps to the root", file.proof.siblings.len()));
+                return unsound(format!(
+                    "`{path}` has {} steps to the root, more than any release has",
+                    file.proof.siblings.len()
+                ));
             }
         }
         if let Some(pair) = proof.files.windows(2).find(|pair| pair[0].path >= pair[1].path) {

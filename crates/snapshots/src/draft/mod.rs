@@ -378,7 +378,7 @@ pub(crate) mod tests {
         fs::create_dir(&out).expect("created");
         fs::write(out.join("mine"), "precious").expect("written");
         let error = Draft::create(&out).expect_err("taken").to_string();
-        assert!(error.starts_with(&format!("`{}` exists", out.display())), "{error}");
+        assert!(error.starts_with(&format!("`{}` already exists", out.display())), "{error}");
         let file = out.join("mine");
         assert!(matches!(Draft::create(&file), Err(SnapshotError::Occupied(path)) if path == file));
         let below = file.join("x");

@@ -169,14 +169,15 @@ pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, Snapsho
                 }
             }
             let again = |mine: &BTreeMap<Digest, String>, theirs: &BTreeMap<Digest, String>| {
-                mine.iter().find_map(|(what, here)| Some(format!("{here} is {}", theirs.get(what)?)))
+                mine.iter()
+                    .find_map(|(what, here)| Some(format!("{here} is the same as {}", theirs.get(what)?)))
             };
             let found = [again(&holdings.forms, &forms), again(&holdings.items, &items)];
             problems.extend(found.into_iter().flatten().map(|found| {
                 format!("`{name}` in {} repeats earlier content: {found}", link.place.in_message())
             }));
         }
-        let of = |what: &String| format!("{what} of `{name}` again");
+        let of = |what: &String| format!("{what} of `{name}`");
         forms.extend(holdings.forms.iter().map(|(form, id)| (*form, of(id))));
         items.extend(holdings.items.iter().map(|(item, path)| (*item, of(path))));
         before = Some((manifest, holdings));

@@ -266,7 +266,7 @@ impl Shards {
         if !missing.is_empty() {
             return Err(MergeError::Missing(missing.join(", ")));
         }
-        head.recipe.check().map_err(|error| unsound(first, format!("the recipe of the shard: {error}")))?;
+        head.recipe.check().map_err(|error| unsound(first, format!("the shard's recipe: {error}")))?;
         let paths = |file: &ShardFile| file.jobs.iter().map(|item| item.path.clone()).collect();
         let shards = read.iter().map(|(folder, file)| ((*folder).clone(), file.shard, paths(file))).collect();
         Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, jobs })
@@ -327,10 +327,10 @@ fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
         return Some(format!("`{id}` does not match its card"));
     }
     if levels.is_empty() || levels.len() != witnesses.len() || levels.len() != card.levels.len() {
-        return Some(format!("`{id}` does not have a witness and an entry in its card for each level"));
+        return Some(format!("`{id}` does not have a witness and a card entry for each level"));
     }
     if difficulties.len() != card.levels.iter().filter(|level| level.ladder.is_some()).count() {
-        return Some(format!("`{id}` does not have a difficulty for each ladder"));
+        return Some(format!("`{id}` does not have one difficulty per ladder"));
     }
     let is_foreign = |(path, episode): (&Vec<SeedStep>, &Episode)| {
         !path.is_empty() && SeedPath::new(root, path.clone()).seed() != episode.seed
@@ -344,7 +344,7 @@ fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
             return Some("the level does not match its card".to_owned());
         }
         if (episode.actions.len(), episode.score) != (told.witness_ticks, told.witness_score) {
-            return Some("the witness does not have the ticks and score of the card".to_owned());
+            return Some("the ticks and score of the witness differ from those in the card".to_owned());
         }
         number_problems(told, &level).into_iter().next().or_else(|| replay_problem(episode, &game, &level))
     };
@@ -505,20 +505,20 @@ mod tests {
         check(|game| game.text = "BasicGame".into(), same, Some("isn't a valid game"));
         check(|game| game.text = tests::FETCH.into(), same, Some("does not match its card"));
         check(|game| game.levels[0] = "x".into(), same, Some("level 0: not a level of the game"));
-        check(
-            |game| drop(game.witnesses.pop()),
-            same,
-            Some("a witness and an entry in its card for each level"),
-        );
+        check(|game| drop(game.witnesses.pop()), same, Some("a witness and a card entry for each level"));
         check(
             |game| game.difficulties.push(validators::Difficulty::Easy),
             same,
-            Some("does not have a difficulty for each ladder"),
+            Some("does not have one difficulty per ladder"),
         );
         check(|game| game.marks.push(Vec::new()), same, Some("marks that the recipe does not request"));
         check(|game| game.card.levels[0].difficulty = 1e300, same, Some("level 0: the difficulty 1"));
         check(|game| game.card.levels[0].random.wins = 99, same, Some("`random` has 99 wins"));
-        check(|game| game.card.levels[0].witness_ticks += 1, same, Some("does not have the ticks and score"));
+        check(
+            |game| game.card.levels[0].witness_ticks += 1,
+            same,
+            Some("the ticks and score of the witness differ"),
+        );
         check(
             |game| game.witnesses[0].seed = Seed::from_text("x"),
             same,

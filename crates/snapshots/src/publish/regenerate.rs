@@ -35,7 +35,8 @@ pub enum RegenerateError {
     Damaged(String),
     /// The seed of the release is not public.
     #[error(
-        "this release is sealed: its seed is not in the folder, so it cannot be minted again before it is revealed"
+        "this release is sealed: its seed is not in the folder, so it cannot be minted again until it is \
+         revealed"
     )]
     Sealed,
     /// The release is a single file, such as an archive.

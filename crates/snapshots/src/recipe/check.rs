@@ -88,7 +88,10 @@ impl Recipe {
                 return wrong("seed", "takes a text of 1 to 200 bytes");
             }
             (Some(_), Some(_)) => {
-                return wrong("commitment", "and `seed` exclude each other: a seed is public or sealed");
+                return wrong(
+                    "commitment",
+                    "and `seed` are mutually exclusive: a seed is either public or sealed",
+                );
             }
             (None, None) => {
                 let help = "is missing: give a text, or a `commitment` from `arcade release RECIPE --commit`";
@@ -130,7 +133,7 @@ impl Recipe {
         }
         check_mix("generated.mix", new.mix)?;
         if new.mix.search > 0.0 || new.mix.evolutionary > 0.0 {
-            let help = "requests games of kernels by search, but such games can only be drawn: leave out \
+            let help = "requests kernel games by search, but kernel games can only be drawn: leave out \
                         `mix`, or request games in [invented], whose `mix` takes all methods";
             return wrong("generated.mix", help);
         }
@@ -154,7 +157,7 @@ impl Recipe {
                 return wrong(
                     key,
                     format!(
-                        "is [{least}, {most}]; the range needs two numbers from 5 to 100, the smaller first"
+                        "is [{least}, {most}]; the range needs two numbers from 5 to 100, in ascending order"
                     ),
                 );
             }
@@ -221,7 +224,7 @@ impl Recipe {
             ("taxonomy.avatars", self.taxonomy.avatars.values().collect()),
         ] {
             if quotas.iter().any(|(least, most)| !(0.0 <= *least && least <= most && *most <= 1.0)) {
-                return wrong(key, "takes pairs of fractions from 0 to 1, the smaller first");
+                return wrong(key, "takes pairs of fractions from 0 to 1, in ascending order");
             }
             let games = i64::from(self.games());
             let numbers = || quotas.iter().map(|&&share| self.quota(share));

@@ -342,7 +342,7 @@ pub(crate) mod tests {
         check(&format!("{GOOD}mix = {{ constructive = 0 }}"), "`generated.mix`");
         check(&format!("{GOOD}mix = {{ evolution = 1 }}"), "unknown field `evolution`");
         let searched = format!("{GOOD}mix = {{ constructive = 1, search = 0.5 }}");
-        check(&searched, "`generated.mix` requests games of kernels by search");
+        check(&searched, "`generated.mix` requests kernel games by search");
         check(&searched.replace("search", "evolutionary"), "request games in [invented]");
         assert!(Recipe::from_toml(&searched.replace("0.5", "0")).is_ok());
         assert!(Recipe::from_toml(&searched.replace("[generated]", "[invented]")).is_ok());

@@ -113,8 +113,8 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
                 "turns in a fixed order among paths of equal length"
             }
             C::BirdAvatar => "drifts to the right",
-            C::ShootOnlyAvatar => "has a shot of its own for each arrow key",
-            C::AimedAvatar | C::SpaceshipAvatar | C::CarAvatar | C::LanderAvatar => "is turned by angles",
+            C::ShootOnlyAvatar => "fires a different shot for each arrow key",
+            C::AimedAvatar | C::SpaceshipAvatar | C::CarAvatar | C::LanderAvatar => "turns by angles",
             C::WizardAvatar => "faces right",
             _ => continue,
         };
@@ -122,7 +122,7 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     }
     for (_, line) in game.description().sprite_lines() {
         if line.params.iter().any(|param| param.key.text == "wMult" && param.value.text.parse() != Ok(1.0)) {
-            return Err(format!("`{}` has a width other than one cell", line.name.text));
+            return Err(format!("`{}` is not one cell wide", line.name.text));
         }
     }
     Ok(())
@@ -388,7 +388,7 @@ mod tests {
     fn games_without_a_mirror_image_are_refused() {
         let rower = "    rower > MovingAvatar\n";
         let boat = |text: &str| format!("    boat > {text}\n{rower}");
-        refuses(&boat("Immovable wMult=2"), "", "A b g\n", "`boat` has a width other than one cell");
+        refuses(&boat("Immovable wMult=2"), "", "A b g\n", "`boat` is not one cell wide");
         refuses(
             "    boat > Immovable\n    rower > BirdAvatar\n",
             "",

@@ -124,8 +124,8 @@ impl History {
         let same = |other: &&Commitment| other.beacon.is_some() && other.beacon == new.beacon;
         if let (Some(_), Some(round)) = (self.commitments.values().find(same), &new.beacon) {
             problems.push(format!(
-                "the commitment for `{release}` specifies round {} of {}, as another commitment does: one of \
-                 the two could be chosen",
+                "the commitment for `{release}` specifies round {} of {}, as another commitment does, so the \
+                 publisher could choose between the two",
                 round.round, round.source
             ));
         }
@@ -175,7 +175,7 @@ impl History {
                     ));
                 }
                 if parent != before.parent {
-                    problems.push(format!("`{release}` has a different parent than its commitment"));
+                    problems.push(format!("`{release}` has a different parent than its commitment states"));
                 }
                 let awaited = before.beacon.as_ref().map(|round| (round, self.beacons.get(round)));
                 match (awaited, beacon) {
@@ -188,7 +188,7 @@ impl History {
                         round.round, round.source
                     )),
                     (Some((round, Some(value))), stated) if stated != Some(*value) => problems.push(format!(
-                        "`{release}` was minted with a different value than round {} of {} has: {value}",
+                        "`{release}` was minted with a value other than that of round {} of {}: {value}",
                         round.round, round.source
                     )),
                     (Some(_), _) => {}
@@ -223,7 +223,7 @@ impl History {
         }
         if self.commitments.get(release).is_some_and(|before| before.recipe != revealed.recipe) {
             problems.push(format!(
-                "the secret of `{release}` was drawn for a different recipe than that of the commitment"
+                "the secret of `{release}` was drawn for a different recipe than the commitment's"
             ));
         }
         problems

@@ -130,7 +130,7 @@ impl Log {
         }
         if seen.size > *size {
             return Some(format!(
-                "the log was rolled back: its number of entries is {size}, but {} were seen before",
+                "the log was rolled back: {} entries were seen before, but now it has only {size}",
                 seen.size
             ));
         }
@@ -205,7 +205,7 @@ pub fn append(
     let refuse = |reason: String| Err(TrustError::Refused(reason));
     let unnamed = || {
         refuse(format!(
-            "`{}` has no log, and a new log needs a name: --origin example.org/arcade",
+            "`{}` contains no log, and a new log needs a name: --origin example.org/arcade",
             folder.in_message()
         ))
     };

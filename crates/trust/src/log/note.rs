@@ -43,7 +43,7 @@ pub fn check_name(name: &str) -> Result<(), TrustError> {
     let is_bad = |c: char| c.is_whitespace() || c == '+' || c.is_control();
     match name.is_empty() || name.len() > 200 || name.chars().any(is_bad) {
         true => Err(TrustError::Refused(format!(
-            "`{}` isn't a valid name for a log or a witness: use a text like example.org/arcade, without \
+            "`{}` isn't a valid name for a log or a witness: use a name such as example.org/arcade, without \
              spaces or `+`",
             name.escape_debug()
         ))),

@@ -185,7 +185,7 @@ fn another_history_of_keys_is_refused() {
     publish(home.path(), &forged, &[&eve]);
     sign(home.path(), Some(&forged), &[&eve]);
     assert_eq!(judge(home.path(), &set_anchor(&forged)).problems, [""; 0]);
-    refused(home.path(), &set_anchor(&first), "which is not connected with the set that you trust");
+    refused(home.path(), &set_anchor(&first), "which is not connected to the set that you trust");
     // A forged set claims to follow the genuine one.
     fs::remove_file(home.path().join("keys-1.json")).unwrap();
     let next = KeySet::next(Some(&first), None, vec![eve.named()], &[]).unwrap();

@@ -102,7 +102,7 @@ pub(super) fn describe_difference(block: &[u8; BLOCK]) -> String {
         EntryType::GNULongName | EntryType::GNULongLink => "a GNU extension for long names",
         EntryType::XHeader | EntryType::XGlobalHeader => "a pax extension header",
         EntryType::Continuous => "a contiguous file",
-        other => return format!("a tar entry of the unknown kind {:#04x}", other.as_byte()),
+        other => return format!("a tar entry of unknown kind {:#04x}", other.as_byte()),
     };
     let link = header.link_name_bytes().map(|target| String::from_utf8_lossy(&target).into_owned());
     match link {

@@ -208,7 +208,9 @@ impl Archive {
         }
         if !is_archive(path)? {
             return Err(match is_called_archive(path) {
-                true => broken("the file does not start like an archive: fetch the archive again".to_owned()),
+                true => broken(
+                    "the file does not begin with an archive header: fetch the archive again".to_owned(),
+                ),
                 false => SnapshotError::NotASnapshot(path.to_path_buf()),
             });
         }

@@ -78,7 +78,7 @@ fn check_format(manifest: &Manifest) -> Result<(), SnapshotError> {
     match &manifest.version {
         Some(version) if !is_version_number(version) => {
             let shown = version.escape_debug();
-            Err(unsound(format!("the version `{shown}` is not three numbers, as in `0.12.0`")))
+            Err(unsound(format!("the version `{shown}` must have three numbers, as in `0.12.0`")))
         }
         _ => Ok(()),
     }
@@ -201,7 +201,7 @@ mod tests {
         refuse(|m| m.version = None, "the manifest states format 2, but has the layout of format 1");
         refuse(
             |m| m.version = Some("0.12.0; rm x".into()),
-            "the version `0.12.0; rm x` is not three numbers",
+            "the version `0.12.0; rm x` must have three numbers",
         );
         refuse(|m| m.name = String::new(), "the name `` is not one safe path component");
         refuse(|m| m.name = "a/b".into(), "the name `a/b` is not");

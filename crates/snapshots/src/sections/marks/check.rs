@@ -54,14 +54,14 @@ pub(super) fn problems(
 
 fn of_marks(marks: &Marks, asked: Option<&MarksPart>, canary: &str, cards: &[&Card]) -> Vec<String> {
     if marks.canary != canary {
-        return vec!["the canary differs from that of the release".to_owned()];
+        return vec!["the canary differs from the release's canary".to_owned()];
     }
     if asked != Some(&marks.asked) {
-        return vec!["the settings of the marks do not match the recipe".to_owned()];
+        return vec!["the marks' settings do not match the recipe".to_owned()];
     }
     let by_id: BTreeMap<&str, &Card> = cards.iter().map(|card| (card.id.as_str(), *card)).collect();
     if !marks.games.iter().map(|game| game.id.as_str()).eq(by_id.keys().copied()) {
-        return vec!["the games do not match those of the release".to_owned()];
+        return vec!["the games do not match the release's games".to_owned()];
     }
     let mut problems = Vec::new();
     for game in &marks.games {
@@ -79,7 +79,7 @@ fn of_marks(marks: &Marks, asked: Option<&MarksPart>, canary: &str, cards: &[&Ca
 fn of_game(game: &GameMarks, card: &Card, asked: &MarksPart) -> Option<String> {
     let tiers = |level: &LevelMarks| Some(level.tier);
     if !game.levels.iter().map(tiers).eq(card.levels.iter().map(|level| level.tier)) {
-        return Some(format!("`{}` does not have the levels and tiers of its card", game.id));
+        return Some(format!("`{}` does not have the levels and tiers that its card states", game.id));
     }
     let wins: Vec<&Wins> = game.levels.iter().map(|level| &level.wins).collect();
     let asked = (asked.players.len(), asked.commits.len(), asked.plays);
@@ -133,10 +133,10 @@ mod tests {
         check(|_| (), "");
         check(|marks| marks.canary.clear(), "the canary differs");
         check(|marks| marks.asked.plays = 3, "do not match the recipe");
-        check(|marks| drop(marks.games.pop()), "do not match those of the release");
-        check(|marks| marks.games[1].id.push('x'), "do not match those of the release");
-        check(|marks| marks.games[0].levels[0].tier = Tier::Two, "tiers of its card");
-        check(|marks| drop(marks.games[0].levels.pop()), "tiers of its card");
+        check(|marks| drop(marks.games.pop()), "do not match the release's games");
+        check(|marks| marks.games[1].id.push('x'), "do not match the release's games");
+        check(|marks| marks.games[0].levels[0].tier = Tier::Two, "tiers that its card states");
+        check(|marks| drop(marks.games[0].levels.pop()), "tiers that its card states");
         check(|marks| marks.games[0].levels[1].wins[1][1] = 3, "3 wins in 2 plays");
         check(|marks| marks.games[0].levels[1].wins[1].truncate(1), "for each player and commitment");
         check(|marks| marks.games[0].levels[1].wins[1][1] = 1, "`rates`");

@@ -91,7 +91,7 @@ fn check_second(
         }
     };
     if witness.canary != release.manifest.canary {
-        wrong("the canary differs from that of the release".to_owned());
+        wrong("the canary differs from the release's canary".to_owned());
     }
     if release.secret.is_some_and(|secret| !secret.leads_to(&witness, &release.manifest.recipe)) {
         wrong(UNRELATED_WITNESS.to_owned());

@@ -201,15 +201,16 @@ impl PuzzleKind {
         }
         if !(3..=most_things).contains(&part.things) {
             let help = match most_things {
-                3 => "is for `[puzzles]` only: omit it".to_owned(),
+                3 => "applies only to `[puzzles]`: omit it".to_owned(),
                 most => format!("is {}; the value must be from 3 to {most}", part.things),
             };
             return wrong(things, help);
         }
         for (key, (least, most)) in [(columns, part.columns), (rows, part.rows)] {
             if least < LEAST_SIDE || most < least || part.columns.1.saturating_mul(part.rows.1) > cells {
-                let help =
-                    format!("takes two numbers from 8, the smaller first; a board has at most {cells} cells");
+                let help = format!(
+                    "takes two numbers, each at least 8, in ascending order; a board has at most {cells} cells"
+                );
                 return wrong(key, help);
             }
         }
@@ -239,7 +240,10 @@ mod tests {
             "the value must be from 1 to 15",
         );
         let locks = format!("{}[tiers]\n4 = 1.0", puzzles.replace("[puzzles]", "[locks]"));
-        check(&locks.replace("games = 2", "games = 2\nthings = 4"), "`locks.things` is for `[puzzles]` only");
+        check(
+            &locks.replace("games = 2", "games = 2\nthings = 4"),
+            "`locks.things` applies only to `[puzzles]`",
+        );
         check(
             &format!("{puzzles}things = 6\n[tiers]\n4 = 1.0"),
             "`puzzles.things` is 6; the value must be from 3 to 5",

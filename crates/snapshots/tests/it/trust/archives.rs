@@ -299,12 +299,17 @@ fn ends() {
         "mole.tar.zst: different from the packed form",
         "do not match the seal",
     );
-    check_bytes(&file, &[&skippable[..], &sound[..]].concat(), "mole.tar.zst", "does not start like");
+    check_bytes(
+        &file,
+        &[&skippable[..], &sound[..]].concat(),
+        "mole.tar.zst",
+        "does not begin with an archive header",
+    );
     check_bytes(
         &file,
         &compress(&[&tar[..], &[0; 512]].concat()),
         "mole.tar.zst: different from the packed form",
-        "more after its end",
+        "extra data after its end",
     );
     check_bytes(
         &file,

@@ -35,17 +35,14 @@ fn check(alter: impl FnOnce(&mut Small), problems: &[&str]) {
 #[test]
 fn manifest_and_recipe_agree() {
     check(|_| {}, &[]);
-    check(
-        |release| release.manifest.name = "2027-01".into(),
-        &["the `name` differs from that of the recipe"],
-    );
+    check(|release| release.manifest.name = "2027-01".into(), &["the `name` differs from the recipe's"]);
     check(
         |release| release.manifest.parent = Some(Digest::of(b"x")),
         &["the `parent` differs", "`known` lists no release, but there is a parent"],
     );
     check(
         |release| release.manifest.recipe = json!("a pie"),
-        &["the `name` differs from that of the recipe", "the `canary` does not match the recipe"],
+        &["the `name` differs from the recipe's", "the `canary` does not match the recipe"],
     );
 }
 
@@ -70,7 +67,7 @@ fn cards_tell_of_the_episode_that_wins() {
         |release| {
             change(release, "card.json", |text| text.replace("\"witness_ticks\": 3", "\"witness_ticks\": 4"))
         },
-        &[expect[0], "CARD.json: the card's `witness_ticks` does not match the cards"],
+        &[expect[0], "CARD.json: the card's `witness_ticks` does not match the games' cards"],
     );
     check(
         |release| {
@@ -171,14 +168,14 @@ fn a_sealed_release_commits_to_a_witness_of_every_level() {
             seal(release);
             release.files.push(("held/notes.bin".to_owned(), b"x".to_vec()));
         },
-        &["held/notes.bin: not a file of a sealed release"],
+        &["held/notes.bin: not part of a sealed release"],
     );
     check(
         |release| {
             seal(release);
             release.manifest.recipe = json!({ "name": "2026-12", "commitment": Digest::of(b"x") });
         },
-        &["the `commitment` differs from that of the recipe"],
+        &["the `commitment` differs from the recipe's"],
     );
 }
 
@@ -319,7 +316,7 @@ fn releases_describe_themselves() {
     }
     complains(
         |release| change(release, "CARD.json", |_| "{".to_owned()),
-        &["CARD.json: not the card of a release: EOF"],
+        &["CARD.json: not a release card: EOF"],
     );
     complains(|release| change(release, "CARD.json", |_| "[]".to_owned()), &["not an object"]);
     let with = |key: &'static str, value: serde_json::Value, words: &str| {
@@ -336,8 +333,8 @@ fn releases_describe_themselves() {
     };
     with("games", json!(7), "the card's `games` is 7, but the release has 1");
     with("levels", json!("many"), "the card's `levels` is \"many\", but the release has 1");
-    with("canary", json!("x"), "the canary differs from that of the release");
-    with("more", json!(1), "not the card of a release: unknown field `more`");
+    with("canary", json!("x"), "the canary differs from the release's canary");
+    with("more", json!(1), "not a release card: unknown field `more`");
     with("generators", json!({ "search": 1 }), "the card's `generators` does not match");
     with("goals", json!({}), "the card's `goals` does not match");
     with("difficulty", json!({ "easy": 1 }), "the card's `difficulty` does not match");
@@ -466,8 +463,11 @@ fn known_content_matches_the_parent() {
     };
     known(json!({}), "`known` lists no release, but there is a parent");
     known(json!("nothing"), "`known` is malformed");
-    known(json!({ "releases": ["2026-12", "2026-12"] }), "lists a release twice, or the release itself");
-    known(json!({ "releases": ["2027-01"] }), "lists a release twice, or the release itself");
+    known(
+        json!({ "releases": ["2026-12", "2026-12"] }),
+        "lists a release twice, or lists the release itself",
+    );
+    known(json!({ "releases": ["2027-01"] }), "lists a release twice, or lists the release itself");
     let mut orphan = first;
     orphan.manifest.recipe["known"] = json!({ "releases": ["2026-11"] });
     let problems = verified(&mut orphan, &Bounds::RELEASE).problems;

@@ -193,10 +193,10 @@ fn lists_bind_what_was_withheld() {
     check(&without("lvl0.json"), &|_| true, "lvl0.json: not covered by the commitment");
     check(&without("held/secret"), &|_| true, "held/secret.json: not covered by the commitment");
     let added = forged(&|files| files.push(("held/notes.bin".to_owned(), b"x".to_vec())));
-    check(&added, &|_| true, "held/notes.bin: not a file of a sealed release");
+    check(&added, &|_| true, "held/notes.bin: not part of a sealed release");
     let mut salted = release.clone();
     hide(&mut salted, &Secret { nonce: Digest::of(b"other"), ..secret.clone() });
-    check(&salted, &|_| true, "held/REST.json: the salt does not follow from the release's secret");
+    check(&salted, &|_| true, "held/REST.json: the salt is not derived from the release's secret");
     // Files that were committed to, but are not lists.
     let listed = |change: &dyn Fn(&mut Value)| {
         let mut release = release.clone();
@@ -212,9 +212,9 @@ fn lists_bind_what_was_withheld() {
     };
     let item = |path: &str| json!({ "path": path, "size": 1, "digest": Digest::of(b"x") });
     for (path, words) in [
-        ("games/x/lvl0.txt", "`games/x/lvl0.txt` isn't a file of its part"),
-        ("held/x/lvl0.json", "`held/x/lvl0.json` isn't a file of its part"),
-        (LISTS[1], "isn't a file of its part"),
+        ("games/x/lvl0.txt", "`games/x/lvl0.txt` does not belong to this part"),
+        ("held/x/lvl0.json", "`held/x/lvl0.json` does not belong to this part"),
+        (LISTS[1], "does not belong to this part"),
         ("held/siblings/../x", "cannot be in a snapshot"),
         ("held/secret.json", "listed twice"),
     ] {

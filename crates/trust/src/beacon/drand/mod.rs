@@ -217,7 +217,7 @@ fn verifies(
 
 #[cfg(not(feature = "drand"))]
 fn signed(_: &str, _: &[u8], _: &[u8], _: &[u8]) -> Result<bool, String> {
-    Err("has a BLS signature, and this program was built without the feature `drand`".to_owned())
+    Err("has a BLS signature, and this program was built without the `drand` feature".to_owned())
 }
 
 #[cfg(all(test, feature = "drand"))]

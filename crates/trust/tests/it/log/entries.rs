@@ -48,14 +48,14 @@ fn swapped_beacons_are_told() {
                 if let Entry::Root { beacon, .. } = &mut forged[one_of(&roots, &mut chance)] {
                     *beacon = Some(any_digest(&mut chance));
                 }
-                "was minted with a different value than round"
+                "was minted with a value other than that of round"
             }
             1 => {
                 // The release was minted without a value.
                 if let Entry::Root { beacon, .. } = &mut forged[one_of(&roots, &mut chance)] {
                     *beacon = None;
                 }
-                "was minted with a different value than round"
+                "was minted with a value other than that of round"
             }
             2 => {
                 // The value was known before the commitment.
@@ -158,7 +158,7 @@ fn choosing_among_a_hundred_secrets_is_told() {
                     forged
                         .insert(place + 1, Entry::Commitment { release, commitment, recipe, parent, beacon });
                 }
-                broken(&forged, "as another commitment does: one of the two could be chosen");
+                broken(&forged, "as another commitment does, so the publisher could choose");
                 assert_eq!(unkept(&forged).len(), 99);
             }
             // The secret is chosen after the fact.
