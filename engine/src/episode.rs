@@ -70,7 +70,7 @@ pub enum Divergence {
         hashes: usize,
     },
     /// The state after a tick differs.
-    #[error("the state after tick {tick} has hash {got}, but the episode says {recorded}")]
+    #[error("the state after tick {tick} has hash {got}, but the episode records {recorded}")]
     Hash {
         /// The tick, counted from 0.
         tick: usize,
@@ -81,7 +81,8 @@ pub enum Divergence {
     },
     /// The final outcome or score differs.
     #[error(
-        "the episode ends {got:?} with score {score}, but the record says {recorded:?} with {recorded_score}"
+        "the replay ends {got:?} with score {score}, but the episode records {recorded:?} with score \
+         {recorded_score}"
     )]
     End {
         /// The recorded outcome.

@@ -138,7 +138,7 @@ impl Criteria {
     /// Returns an error for the first value that is out of range.
     pub fn check(&self) -> Result<CheckedCriteria, CriteriaError> {
         if self.includes(Criterion::SkillOverall) && !self.includes(Criterion::Skill) {
-            return wrong("ask", "lists `skill-overall`, which needs the plays of `skill`: list both");
+            return wrong("ask", "lists `skill-overall`, which needs the episodes of `skill`: list both");
         }
         let depths = &self.depths;
         if depths.is_empty() || depths.len() > 20 || depths.iter().any(|depth| !(1..=1000).contains(depth)) {
@@ -288,7 +288,7 @@ mod tests {
         check(|criteria| criteria.least_ticks = 5000, "`least_ticks`");
         check(
             |criteria| criteria.ask = CriterionSet::of(&[Criterion::SkillOverall]),
-            "needs the plays of `skill`",
+            "needs the episodes of `skill`",
         );
         check(|criteria| criteria.random_plays = 0, "`random_plays` is 0");
         check(|criteria| criteria.ladder.clear(), "`ladder` takes at least two players");

@@ -231,7 +231,7 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
                 return None
 
     def _refuse(self) -> None:
-        raise gymnasium.error.ResetNeeded("the episode is over, or none was started: call reset()")
+        raise gymnasium.error.ResetNeeded("the episode is over, or no episode has been started: call reset()")
 
     def _observation(self) -> Board:
         copy: Board = self._lanes.observations[0].copy()
@@ -374,7 +374,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         if "reset_mask" in options:
             mask = np.asarray(options["reset_mask"])
             if mask.shape != (self.num_envs,) or mask.dtype != np.bool_ or not mask.any():
-                raise ValueError(f"`reset_mask` has to be {self.num_envs} booleans, one of them True")
+                raise ValueError(f"`reset_mask` must consist of {self.num_envs} booleans, at least one of them True")
         super().reset(seed=seed if isinstance(seed, int) else None)
         if seed is None and not self._is_seeded:
             if self._np_random is None:
@@ -384,7 +384,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
             native.seed_all(_text_of(int(seed)))
         elif seed is not None:
             if len(seed) != self.num_envs:
-                raise ValueError(f"{len(seed)} seeds are given for {self.num_envs} environments")
+                raise ValueError(f"{len(seed)} seeds were given for {self.num_envs} environments")
             for at, own in enumerate(seed):
                 if own is not None:
                     native.seed(at, _text_of(own), False)
@@ -394,7 +394,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         exact = "seed" in options
         if exact:
             if len(options["seed"]) != self.num_envs:
-                raise ValueError(f"{len(options['seed'])} seeds are given for {self.num_envs} environments")
+                raise ValueError(f"{len(options['seed'])} seeds were given for {self.num_envs} environments")
             for at, own in enumerate(options["seed"]):
                 if mask[at]:
                     native.seed(at, str(own), True)
@@ -414,7 +414,7 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         """
         lanes = self._lanes
         if not self._has_started:
-            raise gymnasium.error.ResetNeeded("no episode was started: call reset()")
+            raise gymnasium.error.ResetNeeded("no episode has been started: call reset()")
         if self._mode == AutoresetMode.DISABLED and (lanes.terminated.any() or lanes.truncated.any()):
             raise gymnasium.error.ResetNeeded("episodes are over: call reset() with their `reset_mask`")
         ended = lanes.step(np.ascontiguousarray(actions, np.int64))

@@ -105,7 +105,7 @@ def starter(path: str = "releases/starter", **options: Any) -> Task:
     arguments are those of :func:`snapshot`.
     """
     if not Path(path).is_dir():
-        raise ArcadeError(f"{path}: there is no such release; `arcade release` mints it, or name its folder with -T path=DIR")
+        raise ArcadeError(f"{path}: there is no such release; `arcade release` mints it, or pass its folder with -T path=DIR")
     return snapshot(path, **options)
 
 
@@ -405,7 +405,7 @@ def _replayed(state: TaskState) -> list[dict[str, Any]]:
     logs: list[dict[str, Any]] = state.store.get(LOGS, [])
     levels = [log["level"] for log in logs]
     if levels != options["levels"][: len(levels)]:
-        raise LogError(f"the logs are of the levels {levels}, not of {options['levels']}")
+        raise LogError(f"the logs cover the levels {levels}, not {options['levels']}")
     for log in logs:
         found: dict[str, Any] = json.loads(
             _native.replay_log(

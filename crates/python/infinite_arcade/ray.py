@@ -174,10 +174,10 @@ def _evaluate(subject: str, game: str, arguments: list[str], arcade: str, jobs: 
 
 def _run(command: list[str]) -> None:
     if shutil.which(command[0]) is None:
-        raise ArcadeError(f"`{command[0]}` is not on the path; install the command line, or name it with `arcade=`")
+        raise ArcadeError(f"`{command[0]}` is not on the path; install the command-line program, or pass its path as `arcade=`")
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        raise ArcadeError(f"`{' '.join(command)}` fails with status {done.returncode}: {done.stderr.strip()}")
+        raise ArcadeError(f"`{' '.join(command)}` failed with status {done.returncode}: {done.stderr.strip()}")
 
 
 def _read(folder: Path) -> Files:

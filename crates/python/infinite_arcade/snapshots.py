@@ -193,7 +193,7 @@ def recipe_text(recipe: str | Path) -> str:
         return Path(recipe).read_text("utf-8")
     text = _native.recipe(str(recipe))
     if text is None:
-        raise FileNotFoundError(f"there is no recipe named `{recipe}`: name a .toml file, or one of `arcade recipes`")
+        raise FileNotFoundError(f"there is no recipe named `{recipe}`: pass a .toml file, or a recipe listed by `arcade recipes`")
     return text
 
 

@@ -78,7 +78,7 @@ class ArcadeEnv(vf.Env[ArcadeEnvConfig]):
                 if request is None:
                     break
                 if len(request) != before + 2:
-                    raise ValueError("the conversation was cut")
+                    raise ValueError("the conversation was truncated")
                 segment = await interaction.turn(request[-1][1])
         if request is not None:
             series.fail("the player has stopped")
@@ -150,7 +150,7 @@ def replayed(info: dict[str, Any], log: str) -> dict[str, Any]:
         )
     )
     if not found["ended"] and found["outcome"] != "ongoing":
-        raise LogError("the log of an episode that is over has no end")
+        raise LogError("the log of a finished episode has no end")
     return found
 
 

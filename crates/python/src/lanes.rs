@@ -417,7 +417,7 @@ impl Lanes {
         let is_known = |action: &i64| usize::try_from(*action).is_ok_and(|at| at < named.len());
         if let Some(wrong) = chosen.iter().find(|action| !is_known(action)) {
             return Err(invalid(format_args!(
-                "action {wrong} is not one of the {} of the game",
+                "action {wrong} is not one of the game's {} actions",
                 named.len()
             )));
         }
@@ -464,7 +464,7 @@ impl Lanes {
         let Lanes { setting, lanes, actions: named, .. } = self;
         let wrong = |action: &i64| usize::try_from(*action).map_or(true, |at| at >= named.len());
         if chosen.is_empty() || chosen.iter().any(wrong) {
-            return Err(invalid("some of these are not actions of the game"));
+            return Err(invalid("some of the actions do not exist in the game"));
         }
         Ok(py.detach(|| {
             let (game, mut at, mut ended) = (&setting.rules().game, 0, 0);

@@ -47,7 +47,7 @@ pub fn convert(file: &str) -> Conversion {
     };
     if let Some(python) = &python {
         let to = format!("the game in the string, and {} of its levels", levels.len());
-        changes.push(Change { line: python.line, from: "a string of Python".to_owned(), to });
+        changes.push(Change { line: python.line, from: "a Python string".to_owned(), to });
     }
     let source = without_tabs(source, &mut changes);
     let (mut description, Diagnostics(mut problems)) = syntax::parse_all(&source);

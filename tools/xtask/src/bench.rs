@@ -131,7 +131,7 @@ fn summarise(kind: &str, mut ratios: Vec<f64>) {
     ratios.sort_by(f64::total_cmp);
     if let Some(least) = ratios.first() {
         let median = ratios[ratios.len() / 2];
-        println!("{} {kind} games: ratio {median:.1} in the median, {least:.1} at least", ratios.len());
+        println!("{} {kind} games: median ratio {median:.1}, minimum {least:.1}", ratios.len());
     }
 }
 

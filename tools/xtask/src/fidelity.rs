@@ -182,7 +182,7 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     }
     let apart = cells.iter().map(|cell| (rate(&cell.ours) - rate(&cell.theirs)).abs()).sum::<f64>();
     let apart = apart / cells.len() as f64;
-    println!("mean absolute difference of win rates: {:.1} points", 100.0 * apart);
+    println!("mean absolute difference between win rates: {:.1} points", 100.0 * apart);
     if apart > MEAN_DIFFERENCE {
         faults.push(format!("win rates differ by {:.1} points on average", 100.0 * apart));
     }

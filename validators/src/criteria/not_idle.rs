@@ -73,7 +73,7 @@ fn broken_off(played: &[Play], ticks: usize) -> Option<Finding> {
     let cut = played.iter().filter(is_cut).count();
     let spent = played.iter().map(|play| play.episode.actions.len() as u64).sum();
     let text = format!(
-        "{cut} of {} plays were stopped after {} by the budget",
+        "{cut} of {} episodes were stopped after {} by the budget",
         played.len(),
         base::count(ticks, "tick")
     );

@@ -129,7 +129,7 @@ impl Validator for SkillPays {
             );
         }
         if cut > 0 {
-            let text = format!("{cut} plays were stopped by the budget");
+            let text = format!("{cut} episodes were stopped by the budget");
             evidence.insert(0, Evidence::new(text));
         }
         let episodes = played.plays.into_iter().flatten().map(|play| play.episode);

@@ -154,7 +154,8 @@ impl Necessity {
         let on = subjects.iter().filter(|subject| element.levels.contains(&subject.won.number));
         let on: Vec<&Subject<'_>> = on.collect();
         if on.is_empty() {
-            let text = format!("no recorded play has `{}`, and no test shows that it matters", element.text);
+            let text =
+                format!("no recorded episode contains `{}`, and no test shows that it matters", element.text);
             return (Need::NotShown, text);
         }
         let wanted = ((on.len() as f64 * self.0.needed_levels).ceil() as usize).max(1);

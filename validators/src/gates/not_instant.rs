@@ -50,7 +50,7 @@ impl GameValidator for NotInstant {
                 share = wins(gates.bot_plays.saturating_mul(careless::CLOSER));
             }
             let text = format!(
-                "the nearest-goal player wins {:.0}% of its plays on level {}",
+                "the nearest-goal player wins {:.0}% of its episodes on level {}",
                 100.0 * share,
                 won.number
             );

@@ -60,7 +60,7 @@ impl GameValidator for Tight {
             won = shares(&|won| case.careless.closer_win_share(*won, gates));
         }
         let text = format!(
-            "careless players win {:.0}% of their plays, {:.0}% allowed",
+            "careless players win {:.0}% of their episodes, {:.0}% allowed",
             100.0 * won,
             100.0 * gates.careless_wins
         );

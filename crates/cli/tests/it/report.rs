@@ -221,8 +221,8 @@ fn invalid_results_are_refused_with_advice() {
     fs::create_dir(at("taken")).unwrap();
     fs::write(at("taken/mine.txt"), "mine").unwrap();
     let cases: [(&[&str], &[&str]); 7] = [
-        (&["lanterns"], &["lanterns", "no results of an evaluation"]),
-        (&["missing"], &["missing", "no results of an evaluation"]),
+        (&["lanterns"], &["lanterns", "contains no evaluation results"]),
+        (&["missing"], &["missing", "contains no evaluation results"]),
         (&["random", "random"], &["random", "run 0"]),
         (&["random", "other"], &["other", "lanterns"]),
         (&["damaged"], &["lanterns-lvl0-run0.jsonl: line 1", "not an event", "--resume"]),
@@ -361,7 +361,7 @@ fn logs_are_compared_with_their_replay() {
     for (results, words) in [
         ("status", &["line 14: ", "the game is over, but the game is not over"][..]),
         ("limit", &["line 14: ", "12 of 13 steps were taken"]),
-        ("run", &["line 1: ", "the log is of run 1, but 0 was requested"]),
+        ("run", &["line 1: ", "the log records run 1, but 0 was requested"]),
         ("invalid", &["line 2: ", "step 0 is recorded as invalid, but the step has an action"]),
         ("score", &["line 4: ", "step 2 leads to score 0, but the log records 1"]),
         ("after", &["line 14: ", "a step after its end"]),

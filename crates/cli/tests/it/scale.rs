@@ -175,7 +175,7 @@ fn readers_take_part_as_anchors() {
     let refusals = [
         (first("anchor-second", "none"), "has not played any level of this release"),
         (first("short", "none"), "1 episode with --max-steps 30 was left out"),
-        (first("nowhere", "none"), "nowhere: no results of an evaluation here"),
+        (first("nowhere", "none"), "nowhere: this folder contains no evaluation results"),
         (second("another", "none"), "did not play the first release of the scale"),
     ];
     for (args, words) in refusals {

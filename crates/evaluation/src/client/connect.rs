@@ -129,8 +129,9 @@ fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     if name.is_none_or(is_name) {
         return Ok(());
     }
-    let problem = "--key-variable takes the name of an environment variable, in capitals, digits and `_`, such as \
-                   `MY_API_KEY`; export the key under that name, and never put the key itself on the command line";
+    let problem = "--key-variable takes the name of an environment variable, which consists of capitals, \
+                   digits and `_`, such as `MY_API_KEY`; export the key under that name, and never put the \
+                   key itself on the command line";
     Err(EvaluationError::Malformed(problem.to_owned()))
 }
 

@@ -63,7 +63,7 @@ fn body_kind(body: &str) -> Option<&'static str> {
     if body.is_empty() {
         return Some("an empty body");
     }
-    body.starts_with('<').then_some("a page of HTML")
+    body.starts_with('<').then_some("an HTML page")
 }
 
 /// The maximum wait accepted from a header or a body: one year.
@@ -169,7 +169,7 @@ mod tests {
             ("[{\"error\":{\"message\":\"five\"}}]", "five"),
             ("six\n\u{1b}[31mred", "six [31mred"),
             ("", "an empty body"),
-            ("<!doctype html><title>no</title>", "a page of HTML"),
+            ("<!doctype html><title>no</title>", "an HTML page"),
         ] {
             assert_eq!(classified(400, body), Err(Fault::Final { status: 400, message: words.to_owned() }));
         }
@@ -230,7 +230,7 @@ mod tests {
         for (body, words) in [
             ("", "an empty body"),
             (" \n", "an empty body"),
-            ("<html>busy</html>", "a page of HTML"),
+            ("<html>busy</html>", "an HTML page"),
             ("{\"choices\": [", "not a reply"),
         ] {
             let Err(Fault::Transient { status, message, .. }) = classified(200, body) else {

@@ -170,7 +170,7 @@ impl Remote {
         let status = last.status.map(|status| format!("{status}: ")).unwrap_or_default();
         let times = if failures.len() == 1 { "once".to_owned() } else { format!("{} times", failures.len()) };
         let requested_wait = requested_wait
-            .map(|time| format!(", and requires a wait of {} s", time.as_secs()))
+            .map(|time| format!(", with a requested wait of {} s", time.as_secs()))
             .unwrap_or_default();
         let message = format!(
             "requests to {host} failed {times}, the last time with {status}{}{requested_wait}; continue later with --resume",

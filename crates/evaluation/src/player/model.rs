@@ -239,7 +239,8 @@ impl Agent for ModelPlayer {
         match again == *choice {
             true => Ok(()),
             false => Err(Halt::Log(format!(
-                "the answers of step {step} are now read differently from the log; resume with the version of arcade that wrote it"
+                "the answers of step {step} are now interpreted differently than in the log; resume with the \
+                 version of arcade that wrote it"
             ))),
         }
     }

@@ -94,7 +94,7 @@ impl Task<'_> {
         ];
         if let Some((what, found, requested)) = fields.iter().find(|(_, found, requested)| found != requested)
         {
-            return Err(format!("the log is of {what} {found}, but {requested} was requested"));
+            return Err(format!("the log records {what} {found}, but {requested} was requested"));
         }
         match *seed == self.chance() || *seed == self.chance_by_name() {
             true => Ok(()),

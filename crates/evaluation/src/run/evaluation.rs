@@ -182,16 +182,16 @@ impl Evaluation {
         let text = read_text(&path, MAX_SETTINGS, RESTORE).map_err(|error| match error {
             EvaluationError::Io { source, .. } if is_absent(&source) => {
                 let what = format!(
-                    "no results of an evaluation here (there is no {SETTINGS_FILE}); `arcade evaluate --out DIR` writes a results folder"
+                    "this folder contains no evaluation results (there is no {SETTINGS_FILE}); `arcade \
+                     evaluate --out DIR` writes a results folder"
                 );
                 EvaluationError::malformed(folder, what)
             }
             other => other,
         })?;
         let wrong = |what: String| EvaluationError::malformed(&path, what);
-        let unreadable = |error: serde_json::Error| {
-            wrong(format!("not the settings of an evaluation: {error}; {RESTORE}"))
-        };
+        let unreadable =
+            |error: serde_json::Error| wrong(format!("not evaluation settings: {error}; {RESTORE}"));
         let value: serde_json::Value = serde_json::from_str(&text).map_err(unreadable)?;
         let format = value.get("format").and_then(serde_json::Value::as_u64);
         if let Some(format) = format.filter(|&format| format > u64::from(FORMAT)) {

@@ -154,8 +154,8 @@ impl Timeline {
     }
 
     fn abilities(&self) -> Table {
-        let note = "Logits above the mean difficulty of the first month. Error² = sampling² + mismatch² + link². An interval with one end \
-                    has no win, or no loss.";
+        let note = "Logits above the mean difficulty of the first month. Error² = sampling² + mismatch² + \
+                    link². An interval has only one end if there is no win, or no loss.";
         let columns = [
             "player", "month", "ability", "error", "sampling", "mismatch", "link", "bounds", "won",
             "episodes", "games",
@@ -188,7 +188,7 @@ impl Timeline {
     }
 
     fn changes(&self) -> Table {
-        let note = "χ²: the statistic of the abilities about their mean, with one degree of freedom less \
+        let note = "χ²: the statistic of the abilities about their mean, with one degree of freedom fewer \
                     than the number of months. p: the probability of at least this value if the ability \
                     never changed. q: p adjusted for the number of players. Months without a win or \
                     without a loss are left out.";

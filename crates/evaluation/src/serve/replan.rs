@@ -75,7 +75,7 @@ pub(super) fn check(shown: &Shown<'_>, spec: &PlannerSpec) -> Result<(), Unanswe
 fn position(shown: &Shown<'_>, seed: Seed) -> Result<(Game, State), String> {
     let Some(vgdl) = shown.vgdl else {
         return Err("the planner needs the rules as VGDL: pass --rules vgdl to `arcade evaluate`, or set \
-                    `rules` to `vgdl` in the settings of prompts"
+                    `rules` to `vgdl` in the prompt settings"
             .to_owned());
     };
     let (description, _) = parse(vgdl);

@@ -283,14 +283,17 @@ fn foreign_folders_are_refused() {
     drop(open(&folder, "another", false).unwrap());
     fs::create_dir(folder.join("corridor-lvl0-run0")).unwrap();
     assert!(refused("another", false).contains("continue it with --resume"));
-    assert!(refused("test", true).contains("the mailbox of a different evaluation, of the player `alice`"));
+    assert!(
+        refused("test", true)
+            .contains("this mailbox belongs to a different evaluation, with the player `alice`")
+    );
     drop(open(&folder, "another", true).unwrap());
 
     let marker = fs::read_to_string(folder.join("mailbox.json")).unwrap();
     fs::write(folder.join("mailbox.json"), marker.replace("\"format\": 1", "\"format\": 2")).unwrap();
     assert!(refused("another", true).contains("the mailbox has format 2"));
     fs::write(folder.join("mailbox.json"), "{}").unwrap();
-    assert!(refused("another", true).contains("not a file of a mailbox"));
+    assert!(refused("another", true).contains("not a mailbox file"));
 }
 
 /// An evaluation that stops does not wait for answers to its other episodes. The prompts of these episodes

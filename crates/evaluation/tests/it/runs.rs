@@ -193,7 +193,7 @@ fn results_folders_are_locked_and_checked() {
     drop(evaluation);
     let other = Settings { runs: 7, ..settings(&subjects) };
     assert!(refusal(Evaluation::resume(&folder, &other)).contains("a different --runs"));
-    assert!(refusal(Evaluation::open(home.path())).contains("no results of an evaluation here"));
+    assert!(refusal(Evaluation::open(home.path())).contains("this folder contains no evaluation results"));
 
     fs::write(folder.join("games/corridor/lvl1.txt"), "wwww\nwAew\nwwww\n").unwrap();
     assert!(refusal(Evaluation::open(&folder)).contains("lvl1.txt differs from the file that was played"));
@@ -202,7 +202,7 @@ fn results_folders_are_locked_and_checked() {
     fs::write(&settings_file, text.replace("\"corridor\"", "\"../corridor\"")).unwrap();
     assert!(refusal(Evaluation::open(&folder)).contains("is not the name of a game"));
     fs::write(&settings_file, "{}").unwrap();
-    assert!(refusal(Evaluation::open(&folder)).contains("not the settings of an evaluation"));
+    assert!(refusal(Evaluation::open(&folder)).contains("not evaluation settings"));
 }
 
 /// An episode is not resumed if its log does not replay, or is not a log.

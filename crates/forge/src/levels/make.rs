@@ -53,7 +53,7 @@ fn hint(tally: &Tally) -> Option<String> {
     if tally.unbeaten > 0 && Some(&tally.unbeaten) >= tally.rejections.get(DIFFICULTY) {
         let unbeaten = tally.unbeaten;
         return Some(format!(
-            "no planner of the ladder wins any of the {unbeaten} levels that met all other criteria, and \
+            "no planner on the ladder wins any of the {unbeaten} levels that met all other criteria, and \
              difficulty is measured by these planners: do not request a difficulty, or make the game easier \
              for them"
         ));

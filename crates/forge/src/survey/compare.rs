@@ -178,7 +178,7 @@ impl Comparison {
                 }
             }
         }
-        let columns = ["Line", "Ours", "Theirs", "Difference (95 %)", "Points", "At least level"];
+        let columns = ["Line", "Ours", "Theirs", "Difference (95%)", "Points", "At least level"];
         let mut table = Table::new("side-by-side", "Side by side", &note, &columns);
         for line in &self.lines {
             let measure = if line.unit == Unit::Share { "share" } else { "mean" };

@@ -167,7 +167,7 @@ fn talks(log: &[Event]) -> Vec<Talk> {
     for event in log {
         match event {
             Event::Message { id, role, text, image } if *role != Role::Assistant => {
-                let picture = if image.is_some() { "[a picture of the board]\n" } else { "" };
+                let picture = if image.is_some() { "[an image of the board]\n" } else { "" };
                 shown.push((*id, format!("{picture}{text}")));
             }
             Event::Request { messages, .. } => {

@@ -140,7 +140,7 @@ impl<'a> ConstructiveLevels<'a> {
         // The best board so far, ranked by the number and importance of the wishes that it meets.
         let mut second_best: Option<(u32, Solved)> = None;
         let mut tried = 0;
-        let mut fault = "no board could be furnished".to_owned();
+        let mut fault = "no board could be filled with the required sprites".to_owned();
         for attempt in 0..ATTEMPTS {
             let seed = seed.child("board", attempt);
             let Some(made) = self.attempt(seed, attempt) else { continue };

@@ -121,7 +121,7 @@ pub(super) fn write_data(folder: &Path, name: &str, data: &impl Serialize) -> Re
 pub(super) fn read_data<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, EvaluationError> {
     let Some(text) = read_text(path)? else { return Ok(None) };
     let wrong = |error: serde_json::Error| {
-        EvaluationError::malformed(path, format!("not a file of a mailbox ({error}); remove the mailbox"))
+        EvaluationError::malformed(path, format!("not a mailbox file ({error}); remove the mailbox"))
     };
     serde_json::from_str(&text).map(Some).map_err(wrong)
 }
@@ -132,12 +132,12 @@ pub(super) fn read_text(path: &Path) -> Result<Option<String>, EvaluationError> 
         Err(error) if is_absent(&error) => return Ok(None),
         Err(error) => return Err(EvaluationError::io("read", path)(error)),
         Ok(found) if !found.is_file() || found.len() > MAX_FILE => {
-            return Err(EvaluationError::malformed(path, "not a file of a mailbox; remove the file"));
+            return Err(EvaluationError::malformed(path, "not a mailbox file; remove the file"));
         }
         Ok(_) => {}
     }
     match disk::read_no_follow(path, MAX_FILE) {
-        Ok(None) => Err(EvaluationError::malformed(path, "not a file of a mailbox; remove the file")),
+        Ok(None) => Err(EvaluationError::malformed(path, "not a mailbox file; remove the file")),
         Ok(Some(bytes)) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
         // The evaluation may remove the files of answered prompts at any time.
         Err(error) if is_absent(&error) => Ok(None),

@@ -79,7 +79,7 @@ impl Mailbox {
             }
             Some(other) if other.evaluation != own.evaluation && !is_empty => {
                 return Err(wrong(&format!(
-                    "this is the mailbox of a different evaluation, of the player `{}`; choose another \
+                    "this mailbox belongs to a different evaluation, with the player `{}`; choose another \
                      folder, or remove this one",
                     other.player
                 )));

@@ -208,7 +208,7 @@ impl Contrasts {
             &format!("{id}-overall"),
             &format!("{title}, over all levels"),
             "Difference between the rates (means over games of means over levels), with the 95% interval and the p-value of the paired t-test over games, which apply to games like these. Fewer than six \
-             games cannot show a difference at 5%. q: corrected for the pairs of this table (Benjamini, \
+             games cannot show a difference at 5%. q: corrected for the pairs in this table (Benjamini, \
              Hochberg). h: Cohen's effect size for the same rates (0.2 small, 0.5 medium, 0.8 large). Bounds: \
              the difference if all aborted episodes had gone against the first player, and if all had gone \
              for it. The last two columns apply to exactly these levels: the exact test within levels \
@@ -241,7 +241,7 @@ impl Contrasts {
             let note = format!(
                 "Fisher's exact test, two-sided, for exactly these levels; identical episodes are counted \
                  once. q: corrected for all {} comparisons (Benjamini, Hochberg); {believed} of the \
-                 corrected values are 0.05 or less. The difference of win rates with Newcombe's 95% \
+                 corrected values are 0.05 or less. The difference between win rates with Newcombe's 95% \
                  interval.{}",
                 list.len(),
                 if list.len() > most {

@@ -70,8 +70,8 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
          had been won. Different: identical episodes of a level counted once. The overall score \
          is the mean of meaningful step ratio, spared steps, normalised reward and win rate; it rewards \
          quick losses too. Normalised reward, and with it the overall score, is relative to the players of \
-         this report: it changes when others join or leave. Optimality: proved minimum of ticks divided by \
-         steps, over wins. Aborted: episodes stopped by the network, caps or interruptions, which are \
+         this report: it changes when others join or leave. Optimality: proven minimum number of ticks \
+         divided by steps, over wins. Aborted: episodes stopped by the network, caps or interruptions, which are \
          excluded from all columns except the bounds.",
         &study.leaderboard,
         &[

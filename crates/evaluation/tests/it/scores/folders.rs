@@ -90,7 +90,7 @@ fn incompatible_folders_are_rejected() {
     let other = Subject::read(&other.id, &other.source, &levels, SubjectFacts::default()).unwrap();
     let other = evaluate(&home.path().join("other"), "mcts", vec![other]);
     check(&[once.clone(), other], "differs from that of an earlier folder");
-    check(&[home.path().join("nowhere")], "no results of an evaluation");
+    check(&[home.path().join("nowhere")], "contains no evaluation results");
 
     // One episode was not started, and one was interrupted.
     fs::remove_file(once.join("episodes/hall-lvl0-run0.jsonl")).unwrap();

@@ -50,11 +50,11 @@ pub(super) fn novelty(measured: &[Measured<'_>], distances: &Distances, corpus: 
     let among: Vec<f64> = (0..corpus.len()).filter_map(among).collect();
     let unique = Share::new(forms.len() as u64, measured.len() as u64);
     Section::new("novelty", "How new are the games?", "Distances range from 0 (the same rules) to 1.")
-        .share("unique", "different games: names and order of rules do not count", unique)
+        .share("unique", "distinct games, ignoring names and the order of rules", unique)
         .share("near_duplicates", "near-duplicates in the set", near(&nearest))
         .share("near_corpus", "near-duplicates of the corpus", near(&of_corpus))
-        .quantiles("nearest", "distance to the most similar other", &nearest)
-        .quantiles("pairs", "distance of any two", &distances.pairs)
+        .quantiles("nearest", "distance to the most similar other game", &nearest)
+        .quantiles("pairs", "distance between any two games", &distances.pairs)
         .quantiles("nearest_corpus", "distance to the most similar corpus game", &of_corpus)
         .quantiles("among_corpus", "for scale: within the corpus", &among)
 }

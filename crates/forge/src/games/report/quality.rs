@@ -36,7 +36,7 @@ pub(super) fn skill(measured: &[Measured<'_>]) -> Option<Section> {
                 a game; then each player over all games.";
     let section = Section::new("skill", "Does skill pay?", note)
         .share("pays", "skill pays, in wins or in score", Share::yes(edges.iter().map(|edge| edge.pays)))
-        .share("by_score_only", "of these, in score only", Share::yes(paying.map(|edge| !in_wins(edge))))
+        .share("by_score_only", "skill pays in score only", Share::yes(paying.map(|edge| !in_wins(edge))))
         .share(
             "sure",
             "at least 25 points at the lower end of the interval",
@@ -47,8 +47,12 @@ pub(super) fn skill(measured: &[Measured<'_>]) -> Option<Section> {
             "players fare in the order of the ladder (rank correlation)",
             Mean::over(GAME, &orders),
         )
-        .quantiles("points", "difference of win rates", &points)
-        .quantiles("held_out", "the same, players held out", &held_out.collect::<Vec<f64>>());
+        .quantiles("points", "difference between win rates", &points)
+        .quantiles(
+            "held_out",
+            "difference between win rates, held-out players",
+            &held_out.collect::<Vec<f64>>(),
+        );
     let levels = measured.iter().flat_map(|game| &game.surveyed.report.levels);
     Some(PlayerRate::add_all(section, levels.filter_map(Report::ladder)))
 }

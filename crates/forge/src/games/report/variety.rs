@@ -44,7 +44,7 @@ pub(super) fn variety(measured: &[Measured<'_>]) -> Section {
             .data("largest", &largest)
             .figure("kinds", "kinds of avatar × goal", Value::CountOf(kinds.len() as u64, of, "game"));
     if let Some(share) = largest {
-        section = section.shown("of the most frequent kind", share.into());
+        section = section.shown("games of the most frequent kind", share.into());
     }
     let kind = || measured.iter().map(|game| &game.kind);
     let effects = counted(kind().flat_map(|kind| &kind.effects).map(|family| family.name()));

@@ -49,9 +49,9 @@ pub(super) fn diversity(
         "Distances range from 0 (the same level) to 1.",
     )
     .share("unique", "unique up to symmetry", unique)
-    .mean("distance", "distance of two levels", Mean::over("level", &distances.means))
+    .mean("distance", "distance between two levels", Mean::over("level", &distances.means))
     .share("near_duplicates", format!("near-duplicates: within {NEAR} of another level"), near(&nearest))
-    .quantiles("nearest", "distance to the most similar other", &nearest)
+    .quantiles("nearest", "distance to the most similar other level", &nearest)
 }
 
 /// Describes the distances to the game's own levels; `None` if the game has no levels of its own.
@@ -72,11 +72,15 @@ pub(super) fn novelty(
             "copies of the game's own levels, up to symmetry",
             Share::yes(levels.iter().map(copied)),
         )
-        .share("near_duplicates", format!("near-duplicates of these: within {NEAR}"), near(&nearest))
+        .share(
+            "near_duplicates",
+            format!("near-duplicates of the game's own levels: within {NEAR}"),
+            near(&nearest),
+        )
         .quantiles("nearest", "distance to the most similar of the game's own levels", &nearest)
         .quantiles(
             "among_examples",
-            "for scale: among the game's own",
+            "for scale: among the game's own levels",
             &Distances::of(examples, likeness).known(),
         );
     (!examples.is_empty()).then_some(section)

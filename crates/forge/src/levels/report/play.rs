@@ -135,7 +135,7 @@ pub(super) fn lengths(levels: &[SurveyedLevel]) -> Section {
     Section::new("lengths", "How long is a win?", "The length of the shortest win found.")
         .share("proved", "proved minimal", Share::new(shortest.len() as u64, ticks.len() as u64))
         .quantiles("ticks", "ticks of the witness", &ticks)
-        .quantiles("shortest", "ticks, if proved minimal", &shortest)
+        .quantiles("shortest", "ticks, if proven minimal", &shortest)
         .quantiles("pushes", "pushes of the witness", &pushes)
 }
 
@@ -187,7 +187,7 @@ pub(super) fn rules(game: &Game, levels: &[SurveyedLevel]) -> Section {
     let note = "Followed by each interaction, with the levels whose witness executes it.";
     let section = Section::new("rules", "Which rules do they use?", note)
         .share("used", "interactions that some witness executes", used)
-        .mean("each", "fraction of these that one witness executes", Mean::over(LEVEL, &each))
+        .mean("each", "fraction of these interactions that one witness executes", Mean::over(LEVEL, &each))
         .data("lines", &lines);
     lines.iter().fold(section, |section, line| {
         let edge = if line.guard { " (edge: not counted)" } else { "" };
