@@ -31,8 +31,8 @@ use std::process::ExitCode;
 
 /// Mints verified benchmarks of new arcade games, and checks them.
 ///
-/// Exit status: 0 yes or done; 1 the answer is no; 2 the question is malformed; 3 environment failure (I/O, network, disk full);
-/// 128 + signal interrupted, such as 130 for Ctrl-C.
+/// Exit status: 0 yes or done; 1 the answer is no; 2 malformed input; 3 environment failure (I/O, network, disk
+/// full); 128 + signal if interrupted, such as 130 for Ctrl-C.
 #[derive(Parser)]
 #[command(name = "arcade", version = version::version(), propagate_version = true, max_term_width = 100)]
 struct Cli {

@@ -270,7 +270,7 @@ fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
 fn developers_task(error: &clap::Error) -> Option<String> {
     let verb = error.get(ContextKind::InvalidSubcommand)?;
     (verb.to_string() == CONFORMANCE).then(|| {
-        "error: the comparison with the reference is now `cargo xtask conformance`, in a clone of the sources\n".to_owned()
+        "error: the comparison with the reference is now `cargo xtask conformance`, in a clone of the repository\n".to_owned()
     })
 }
 

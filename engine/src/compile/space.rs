@@ -107,7 +107,7 @@ impl<'a> Space<'a> {
                 line.name.text
             );
             let problem = Diagnostic::error("bad-parameter-values", span, message);
-            problems.push(problem.help("let the step lead from the first value to the last"));
+            problems.push(problem.help("choose a step that leads from the first value to the last"));
             return Values::Int(1);
         }
         let Some(value) = given("value") else {

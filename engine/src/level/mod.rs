@@ -115,7 +115,8 @@ impl Game {
         if columns == 0 {
             let message = "the level's first line is empty; its length is the width of the level";
             return fail(
-                Diagnostic::error("empty-level", everything, message).help("a level is rows of characters"),
+                Diagnostic::error("empty-level", everything, message)
+                    .help("a level consists of rows of characters"),
             );
         }
         if columns > MAX_SIDE || rows > MAX_SIDE || columns * rows > MAX_CELLS {

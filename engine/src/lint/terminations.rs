@@ -168,8 +168,8 @@ impl Linter<'_> {
                 let problem = Diagnostic::warning("ends-at-once", limit_of(line), message);
                 problems.push(problem.help(match (&end.condition, limit_of(line) == line.class.span) {
                     (Condition::Timeout { .. }, true) => "add `limit=` and a number of ticks",
-                    (Condition::Timeout { .. }, false) => "set a `limit=` of some ticks",
-                    _ => "let levels place some of the counted sprites, or set a different `limit=`",
+                    (Condition::Timeout { .. }, false) => "set a `limit=` of at least a few ticks",
+                    _ => "place some of the counted sprites in each level, or set a different `limit=`",
                 }));
             }
         }
@@ -255,7 +255,7 @@ impl Linter<'_> {
         let (verb, limit) = match (&goal.condition, goal.attainable) {
             (_, Attainable::InPlay | Attainable::AtOnce) => {
                 let reason = "another termination holds at the start of every level".to_owned();
-                return Some((reason, "let levels place some of the counted sprites".to_owned()));
+                return Some((reason, "place some of the counted sprites in each level".to_owned()));
             }
             (Counted::Tick(_), _) => return None,
             (Counted::AtMost(_, limit), _) | (Counted::Exactly(_, limit @ ..=0), _) => ("lowers", *limit),

@@ -156,7 +156,7 @@ fn report(cells: &[Cell], paper: &[(String, String, f64)]) -> bool {
     for ((cell, p), q) in cells.iter().zip(&p).zip(&q) {
         let Cell { game, agent, planner, theirs, ours, .. } = cell;
         let published = paper.iter().find(|(of, in_game, _)| of == agent && in_game == game);
-        let published = published.map_or(String::new(), |(_, _, rate)| format!("{rate:.0} %"));
+        let published = published.map_or(String::new(), |(_, _, rate)| format!("{rate:.0}%"));
         let means = |of: fn(&Result) -> f64| [ours, theirs].map(|results| mean(results, of));
         let [score, their_score] = means(|result| result.score);
         let [ticks, their_ticks] = means(|result| result.ticks);

@@ -124,7 +124,8 @@ impl Validator for SkillPays {
             advantages.iter().chain(&held).map(|advantage| Evidence::new(advantage.text.clone())).collect();
         if let (Verdict::Fail { .. }, Some(last)) = (&verdict, evidence.last_mut()) {
             last.advice = Some(
-                "let choices matter: dangers that foresight avoids, points that a plan earns, less luck"
+                "make choices matter: add dangers that foresight avoids or points that a plan earns, or \
+                 reduce luck"
                     .to_owned(),
             );
         }

@@ -192,7 +192,7 @@ impl Trials<'_> {
             let how = format!("without `{}`", ending.text);
             let advice = match goal.condition {
                 Condition::Tick(_) => "raise its `limit=`, or shorten the path".to_owned(),
-                _ => format!("let `{}` hold later", ending.text),
+                _ => format!("make `{}` hold later", ending.text),
             };
             Some((None, Changed { game: Game::compile(&description).ok()?, line: ending, how, advice }))
         });

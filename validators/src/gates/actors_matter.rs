@@ -62,7 +62,7 @@ impl GameValidator for ActorsMatter {
                     won.number
                 );
                 notes.push(
-                    Evidence::new(text).advise("let the path of such a sprite cross the path to the goal"),
+                    Evidence::new(text).advise("make the path of such a sprite cross the path to the goal"),
                 );
             }
         }

@@ -127,7 +127,7 @@ impl Line {
     fn group(&self, group: &Group) -> TableCell {
         TableCell::figure(group.mean.map(|mean| {
             let mean = match self.unit {
-                Unit::Share => format!("{:.0} %", 100.0 * mean),
+                Unit::Share => format!("{:.0}%", 100.0 * mean),
                 Unit::Scale => format!("{mean:.2}"),
                 Unit::Count => format!("{mean:.1}"),
             };

@@ -113,7 +113,7 @@ const COLUMNS: [Column; 13] = [
     ("strongest", |row| of_edge(row, |edge| format!("{} {} of {}", edge.strongest, edge.wins, edge.plays))),
     ("floor", |row| of_edge(row, |edge| format!("{} {}", edge.floor, edge.floor_wins))),
     ("points", |row| of_edge(row, |edge| points(edge.points))),
-    ("95 %", |row| of_edge(row, |edge| edge.interval.map(points).join(" to "))),
+    ("95%", |row| of_edge(row, |edge| edge.interval.map(points).join(" to "))),
     ("score", |row| signed(row.edge.as_ref().and_then(|edge| edge.score))),
     ("order", |row| signed(row.order)),
 ];

@@ -24,7 +24,7 @@ impl Well {
             ("yield", &|month| percent(Some(month.yielded))),
             ("games", &|month| TableCell::Count(month.games.into())),
             ("least", &nearest(|found| found.least)),
-            ("5 %", &nearest(|found| found.low)),
+            ("5%", &nearest(|found| found.low)),
             ("median", &nearest(|found| found.median)),
             ("unseen at 0.3", &|month| TableCell::number(month.unseen_near, 2)),
             ("unseen at 0.4", &|month| TableCell::number(month.unseen_far, 2)),
@@ -69,5 +69,5 @@ fn of_games(again: u32, all: u32) -> TableCell {
 }
 
 fn percent(share: Option<f64>) -> TableCell {
-    TableCell::figure(share.map(|share| format!("{:.1} %", 100.0 * share)))
+    TableCell::figure(share.map(|share| format!("{:.1}%", 100.0 * share)))
 }

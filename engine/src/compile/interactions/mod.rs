@@ -191,7 +191,7 @@ fn by_the_clock(
             if let Some(at) = seconds.iter().position(|second| matches!(second, Partner::Clock)) {
                 let message = "TIME must come first, or first among the partners";
                 let problem = Diagnostic::error("bad-interaction", line.second[at].span, message);
-                problems.push(problem.help("write a line of its own: `sprite TIME > …`"));
+                problems.push(problem.help("write a separate line: `sprite TIME > …`"));
             }
             return None;
         }

@@ -58,7 +58,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     }))?;
     console.say(format_args!("{guide}\nKind of game:\n  {}", guide.kind.join("\n  ")));
     if let Some(Prospects { level, text, .. }) = prospects {
-        console.say(format_args!("\nProved about {level}:\n  {}", text.join("\n  ")));
+        console.say(format_args!("\nProven about {level}:\n  {}", text.join("\n  ")));
     }
     Ok(true)
 }

@@ -20,7 +20,7 @@ use studio::{TEMPLATES, Template};
 /// Example: arcade new river-post --like crossing
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The game's folder, which must be absent or empty
+    /// The game's folder, which must be new or empty
     #[arg(value_name = "NAME")]
     name: PathBuf,
     /// The kind of game to start from

@@ -24,7 +24,7 @@ pub(crate) struct Args {
     /// Results folders written by `arcade evaluate`
     #[arg(value_name = "RESULTS", required = true)]
     results: Vec<PathBuf>,
-    /// Folder for the report, absent or empty
+    /// Folder for the report (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Number of episodes per player that the page shows step by step, failures first; 0 for none

@@ -367,11 +367,11 @@ fn table(rows: &[Row<'_>]) -> String {
     let planners = widest(&|row| row.planner.len(), "planner".len());
     let mut text = format!(
         "{:<width$}  {:<planners$}  {:>6}  {:>11}  {:>12}  {:>8}  {:>7}\n",
-        "game", "planner", "budget", "won", "95 %", "score", "ticks"
+        "game", "planner", "budget", "won", "95%", "score", "ticks"
     );
     for row in rows {
         let Row { planner, budget, plays, wins, interval: [low, high], mean_score, mean_ticks, .. } = row;
-        let interval = format!("{:.0} to {:.0} %", 100.0 * low, 100.0 * high);
+        let interval = format!("{:.0} to {:.0}%", 100.0 * low, 100.0 * high);
         let won = format!("{wins} of {plays}");
         let _ = writeln!(
             text,

@@ -103,8 +103,8 @@ fn say(diff: &Diff, console: &Console) {
         items.each.iter().filter(|one| matches!(one.status, Status::Kept | Status::Changed)).collect();
     for change in returned.iter().take(MAX_RETURNED) {
         let was = change.was.as_deref().unwrap_or_default();
-        let how = if change.status == Status::Kept { "is" } else { "is, with a different theme," };
-        console.say(format_args!("  {} {how} {was}", change.id));
+        let how = if change.status == Status::Kept { "" } else { " with a different theme" };
+        console.say(format_args!("  {} is {was}{how}", change.id));
     }
     if returned.len() > MAX_RETURNED {
         console.say(format_args!("  and {} more; --json lists all", returned.len() - MAX_RETURNED));
@@ -153,7 +153,7 @@ fn shift(shift: &Shift, console: &Console) {
     let (before, after) = (total(|share| share.before), total(|share| share.after));
     for Share { value, before: was, after: is } in shares.iter().take(MAX_LISTED) {
         let (old, new) = (100.0 * *was as f64 / before, 100.0 * *is as f64 / after);
-        console.say(format_args!("  {value:<32} {was:>4} {old:>3.0} %  → {is:>4} {new:>3.0} %"));
+        console.say(format_args!("  {value:<32} {was:>4} {old:>3.0}%  → {is:>4} {new:>3.0}%"));
     }
     if shares.len() > MAX_LISTED {
         console.say(format_args!("  and {} more; --json lists all", shares.len() - MAX_LISTED));

@@ -35,7 +35,7 @@ pub(crate) struct Args {
     /// The format to write
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: FormatName,
-    /// Folder to write, absent or empty; for an archive, a file that does not exist
+    /// Folder to write (new or empty); for an archive, a file that does not exist
     #[arg(long, value_name = "PATH")]
     out: PathBuf,
     /// Write the twins of the games instead: masked, mirrored, renamed, or the withheld siblings

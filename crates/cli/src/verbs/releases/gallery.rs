@@ -15,8 +15,8 @@ use studio::{Gallery, Studio};
 
 /// Writes a release as a page that needs no server: its games, cards and boards, and a replay of every recorded win.
 ///
-/// The release is verified first. The folder can be opened from the disk, or put on any web server. It contains all solutions
-/// that the release contains. It is complete or absent.
+/// The release is verified first. The folder can be opened from the disk, or served by any web server. It contains
+/// all solutions that the release contains. The folder is either complete or absent.
 ///
 /// Exit status 0: written. 1: the release does not verify. 2: there is no such release. 3: environment failure.
 ///
@@ -26,7 +26,7 @@ pub(crate) struct Args {
     /// The release: a folder or an archive
     #[arg(value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     snapshot: PathBuf,
-    /// The folder of the page: absent or empty
+    /// Folder for the page (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }

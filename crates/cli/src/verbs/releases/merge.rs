@@ -17,7 +17,7 @@ pub(crate) struct Args {
     /// The folders of all shards, in any order
     #[arg(value_name = "SHARD", required = true)]
     shards: Vec<PathBuf>,
-    /// The snapshot's folder: absent or empty
+    /// The snapshot's folder (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// The secret of a sealed release

@@ -51,9 +51,9 @@ pub(crate) fn table(study: &Study) -> Table {
             ("player", &|row| TableCell::text(study.players[row.player].label())),
             ("decisions", &|row| TableCell::Count(row.decisions)),
             ("median, ms", &|row| TableCell::number(row.median_ms, 1)),
-            ("90 %, ms", &|row| TableCell::number(row.p90_ms, 1)),
+            ("90%, ms", &|row| TableCell::number(row.p90_ms, 1)),
             ("median calls", &|row| TableCell::number(row.median_calls, 0)),
-            ("90 % calls", &|row| TableCell::number(row.p90_calls, 0)),
+            ("90% calls", &|row| TableCell::number(row.p90_calls, 0)),
         ],
     )
 }

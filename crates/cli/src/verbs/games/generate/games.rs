@@ -37,8 +37,8 @@ use validators::{Criteria, Effort, GameForm, Judging, Panel};
 /// Each game comes with an episode that wins each of its levels. It has been shown that neither idle nor random
 /// players win, that the game passes all gates (`arcade docs gates`), and that it is not close to any corpus game or
 /// to any other game in the set. Like a release, the output folder contains one folder per game, with game.vgdl,
-/// lvl0.txt and so on, card.json and witness/; `arcade play DIR/GAME` and `arcade run DIR` accept it directly. It is
-/// complete or absent.
+/// lvl0.txt and so on, card.json and witness/; `arcade play DIR/GAME` and `arcade run DIR` accept it directly. The
+/// folder is either complete or absent.
 ///
 /// An interrupted run leaves its finished attempts in OUT.partial; --resume continues it and gives the same bytes.
 ///
@@ -64,11 +64,10 @@ pub(crate) struct Args {
     /// Number of levels per game
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=20))]
     levels: u32,
-    /// Judge the games again, and write a report to this folder, absent or empty: report.html, report.json,
-    /// sheet.png
+    /// Judge the games again, and write a report to this folder (new or empty): report.html, report.json, sheet.png
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// The folder for the new games, absent or empty
+    /// Output folder for the games (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Continue an interrupted run of the same command

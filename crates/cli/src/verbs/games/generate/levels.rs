@@ -27,7 +27,8 @@ use validators::{Criterion, Difficulty, RuleRef};
 /// `search` and `evolutionary` levels come with a winning episode. Doing nothing never wins them, and random keys
 /// rarely do. `constructive` levels are instant and not judged, unless you request a property that has to be
 /// measured: a difficulty, a length or a rule. The folder contains the game, its new levels, and levels.json with
-/// facts about each level; `arcade validate DIR` and `arcade play DIR` accept it directly. It is complete or absent.
+/// facts about each level; `arcade validate DIR` and `arcade play DIR` accept it directly. The folder is either
+/// complete or absent.
 ///
 /// Exit status 0: all requested levels were made. 1: fewer, or none. 2: the game or a flag is malformed.
 ///
@@ -63,14 +64,13 @@ pub(crate) struct Args {
     /// Exact number of sprites of a type, such as `box=3`. May be repeated
     #[arg(long, value_name = "TYPE=N", value_parser = count)]
     with: Vec<(String, usize)>,
-    /// Judge the levels again, and write a report to this folder, absent or empty: report.html, report.json,
-    /// sheet.png
+    /// Judge the levels again, and write a report to this folder (new or empty): report.html, report.json, sheet.png
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     /// Load the game as the reference engine does, and tolerate the faults that it tolerates
     #[arg(long)]
     as_reference: bool,
-    /// The folder for the new levels, absent or empty
+    /// Output folder for the levels (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }

@@ -42,9 +42,9 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 ///
 /// The results folder contains the settings, the games and one log per episode; `arcade report` turns it into tables and a page.
 ///
-/// Exit status 0: all episodes have ended. 1: a cap was reached first (raise it and --resume), or the engine stopped an episode
-/// because of a fault in its game. 2: malformed. 3: network, server or disk failed; --resume continues. 128 + signal, such as 130
-/// for Ctrl-C: interrupted; --resume continues.
+/// Exit status 0: all episodes have ended. 1: a cap was reached first (raise it and use --resume), or the engine
+/// stopped an episode because of a fault in its game. 2: malformed input. 3: network, server or disk failed; --resume
+/// continues. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume continues.
 ///
 /// Example: arcade evaluate releases/starter --player mcts:100 --out results/mcts
 #[derive(clap::Args)]
@@ -82,7 +82,7 @@ pub(crate) struct Args {
     /// Text to derive the games' randomness from: the same for every player, so that runs are paired
     #[arg(long, value_name = "TEXT", default_value = evaluation::reference::SEED)]
     seed: String,
-    /// Folder for the results, absent or empty [default: results/ and the player's name]
+    /// Folder for the results (new or empty) [default: results/ and the player's name]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Resume the evaluation in the --out folder

@@ -25,8 +25,8 @@ use std::path::{Path, PathBuf};
 /// Examinees that never change play every level, with randomness that no mint uses. DIR gets scale.json, and plays/ with one
 /// results folder per examinee. With --scale, the release is added to an earlier scale, whose examinees play.
 ///
-/// Exit status 0: calibrated. 2: malformed. 3: the disk failed; --resume continues. 128 + signal: interrupted; --resume
-/// continues.
+/// Exit status 0: calibrated. 2: malformed input. 3: the disk failed; --resume continues. 128 + signal: interrupted;
+/// --resume continues.
 ///
 /// Example: arcade study calibrate releases/2026-12 --scale scales/2026-11/scale.json --out scales/2026-12
 #[derive(clap::Args)]
@@ -34,7 +34,7 @@ pub(crate) struct Args {
     /// A snapshot's folder or .tar.zst; or games, folders of games, corpus games by name
     #[arg(value_name = "SNAPSHOT|GAME", required = true)]
     subjects: Vec<String>,
-    /// Folder for scale.json and the episodes, absent or empty
+    /// Folder for scale.json and the episodes (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// The scale that the release is added to

@@ -28,7 +28,7 @@ use std::path::PathBuf;
 /// prints what the tests could detect if every level were played once.
 ///
 /// Exit status 0: consistent with not having seen the release, or too few coins to tell. 1: a player has seen something. 2:
-/// malformed, or nothing could be tested.
+/// malformed input, or nothing could be tested.
 ///
 /// Example: arcade study contamination results/a-model results/a-model-siblings --release releases/2027-01
 #[derive(clap::Args)]
@@ -212,7 +212,7 @@ fn say_power(power: &[Power], console: &Console) {
     let row = |of: &dyn Fn(&Power) -> String| power.iter().map(of).collect::<Vec<_>>().join("  ");
     console.say(format_args!(
         "  power, if a player knows this fraction of the levels  {}",
-        row(&|power| format!("{:>3.0} %", 100.0 * power.share))
+        row(&|power| format!("{:>4.0}%", 100.0 * power.share))
     ));
     for (what, of) in [
         ("by its solutions", (|power| power.solutions) as fn(&Power) -> Option<f64>),
@@ -225,7 +225,7 @@ fn say_power(power: &[Power], console: &Console) {
                     format!("{:>5.2}", if found < 0.005 { 0.0 } else { found })
                 })
             });
-            console.say(format_args!("    {what:<48} {shares}"));
+            console.say(format_args!("    {what:<51} {shares}"));
         }
     }
 }

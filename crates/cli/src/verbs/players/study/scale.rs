@@ -17,7 +17,8 @@ use std::path::PathBuf;
 /// number of episodes (sampling), games that suit the player (mismatch), and the link between the months (see
 /// `arcade docs scale`).
 ///
-/// Exit status 0: all players are placed. 1: a player cannot be placed; the message says what is needed. 2: malformed.
+/// Exit status 0: all players are placed. 1: a player cannot be placed; the message says what is needed. 2: malformed
+/// input.
 ///
 /// Example: arcade study scale results/a-model/2026-11 results/a-model/2026-12 --scale scales/2026-12/scale.json
 #[derive(clap::Args)]

@@ -19,7 +19,7 @@ use std::path::PathBuf;
 /// results that calibrated it, in plays/ beside each scale.json, show how constant the examinees are. DIR gets timeline.html (one
 /// file, for any browser), timeline.json, and every table as tables/*.csv and tables/*.tex (see `arcade docs timeline`).
 ///
-/// Exit status 0: written. 2: malformed.
+/// Exit status 0: written. 2: malformed input.
 ///
 /// Example: arcade study timeline results/*/* scales/*/plays/* --scale scales/2027-12/scale.json --out timeline
 #[derive(clap::Args)]
@@ -30,7 +30,7 @@ pub(crate) struct Args {
     /// The scale with all months, a scale.json written by `arcade study calibrate`
     #[arg(long, value_name = "FILE")]
     scale: PathBuf,
-    /// Folder for the page and its numbers, absent or empty
+    /// Folder for the page and its numbers (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }

@@ -20,7 +20,7 @@ use validators::novelty::GameForm;
 /// made. Instead, a fraction of the rules fails, chosen by the seed. Without RECIPE, a month has 100 games. `arcade
 /// docs well` explains the columns.
 ///
-/// Exit status 0: simulated. 2: malformed.
+/// Exit status 0: simulated. 2: malformed input.
 ///
 /// Example: arcade study well --months 24 --games 100
 #[derive(clap::Args)]

@@ -32,8 +32,8 @@ use trust::log::is_month;
 
 /// Mints a snapshot of new, verified games and levels from a recipe. The same recipe always gives the same bytes.
 ///
-/// The folder is complete or absent. Until everything is minted, there is only `<out>.partial`, from which an interrupted mint
-/// continues with --resume. With --shard, only a slice is made, for `arcade merge`.
+/// The folder is either complete or absent. Until everything is minted, there is only `<out>.partial`, from which an
+/// interrupted mint continues with --resume. With --shard, only a slice is made, for `arcade merge`.
 ///
 /// Example: arcade release starter --out my-benchmark
 #[derive(clap::Args)]
@@ -41,7 +41,7 @@ pub(crate) struct Args {
     /// A recipe's name, or a .toml file [default: starter]. With --reveal, the public folder of a sealed release
     #[arg(value_name = "RECIPE")]
     recipe: Option<PathBuf>,
-    /// The snapshot's folder, absent or empty [default: `releases/<name>`]
+    /// The snapshot's folder (new or empty) [default: `releases/<name>`]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Make only the K-th of N slices

@@ -17,7 +17,7 @@ use trust::{PublicKey, TrustError, read_bounded};
 /// that shows others a different history. --month reveals a copy that is no longer updated. With --proof and --entry, or --growth
 /// and --seen, a proof is checked without the log.
 ///
-/// Exit status 0: sound. 1: not sound, with every reason listed. 2: malformed.
+/// Exit status 0: sound. 1: not sound, with every reason listed. 2: malformed input.
 ///
 /// Example: arcade trust log check log --key log.pub --seen log.seen --save log.seen --month 2027-03
 #[derive(clap::Args)]
