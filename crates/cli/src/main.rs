@@ -41,7 +41,7 @@ struct Cli {
     /// Print one JSON document and nothing else on standard output
     #[arg(long, global = true)]
     json: bool,
-    /// Print no progress and no warnings, and the shortest answer
+    /// Print only the shortest answer, without progress or warnings
     #[arg(short, long, global = true)]
     quiet: bool,
     #[command(flatten)]

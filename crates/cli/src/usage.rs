@@ -18,7 +18,8 @@ pub(crate) fn command() -> Command {
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
     let verbs = verbs_in_short(&command);
     let options = "--json           Print one JSON document on standard output, and nothing else\n  -q, --quiet      \
-                       Print no progress, no warnings, and the shortest answer\n  --jobs <N>       Number of \
+                       Print only the shortest answer, without progress or warnings\n  --jobs <N>       \
+                       Number of \
                    threads [default: all cores]\n  --memory <SIZE>  Maximum memory for all searches together, \
                    such as 4GiB\n  -h, --help       Print help, also after a command; -V, --version prints \
                    the version";

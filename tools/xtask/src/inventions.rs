@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// Invents games under the criteria of a recipe, writes the accepted games, and counts the reasons why other
 /// attempts fail.
 ///
-/// Cost: a minute or two of one core per game.
+/// Cost: a minute or two on one core per game.
 ///
 /// Example: cargo xtask inventions seeds/2026-12.toml --count 4 --out invented
 #[derive(clap::Args)]
@@ -68,7 +68,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     tallies.iter().for_each(|tally| all.add(tally));
     let calls = all.calls / 1_000_000;
     let (made, looks) = (all.games_accepted, all.looks());
-    println!("{made} of {} games, {looks} looks, {calls} million calls: {}", args.count, all.reasons());
+    println!("{made} of {} games, {looks} inspected, {calls} million calls: {}", args.count, all.reasons());
     Ok(())
 }
 

@@ -17,9 +17,9 @@ use validators::novelty::{GameForm, NEAR, distance};
 /// Attempts games of each kernel under the criteria of a recipe. Counts the accepted games, and the reasons
 /// why the other games fail.
 ///
-/// If a kernel rarely passes, other kernels take its turns, so that a release has many games from few
-/// kernels. Attempts are independent, so the games of a kernel may be similar to each other. Cost: 1 to 15
-/// seconds of one core per attempt.
+/// If a kernel rarely passes, other kernels take its turns, so that a release has many games from few kernels.
+/// Attempts are independent, so the games of a kernel may be similar to each other. Cost: 1 to 15 seconds on one core
+/// per attempt.
 ///
 /// Example: cargo xtask kernels seeds/2026-12.toml --kernel one-pull
 #[derive(clap::Args)]

@@ -302,7 +302,7 @@ impl Shards {
                 self.get(name)?.ok_or_else(|| place("not a job of this plan: mint the job again".into()))?;
             let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, plan.recipe));
             wrong.map_or(Ok(()), |what| {
-                Err(place(format!("{what}; no mint gives this result: mint the job again")))
+                Err(place(format!("{what}; no mint produces this result: mint the job again")))
             })
         })
     }

@@ -44,7 +44,7 @@ impl BeaconPart {
             || self.source.len() > 80
             || self.source.chars().any(char::is_control)
         {
-            return wrong("beacon.source", "takes a text of 1 to 80 bytes, such as \"drand quicknet\"");
+            return wrong("beacon.source", "takes a string of 1 to 80 bytes, such as \"drand quicknet\"");
         }
         match self.value {
             Some(_) => wrong(
@@ -89,7 +89,7 @@ mod tests {
         check(&format!("{GOOD}{BEACON_TABLE}"), "`beacon` applies only to sealed releases");
         check(
             &format!("{sealed}{}", BEACON_TABLE.replace("drand quicknet", " ")),
-            "`beacon.source` takes a text",
+            "`beacon.source` takes a string",
         );
         check(&format!("{sealed}{BEACON_TABLE}value = '{}'", Digest::of(b"")), "remove the value");
     }

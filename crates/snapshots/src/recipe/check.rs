@@ -85,7 +85,7 @@ impl Recipe {
         }
         match (&self.seed, self.commitment) {
             (Some(seed), None) if seed.trim().is_empty() || seed.len() > 200 => {
-                return wrong("seed", "takes a text of 1 to 200 bytes");
+                return wrong("seed", "takes a string of 1 to 200 bytes");
             }
             (Some(_), Some(_)) => {
                 return wrong(
@@ -94,7 +94,8 @@ impl Recipe {
                 );
             }
             (None, None) => {
-                let help = "is missing: give a text, or a `commitment` from `arcade release RECIPE --commit`";
+                let help = "is missing: specify any text, or a `commitment` from `arcade release RECIPE \
+                            --commit`";
                 return wrong("seed", help);
             }
             _ => {}
@@ -234,7 +235,8 @@ impl Recipe {
                 return wrong(
                     key,
                     format!(
-                        "requires a fraction from {low} to {high}, which no number out of {games} games gives"
+                        "requires a fraction from {low} to {high}, which no number of games out of {games} \
+                         gives"
                     ),
                 );
             }

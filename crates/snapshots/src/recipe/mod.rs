@@ -358,7 +358,7 @@ pub(crate) mod tests {
         );
         check(
             &format!("{GOOD}[taxonomy.avatars]\nwalks = [0.6, 0.9]"),
-            "which no number out of 2 games gives",
+            "which no number of games out of 2 gives",
         );
         check(&GOOD.replace("= 2", "= 0"), "nothing to mint");
         check(&format!("{GOOD}[corpus.criteria]\nrandom_wins = 2.0"), "`corpus.criteria.random_wins` is 2");

@@ -11,9 +11,8 @@ use statistics::{Design, Spread};
 
 /// Simulates evaluations under the model of `arcade evaluate --dry-run`, and prints tables in Markdown.
 ///
-/// The same seed gives the same tables. At the default size, each of the first three tables takes about a
-/// minute on two cores. The tables about the scale (link, ability, drift, adaptive) take 15 to 25 minutes of
-/// one core each.
+/// The same seed gives the same tables. At the default size, each of the first three tables takes about a minute on
+/// two cores. The tables about the scale (link, ability, drift, adaptive) take 15 to 25 minutes each on one core.
 ///
 /// Example: cargo xtask simulate coverage --trials 1000
 #[derive(clap::Args)]

@@ -17,7 +17,8 @@ use std::path::{Path, PathBuf};
 /// The maximum length of a GIF's longer side, in pixels, unless the user specifies a scale.
 const GIF_SIDE: u32 = 480;
 
-/// Draws a level, a tick of an episode, or a whole episode: PNG, SVG, GIF or text, by the extension of the file.
+/// Draws a level, a tick of an episode, or a whole episode, as PNG, SVG, GIF or text, depending on the file's
+/// extension.
 ///
 /// A sprite's shape shows its role: spikes, teeth and angry eyes harm, a star wins, bricks block, and the figure in
 /// the bright ring is the player. The colours are the game's own.

@@ -32,7 +32,7 @@ const PATIENCE: u32 = 20;
 /// Example: arcade mailbox alice
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The folder of `arcade evaluate … --player mailbox:DIR`
+    /// The folder passed to `arcade evaluate … --player mailbox:DIR`
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Only list the waiting prompts

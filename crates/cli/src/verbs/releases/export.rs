@@ -38,7 +38,7 @@ pub(crate) struct Args {
     /// Folder to write (new or empty); for an archive, a file that does not exist
     #[arg(long, value_name = "PATH")]
     out: PathBuf,
-    /// Write the twins of the games instead: masked, mirrored, renamed, or the withheld siblings
+    /// Write the games' twins instead: masked, mirrored, renamed, or the withheld siblings
     #[arg(long, value_name = "TWIN")]
     twin: Option<Twin>,
     /// Add the actions that win each level

@@ -24,8 +24,9 @@ const MAX_WORK: u64 = 1 << 28;
 ///
 /// If a folder contains only MANIFEST.json, only the manifest is compared, including the root in it.
 ///
-/// Exit status 0: identical. 1: not identical, with every differing file listed. 2: this arcade cannot mint it, or its manifest
-/// is damaged. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume continues only with --out.
+/// Exit status 0: identical. 1: not identical, with every differing file listed. 2: this version of arcade cannot
+/// mint it, or its manifest is damaged. 128 + signal, such as 130 for Ctrl-C: interrupted; --resume continues only
+/// with --out.
 ///
 /// Example: arcade regenerate releases/starter
 #[derive(clap::Args)]

@@ -90,8 +90,8 @@ impl GameSetReport {
             ("rules", "all_used", "every rule used"),
             ("variety", "kinds", "kinds of avatar × goal"),
             ("play", "mechanics", "mechanics in winning play, median"),
-            ("novelty", "unique", "different games"),
-            ("cost", "accepted", "accepted of all judged"),
+            ("novelty", "unique", "distinct games"),
+            ("cost", "accepted", "accepted out of all judged"),
         ]);
         GameSetReport { set, games }
     }
@@ -102,7 +102,7 @@ fn price(cost: &Tally, made: u64, accepted: Share) -> Section {
     Section::new("cost", "What was the cost?", "The cost of judging for this report is not included.")
         .data("accepted", &made)
         .data("tried", &cost.games_tried)
-        .figure("accepted", "accepted of all judged", accepted.into())
+        .figure("accepted", "accepted out of all judged", accepted.into())
         .count("calls", "forward-model calls", cost.calls)
         .shown("calls per accepted item", each)
         .tally("rejections", "rejected", &cost.rejections, None)

@@ -15,7 +15,7 @@ pub(super) fn validity(games: &[SurveyedGame]) -> Section {
     let note = "`arcade docs validate` explains each criterion.";
     let first = obstacles(games.iter().filter_map(SurveyedGame::obstacle));
     Section::new("validity", "Do the games meet the criteria?", note)
-        .share("games", "games: all levels, and all together", passing)
+        .share("games", "games (every level, and all levels together)", passing)
         .share("levels", "levels", Share::yes(levels.map(Report::passes)))
         .tally("obstacles", "first failure", &first, Some(games.len() as u64))
 }
@@ -42,11 +42,7 @@ pub(super) fn skill(measured: &[Measured<'_>]) -> Option<Section> {
             "at least 25 points at the lower end of the interval",
             Share::yes(edges.iter().map(|edge| edge.interval[0] >= SURE)),
         )
-        .gain(
-            "order",
-            "players fare in the order of the ladder (rank correlation)",
-            Mean::over(GAME, &orders),
-        )
+        .gain("order", "players rank in ladder order (rank correlation)", Mean::over(GAME, &orders))
         .quantiles("points", "difference between win rates", &points)
         .quantiles(
             "held_out",
@@ -115,7 +111,7 @@ pub(super) fn difficulty(measured: &[Measured<'_>]) -> Option<(Section, Table)> 
     let section = Section::new("difficulty", "Do the levels get harder?", "")
         .data("labels", &LABELS)
         .data("table", &counts)
-        .gain("rising", "harder and harder (rank correlation of position and difficulty)", rising);
+        .gain("rising", "levels get harder (rank correlation of position and difficulty)", rising);
     let labels = LABELS.map(|label| label.to_string());
     let columns: Vec<&str> = [""].into_iter().chain(labels.iter().map(String::as_str)).collect();
     let mut table = Table::new("difficulty", "Difficulty", "Levels by their position in the game.", &columns);

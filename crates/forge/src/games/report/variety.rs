@@ -53,7 +53,7 @@ pub(super) fn variety(measured: &[Measured<'_>]) -> Section {
     for (key, name, counts) in [
         ("effects", "families of effects", effects),
         ("npcs", "classes of sprites that move by themselves", npcs),
-        ("producers", "classes of sprites that make others", producers),
+        ("producers", "classes of sprites that create other sprites", producers),
     ] {
         let having = counts.into_iter().map(|(name, count)| Having { name, games: Share::new(count, of) });
         let mut having: Vec<Having> = having.collect();

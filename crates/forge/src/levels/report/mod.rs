@@ -98,7 +98,7 @@ impl LevelSetReport {
                 ("diversity", "unique", "unique"),
                 ("lengths", "ticks", "ticks of a win, median"),
                 ("lengths", "pushes", "pushes, median"),
-                ("skill", "wins", "gain of looking ahead"),
+                ("skill", "wins", "gain from looking ahead"),
                 ("control", "exact", "as hard as requested"),
             ]);
         LevelSetReport { set, fits, ranges, levels: rows }

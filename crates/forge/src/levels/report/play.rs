@@ -92,8 +92,8 @@ pub(super) fn solvability(levels: &[SurveyedLevel]) -> Section {
     let unknown = |level: &SurveyedLevel| !solved(level) && !impossible(level);
     let share = |test: &dyn Fn(&SurveyedLevel) -> bool| Share::yes(levels.iter().map(test));
     Section::new("solvability", "Can the levels be won?", "")
-        .share("solved", "solved: an episode wins, and replays", share(&solved))
-        .share("impossible", "impossible: proved", share(&impossible))
+        .share("solved", "solved: an episode wins, confirmed by a replay", share(&solved))
+        .share("impossible", "impossible: proven", share(&impossible))
         .share("unknown", "unknown: the budget was spent", share(&unknown))
 }
 
@@ -114,7 +114,7 @@ pub(super) fn triviality(levels: &[SurveyedLevel]) -> Section {
     let both = |level: &SurveyedLevel| {
         Some(of_few(level, Criterion::NotIdle)? && of_few(level, Criterion::NotRandom)?)
     };
-    let at_most = |who: &str| format!("levels of which {who} at most 10\u{a0}%");
+    let at_most = |who: &str| format!("levels where {who} at most 10% of episodes");
     Section::new("triviality", "Can the levels be won without effort?", "")
         .share("idle", "episodes won by doing nothing", pooled(Criterion::NotIdle))
         .share("random", "episodes won by random keys", pooled(Criterion::NotRandom))
@@ -155,11 +155,7 @@ pub(super) fn skill(levels: &[SurveyedLevel]) -> Option<Section> {
         Section::new("skill", "Does skill pay?", "Means over levels; then each player over all levels.")
             .gain("wins", "more wins by looking ahead", Some(wins))
             .gain("reward", "more score by looking ahead", Mean::over(LEVEL, &reward))
-            .gain(
-                "order",
-                "players fare in the order of the ladder (rank correlation)",
-                Mean::over(LEVEL, &order),
-            );
+            .gain("order", "players rank in ladder order (rank correlation)", Mean::over(LEVEL, &order));
     Some(PlayerRate::add_all(section, ladders))
 }
 

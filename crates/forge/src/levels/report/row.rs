@@ -75,13 +75,13 @@ impl LevelRow {
         }
     }
 
-    /// Returns the measured difficulty, with the requested difficulty if the two differ: `hard (asked: easy)`. Returns
-    /// an empty text if neither difficulty is known.
+    /// Returns the measured difficulty, with the requested difficulty if the two differ: `hard (requested: easy)`.
+    /// Returns an empty text if neither difficulty is known.
     pub fn difficulty(&self) -> String {
         match (self.label, self.asked) {
-            (Some(label), Some(asked)) if label != asked => format!("{label} (asked: {asked})"),
+            (Some(label), Some(asked)) if label != asked => format!("{label} (requested: {asked})"),
             (Some(label), _) => label.to_string(),
-            (None, Some(asked)) => format!("asked: {asked}"),
+            (None, Some(asked)) => format!("requested: {asked}"),
             (None, None) => String::new(),
         }
     }
@@ -153,7 +153,7 @@ mod tests {
             measures: BTreeMap::from([("ticks".to_owned(), 34.0), ("pushes".to_owned(), 12.0)]),
             nearest: None,
         };
-        assert_eq!(row.difficulty(), "medium (asked: hard)");
+        assert_eq!(row.difficulty(), "medium (requested: hard)");
         assert_eq!(row.remark(true), "34 ticks (shortest), 12 pushes");
         assert_eq!(row.remark(false), "34 ticks, 12 pushes");
         row.asked = row.label;

@@ -73,7 +73,7 @@ pub(crate) struct Args {
     /// Number of episodes per level
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES))]
     runs: u64,
-    /// Maximum number of actions per episode [default: 1000, or that of the --scale]
+    /// Maximum number of actions per episode [default: 1000, or the limit of the --scale]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_DECISIONS))]
     max_steps: Option<u64>,
     /// Actions that the player commits to per decision: a number, or `all` for the whole episode

@@ -20,7 +20,7 @@ pub(crate) struct PromptArgs {
     /// board (see `arcade docs tracks`)
     #[arg(long, value_parser = PossibleValuesParser::new(Track::ALL.map(Track::name)).map(track_named))]
     pub(super) track: Option<Track>,
-    /// The earlier turns in prompts: left out or shown [default: zero-shot]
+    /// Whether prompts show earlier turns [default: zero-shot]
     #[arg(long, value_parser = named::<Mode, 2>(Mode::ALL.map(Mode::name)))]
     mode: Option<Mode>,
     /// The layout of prompts
@@ -41,13 +41,13 @@ pub(crate) struct PromptArgs {
     /// Give each state of the avatar its own character, and do not reveal which one is the player's
     #[arg(long)]
     identity_tracking: bool,
-    /// Shuffle the characters of the board, with this number as the seed
+    /// Shuffle the board's characters, with this number as the seed
     #[arg(long, value_name = "N")]
     shuffle_symbols: Option<u64>,
     /// File with advice that prompts include verbatim
     #[arg(long, value_name = "FILE")]
     strategy: Option<PathBuf>,
-    /// Maximum number of tokens of a conversation; the oldest turns beyond it are left out [default: 20000]
+    /// Maximum number of tokens in a conversation; the oldest turns beyond it are left out [default: 20000]
     #[arg(long, value_name = "N")]
     history_tokens: Option<u64>,
 }
@@ -70,7 +70,7 @@ where
 /// An optional part of a prompt.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum)]
 enum Aid {
-    /// The meaning of the characters of the board
+    /// The meanings of the board's characters
     Legend,
     /// The effects of the keys
     Meanings,

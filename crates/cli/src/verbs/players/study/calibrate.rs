@@ -46,13 +46,13 @@ pub(crate) struct Args {
     /// Number of episodes per examinee and level
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=1000))]
     runs: u64,
-    /// Maximum number of actions per episode [default: 500, or that of the scale]
+    /// Maximum number of actions per episode [default: 500, or the scale's limit]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     max_steps: Option<u64>,
-    /// Replicates of the parametric bootstrap, for the interval of the correlation and the bias of spreads
+    /// Number of parametric bootstrap replicates, for the interval of the correlation and the bias of the spreads
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u64).range(..=10_000))]
     replicates: u64,
-    /// Text to derive the randomness of the episodes from; a different text gives new episodes
+    /// Text to derive the episodes' randomness from; different text gives new episodes
     #[arg(long, value_name = "TEXT", default_value = "calibrate")]
     seed: String,
     /// The name of the release on the scale [default: the name of its folder]

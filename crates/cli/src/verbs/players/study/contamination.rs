@@ -36,7 +36,7 @@ pub(crate) struct Args {
     /// Results folders written by `arcade evaluate`, for the release and for its siblings
     #[arg(value_name = "RESULTS")]
     results: Vec<PathBuf>,
-    /// The release's folder or .tar.zst, revealed
+    /// The folder or .tar.zst of the revealed release
     #[arg(long, value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     release: PathBuf,
 }

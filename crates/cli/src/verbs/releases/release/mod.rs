@@ -56,7 +56,7 @@ pub(crate) struct Args {
     /// The previous release's folder. No content of the previous release or an earlier one is minted again
     #[arg(long, value_name = "DIR", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
-    /// The secret of a sealed release, as made by --commit
+    /// The secret of a sealed release, as written by --commit
     #[arg(long, value_name = "FILE")]
     secret: Option<PathBuf>,
     /// The value of the beacon that the recipe of a sealed release specifies, as a JSON file

@@ -21,7 +21,7 @@ use trust::Signed;
 
 /// Checks a snapshot: paths, sizes, digests, root; then parses every game and level and replays every witness.
 ///
-/// Without --root, this shows only that the snapshot is consistent in itself; only the published root shows that it
+/// Without --root, this shows only that the snapshot is internally consistent; only the published root shows that it
 /// is the published one. If the witnesses need a version of arcade with different semantics, they cannot be replayed
 /// here, and the answer is no unless --accept-unreplayed is given. Replays may take 2147483648 units of work plus
 /// 2097152 per level, which is ten to sixty seconds on one core; --max-work sets a different limit

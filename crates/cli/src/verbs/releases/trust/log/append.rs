@@ -118,7 +118,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     for text in &args.calibration {
         let Some((name, file)) = text.split_once('=') else {
-            bail!("`{text}` does not give the name of a release and its scale: write NAME=FILE");
+            bail!("`{text}` does not specify a release's name and its scale: write NAME=FILE");
         };
         let root = root_of(name, &new)?;
         let scale = ScaleFile::read(Path::new(file))?;

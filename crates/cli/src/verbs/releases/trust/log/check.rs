@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use trust::log::{Consistency, Entry, Inclusion, Log, MAX_CHECKPOINT, MAX_ENTRY, frozen, is_month, unkept};
 use trust::{PublicKey, TrustError, read_bounded};
 
-/// Checks a log: its signature, its entries under its root, its files, and the consistency of the entries.
+/// Checks a log: its signature, its root, its files, and the consistency of its entries.
 ///
 /// Keep the checkpoint of each visit (--save) and pass it at the next (--seen). Only this reveals a log that was rolled back, or
 /// that shows others a different history. --month reveals a copy that is no longer updated. With --proof and --entry, or --growth
@@ -160,7 +160,7 @@ fn witnesses(asked: &[String], log: &Log) -> Result<Vec<String>, Failure> {
     let mut problems = Vec::new();
     for text in asked {
         let Some((name, file)) = text.split_once('=') else {
-            bail!("`{text}` does not give the name of a witness and its public key: write NAME=FILE");
+            bail!("`{text}` does not specify a witness's name and public key: write NAME=FILE");
         };
         if log.checkpoint.witnessed(name, &public_key(Path::new(file))?).is_none() {
             problems.push(format!("the witness `{name}` has not signed the checkpoint"));
