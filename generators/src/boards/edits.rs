@@ -30,15 +30,15 @@ pub(crate) enum Edit {
     MoveHero,
 }
 
-/// All edits, with their weights.
+/// All edits, with their weights. Pieces change more often than walls, so that a plan stays recognizable.
 const EDITS: [(Edit, u32); 10] = [
     (Edit::MovePiece, 9),
     (Edit::Swap, 3),
     (Edit::MoveGroup, 4),
-    (Edit::ShiftWall, 4),
-    (Edit::Extend, 4),
-    (Edit::Shorten, 3),
-    (Edit::MoveGap, 4),
+    (Edit::ShiftWall, 1),
+    (Edit::Extend, 1),
+    (Edit::Shorten, 1),
+    (Edit::MoveGap, 2),
     (Edit::Add, 4),
     (Edit::Remove, 3),
     (Edit::MoveHero, 3),

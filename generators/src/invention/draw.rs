@@ -6,6 +6,7 @@ use super::mechanic::{Mechanic, Port, Tag};
 use super::merge::{Merged, PortId, ports};
 use super::soundness::{self, Unsound};
 use base::{Sampler, Seed};
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
@@ -15,8 +16,9 @@ const PARTITIONS: usize = 24;
 const CHOICES: u64 = 400;
 /// The maximum number of ports filled by one type.
 const MOST_PORTS: usize = 3;
-/// The number of sound draws from which the draw with the least-used couplings is selected.
-const PROPOSALS: usize = 3;
+/// The number of sound draws from which the draw with the hardest choices, and then the least-used couplings, is
+/// selected.
+const PROPOSALS: usize = 6;
 /// The number added to each mechanic's uses, so that the first few uses hardly change the weights.
 const MECHANICS: u64 = 4;
 /// The number added to each ending's uses, so that the first few uses hardly change the weights.
@@ -27,15 +29,23 @@ const ENDINGS: u64 = 12;
 pub struct InventionConfig {
     /// The maximum number of mechanics besides the ending. The minimum is 2.
     pub mechanics: usize,
-    /// The name of a mechanic that every draw contains if a sound draw with this mechanic is found; see
-    /// [`Census::lead`].
-    pub lead: Option<String>,
+    /// The mechanic and the ending that draws should contain.
+    pub lead: Lead,
 }
 
 impl Default for InventionConfig {
     fn default() -> InventionConfig {
-        InventionConfig { mechanics: 3, lead: None }
+        InventionConfig { mechanics: 3, lead: Lead::default() }
     }
+}
+
+/// A mechanic and an ending that draws should contain; see [`Census::lead`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lead {
+    /// The name of a mechanic. Draws contain it if a sound draw with the mechanic is found.
+    pub mechanic: Option<&'static str>,
+    /// The name of an ending. Draws contain it if a sound draw with both the mechanic and the ending is found.
+    pub ending: Option<&'static str>,
 }
 
 /// The number of games in which each mechanic, ending and coupling was used.
@@ -78,14 +88,18 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the name of the mechanic that leads the draws of a turn. All mechanics take turns, starting with the
-    /// least used, and the seed breaks ties. Independently drawn games thus differ if their turns differ.
-    pub fn lead(&self, seed: Seed, turn: usize) -> &'static str {
-        let mut names: Vec<&'static str> =
-            Mechanic::endings(false).map(|mechanic| mechanic.name.as_str()).collect();
-        seed.child("leads", 0).sampler().shuffle(&mut names);
-        names.sort_by_key(|name| self.uses("mechanic", name));
-        names[turn % names.len()]
+    /// Returns the mechanic and the ending that lead the draws of a turn. All mechanics and all endings take turns,
+    /// starting with the least used, and the seed breaks ties. Independently drawn games thus differ if their turns
+    /// differ.
+    pub fn lead(&self, seed: Seed, turn: usize) -> Lead {
+        let next = |kind: &str, are_endings: bool| {
+            let mut names: Vec<&'static str> =
+                Mechanic::endings(are_endings).map(|mechanic| mechanic.name.as_str()).collect();
+            seed.child("leads", are_endings.into()).sampler().shuffle(&mut names);
+            names.sort_by_key(|name| self.uses(kind, name));
+            names[turn % names.len()]
+        };
+        Lead { mechanic: Some(next("mechanic", false)), ending: Some(next("ending", true)) }
     }
 
     fn uses(&self, kind: &str, name: &str) -> u32 {
@@ -137,7 +151,7 @@ fn rarity(name: &str) -> u64 {
         for at in 0..SAMPLES {
             let sampler = &mut seed.child("sample", at).sampler();
             let count = sampler.between(2, InventionConfig::default().mechanics);
-            let Some(mechanics) = choose(count, None, |_| 1, sampler) else { continue };
+            let Some(mechanics) = choose(count, Lead::default(), |_| 1, sampler) else { continue };
             let is_sound = partition(&mechanics, sampler)
                 .is_some_and(|partition| Invention::of(mechanics.clone(), partition, sampler, seed).is_ok());
             for mechanic in mechanics {
@@ -166,26 +180,27 @@ impl Invention {
     ///
     /// Returns `None` if none of several hundred draws is sound.
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
-        let drawn =
-            (0..CHOICES).filter_map(|at| Invention::attempt(config, census, seed.child("choice", at)));
-        let mut drawn: Vec<Invention> = drawn.take(PROPOSALS).collect();
-        drawn.sort_by_key(|drawn| census.familiarity(drawn));
-        let least = drawn.into_iter().find(|drawn| drawn.build().is_ok());
-        // No draw is sound if the lead fits nothing, or if the census favours mechanics that do not fit together.
-        least.or_else(|| {
-            let (any, all) = (InventionConfig { lead: None, ..config.clone() }, Census::default());
-            let mut drawn =
-                (0..CHOICES).filter_map(|at| Invention::attempt(&any, &all, seed.child("any choice", at)));
-            drawn.find(|drawn| drawn.build().is_ok())
+        let mechanic_only = Lead { ending: None, ..config.lead };
+        // No draw is sound if the leads fit nothing, or if the census favours mechanics that do not fit together.
+        let empty = Census::default();
+        let tries = [
+            (config.lead, census, "choice"),
+            (mechanic_only, census, "choice without ending"),
+            (Lead::default(), &empty, "any choice"),
+        ];
+        tries.into_iter().find_map(|(lead, census, name)| {
+            let config = InventionConfig { lead, ..config.clone() };
+            let attempt = |at| Invention::attempt(&config, census, seed.child(name, at));
+            let mut drawn: Vec<Invention> = (0..CHOICES).filter_map(attempt).take(PROPOSALS).collect();
+            drawn.sort_by_key(|drawn| (Reverse(drawn.tension()), census.familiarity(drawn)));
+            drawn.into_iter().find(|drawn| drawn.build().is_ok())
         })
     }
 
     fn attempt(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
-        let lead = config.lead.as_ref();
-        let lead = Mechanic::endings(false).find(|mechanic| Some(&mechanic.name) == lead);
-        let chosen = choose(count, lead, |mechanic| census.weight(mechanic), sampler)?;
+        let chosen = choose(count, config.lead, |mechanic| census.weight(mechanic), sampler)?;
         Invention::of_choice(chosen, sampler, seed)
     }
 
@@ -193,7 +208,7 @@ impl Invention {
     /// mechanics if a drawn partition is sound.
     pub(super) fn of_uniform_choice(count: usize, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
-        let drawn = Invention::of_choice(choose(count, None, |_| 1, sampler)?, sampler, seed)?;
+        let drawn = Invention::of_choice(choose(count, Lead::default(), |_| 1, sampler)?, sampler, seed)?;
         drawn.build().is_ok().then_some(drawn)
     }
 
@@ -212,7 +227,7 @@ impl Invention {
     pub fn sample(config: &InventionConfig, seed: Seed) -> Result<Invention, Unsound> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = sampler.between(2, config.mechanics.max(2));
-        let mechanics = choose(count, None, |_| 1, sampler).ok_or(Unsound::Idle)?;
+        let mechanics = choose(count, Lead::default(), |_| 1, sampler).ok_or(Unsound::Idle)?;
         let partition = partition(&mechanics, sampler).ok_or(Unsound::Unconnected)?;
         Invention::of(mechanics, partition, sampler, seed.child("fiction", 0))
     }
@@ -231,17 +246,26 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending by weight. If there is a lead, it is the first mechanic.
+/// Draws different mechanics and an ending by weight. The lead's mechanic comes first. At least one mechanic is a danger
+/// that acts by itself.
 fn choose(
     count: usize,
-    lead: Option<&'static Mechanic>,
+    lead: Lead,
     weight: impl Fn(&Mechanic) -> u32,
     sampler: &mut Sampler,
 ) -> Option<Vec<&'static Mechanic>> {
-    let mut chosen: Vec<&'static Mechanic> = lead.into_iter().collect();
-    for number in chosen.len()..=count {
-        chosen.push(choose_one(number == count, &chosen, &weight, sampler)?);
+    let named =
+        |name: Option<&str>| Mechanic::all().iter().find(|mechanic| Some(mechanic.name.as_str()) == name);
+    let mut chosen: Vec<&'static Mechanic> = named(lead.mechanic).into_iter().collect();
+    if !chosen.iter().any(|mechanic| mechanic.presses()) {
+        let pressing = |mechanic: &Mechanic| if mechanic.presses() { weight(mechanic) } else { 0 };
+        chosen.push(choose_one(false, &chosen, pressing, sampler)?);
     }
+    while chosen.len() < count {
+        chosen.push(choose_one(false, &chosen, &weight, sampler)?);
+    }
+    let ending = named(lead.ending).map_or_else(|| choose_one(true, &chosen, &weight, sampler), Some);
+    chosen.push(ending?);
     Some(chosen)
 }
 

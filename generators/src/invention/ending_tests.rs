@@ -1,4 +1,4 @@
-//! Plays of small boards: what wins and what loses by each ending.
+//! Plays of small boards: outcomes that endings and dangers bring about.
 
 use super::emit;
 use super::genome::{Invention, normal};
@@ -20,7 +20,8 @@ fn play(names: &[&str], merges: &[(&str, &str)], board: &str, keys: &str) -> (Ou
     for (line, symbol) in description.mapping.iter_mut().zip(".wAabcdefgh".chars()) {
         line.symbol = symbol;
     }
-    let game = Game::from_source(&syntax::print(&description)).unwrap();
+    let text = syntax::print(&description).replacen("BasicGame", "BasicGame obs=wall", 1);
+    let game = Game::from_source(&text).unwrap();
     let level = game.level(&board.replace(' ', "\n")).unwrap();
     let mut state = game.start(&level, seed);
     for (at, key) in keys.chars().enumerate() {
@@ -64,21 +65,6 @@ fn tiles_turn_over_and_back_when_the_player_steps_off() {
 fn the_last_to_leave_is_the_player() {
     check(&["hunt", "herd", "last-out"], FRIEND, "wwwwwww wAb.c.w wwwwwww", "rrr", Outcome::Won);
     check(&["hunt", "herd", "last-out"], FRIEND, "wwwwwww wb.Ac.w wwwwwww", "r", Outcome::Lost);
-}
-
-#[test]
-fn two_kinds_are_never_held_at_the_same_time() {
-    let board = "wwwwwwww wAc...bw wd.....w wwwwwwww";
-    check(&["hunt", "never-both"], &[], board, "rdl", Outcome::Lost);
-    check(&["hunt", "never-both"], &[], board, "rrrrrlllldlurrrrr", Outcome::Won);
-}
-
-#[test]
-fn the_exit_takes_exactly_one_of_each() {
-    let names = ["hunt", "one-of-each"];
-    check(&names, &[], "wwwwwww wAcd.bw wwwwwww", "rrrr", Outcome::Won);
-    check(&names, &[], "wwwwwww wAccdbw wwwwwww", "rrrr", Outcome::Lost);
-    check(&names, &[], "wwwwwww wAcb.dw wwwwwww", "rrrrll", Outcome::Won);
 }
 
 #[test]
@@ -157,4 +143,44 @@ fn a_customer_is_lost_to_the_foe() {
 fn one_touch_serves_two_mechanics() {
     let merges = [("engine.engine", "ring-all.bell")];
     check(&["hunt", "engine", "ring-all"], &merges, "wwwwwww wAb...w wwwwwww", "r", Outcome::Won);
+}
+
+#[track_caller]
+fn check_idle(names: &[&str], merges: &[(&str, &str)], board: &str, expect: Outcome, ticks: (usize, usize)) {
+    let (outcome, played) = play(names, merges, board, &"n".repeat(60));
+    assert!(outcome == expect && (ticks.0..=ticks.1).contains(&played), "{outcome:?} {played}");
+}
+
+#[test]
+fn a_beast_comes_out_of_a_den_that_is_left() {
+    let merges = [("emerge.beast", "hunt.hunter")];
+    check_idle(&["emerge", "hunt", "exit"], &merges, "wwwwwww wA.b.cw wwwwwww", Outcome::Lost, (15, 32));
+}
+
+#[test]
+fn a_beast_eats_the_nearest_food() {
+    let merges = [("breed.food", "gather.prize")];
+    check_idle(&["breed", "gather"], &merges, "wwwwwww wA.a.bw wwwwwww", Outcome::Lost, (4, 5));
+}
+
+#[test]
+fn a_bomb_bursts_wherever_it_lies() {
+    let merges = [("ticking.rock", "clear-way.barrier")];
+    let names = ["ticking", "clear-way"];
+    check_idle(&names, &merges, "wwwwwww wA..abw wwwwwww", Outcome::Won, (24, 48));
+    check_idle(&names, &merges, "wwwwwww wAa..bw wwwwwww", Outcome::Lost, (24, 48));
+}
+
+#[test]
+fn a_giant_tramples_what_is_in_its_way() {
+    let merges = [("bulldoze.pane", "clear-way.barrier")];
+    check_idle(&["bulldoze", "clear-way"], &merges, "wwwwwww wA.b.aw wwwwwww", Outcome::Won, (6, 7));
+    check_idle(&["bulldoze", "exit"], &[], "wwwwwww wA..acw wwwwwww", Outcome::Lost, (8, 9));
+}
+
+#[test]
+fn the_thirsty_die_far_from_the_water() {
+    check_idle(&["thirst", "exit"], &[], "wwwwwww wA.a.bw wwwwwww", Outcome::Lost, (13, 23));
+    let drinks = format!("rr{}", "n".repeat(40));
+    check(&["thirst", "exit"], &[], "wwwwwww wA.a.bw wwwwwww", &drinks, Outcome::Ongoing);
 }

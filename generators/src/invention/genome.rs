@@ -76,6 +76,11 @@ impl Invention {
         if Fiction::can_name(&types, &self.mechanics) { Ok(()) } else { Err(Unsound::Noun) }
     }
 
+    /// Returns a score for the hard choices that the rules offer; see [`soundness::tension`].
+    pub(super) fn tension(&self) -> usize {
+        self.types().map_or(0, |types| soundness::tension(&self.mechanics, &types))
+    }
+
     /// Returns the types that result from merging ports; `None` if there is a type without a body that fits all of
     /// its ports.
     pub(super) fn types(&self) -> Option<Vec<Merged>> {

@@ -71,6 +71,10 @@ pub(crate) enum Tag {
     Goal,
     /// The object acts on other objects.
     Foe,
+    /// The player has to bring the object to a place.
+    Brought,
+    /// The object becomes a danger without any action of the player.
+    Presses,
 }
 
 impl FromStr for Tag {
@@ -90,6 +94,8 @@ impl FromStr for Tag {
             "led" => Tag::Led,
             "goal" => Tag::Goal,
             "foe" => Tag::Foe,
+            "brought" => Tag::Brought,
+            "presses" => Tag::Presses,
             _ => return Err(format!("`{word}` is not a tag")),
         })
     }
@@ -192,6 +198,11 @@ impl Mechanic {
     /// Returns the endings if `are` is `true`, and all other mechanics otherwise.
     pub(crate) fn endings(are: bool) -> impl Iterator<Item = &'static Mechanic> {
         Mechanic::all().iter().filter(move |mechanic| mechanic.ending.is_some() == are)
+    }
+
+    /// Returns `true` if one of the mechanic's ports becomes a danger by itself.
+    pub(crate) fn presses(&self) -> bool {
+        self.ports.iter().any(|port| port.tags.contains(&Tag::Presses))
     }
 
     /// Returns `true` if the mechanic requires its own avatar.

@@ -20,7 +20,7 @@ mod supply;
 mod tests;
 mod variation;
 
-pub use draw::{Census, InventionConfig, share_idea};
+pub use draw::{Census, InventionConfig, Lead, share_idea};
 pub use genome::{Invented, Invention};
 pub use profile::{Profile, Verb};
 pub use supply::InventionSupply;

@@ -23,8 +23,8 @@ pub enum Unsound {
     NoAgency,
     /// The goal is met by losing objects, or nothing removes the goal.
     Goal,
-    /// Nothing is harmful, and nothing can be lost.
-    Harmless,
+    /// No danger that acts by itself has a second use.
+    NoPressure,
     /// There are too many types.
     TooMany,
     /// More than one mechanic needs its own avatar.
@@ -44,7 +44,7 @@ impl Unsound {
             Unsound::NoTension => "no tension",
             Unsound::NoAgency => "no agency",
             Unsound::Goal => "goal",
-            Unsound::Harmless => "harmless",
+            Unsound::NoPressure => "no pressure",
             Unsound::TooMany => "too many types",
             Unsound::Avatar => "avatar",
             Unsound::Noun => "no noun",
@@ -65,7 +65,7 @@ pub(super) fn check(mechanics: &[&'static Mechanic], types: &[Merged]) -> Result
         (Unsound::Goal, types.iter().all(has_honest_goal)),
         (Unsound::NoTension, types.iter().any(is_opposed)),
         (Unsound::NoAgency, types.iter().all(is_influenced)),
-        (Unsound::Harmless, can_be_lost(types)),
+        (Unsound::NoPressure, types.iter().any(is_pressure)),
         (Unsound::TooMany, visible(mechanics, types) <= MOST_TYPES && are_few_crowded(types)),
     ];
     conditions.iter().find(|(_, holds)| !holds).map_or(Ok(()), |(why, _)| Err(*why))
@@ -131,18 +131,39 @@ pub(crate) fn is_opposed(merged: &Merged) -> bool {
         || across(Tag::Removed, Tag::Road)
 }
 
-/// Returns `true` if the player can influence a mover other than by avoiding it.
-fn is_influenced(merged: &Merged) -> bool {
-    merged.body != Body::Mover
-        || merged.has(Tag::Led)
-        || merged.has(Tag::Removed)
-        || merged.has(Tag::Lost)
-        || merged.has(Tag::Spent)
+/// Returns a score for the hard choices that merged types offer. A type counts twice if a danger that acts by itself is
+/// also needed, or if two mechanics use up the same supply, and once if its uses are opposed otherwise. The score is
+/// relative to the number of mechanics.
+pub(super) fn tension(mechanics: &[&'static Mechanic], types: &[Merged]) -> usize {
+    let wants = [Tag::Tool, Tag::Road, Tag::Goal];
+    let is_wanted = |port: &Port| wants.iter().any(|want| port.tags.contains(want));
+    let is_needed_danger = |merged: &Merged| {
+        let presses = |port: &Port| port.tags.contains(&Tag::Presses);
+        merged.has(Tag::Presses) && merged.ports.iter().any(|(_, port)| !presses(port) && is_wanted(port))
+    };
+    let is_contested = |merged: &Merged| {
+        let uses_up = |port: &Port| is_wanted(port) && merged.loses(port) || port.tags.contains(&Tag::Spent);
+        merged.ports.iter().filter(|(_, port)| uses_up(port)).count() > 1
+    };
+    let score = |merged: &Merged| match (is_needed_danger(merged) || is_contested(merged), is_opposed(merged))
+    {
+        (true, _) => 2,
+        (false, opposed) => usize::from(opposed),
+    };
+    12 * types.iter().map(score).sum::<usize>() / mechanics.len().max(1)
 }
 
-/// Returns `true` if a type can harm the player, so that the game can be lost.
-fn can_be_lost(types: &[Merged]) -> bool {
-    types.iter().any(|merged| merged.has(Tag::Harm))
+/// Returns `true` if the player can influence a mover other than by avoiding it. A mover that the player has to bring to
+/// a place must be led.
+fn is_influenced(merged: &Merged) -> bool {
+    let is_affected = [Tag::Removed, Tag::Lost, Tag::Spent].iter().any(|tag| merged.has(*tag));
+    merged.body != Body::Mover || merged.has(Tag::Led) || (is_affected && !merged.has(Tag::Brought))
+}
+
+/// Returns `true` if a type becomes a danger without any action of the player, and a different mechanic also uses it.
+/// A danger that only the player can bring about is simply avoided.
+fn is_pressure(merged: &Merged) -> bool {
+    merged.has(Tag::Presses) && merged.is_joint()
 }
 
 /// Counts the types visible to players.

@@ -2,7 +2,7 @@
 
 use base::{Sampler, Seed};
 use generators::Variation;
-use generators::invention::{Census, Invention, InventionConfig, InventionVariation};
+use generators::invention::{Census, Invention, InventionConfig, InventionVariation, Lead};
 use validators::novelty::{GameForm, distance};
 
 /// The distance to every known game at which a draw is accepted immediately.
@@ -20,12 +20,12 @@ const STRIDE: usize = 31;
 pub(crate) struct FarInventions<'a> {
     variation: InventionVariation,
     known: &'a [GameForm],
-    lead: &'static str,
+    lead: Lead,
 }
 
 impl<'a> FarInventions<'a> {
     /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics with the lowest counts in
-    /// the census. If all games in an order use the same `seed`, their draws are led by different mechanics.
+    /// the census. If all games in an order use the same `seed`, their draws are led by different mechanics and endings.
     pub(crate) fn new(
         census: &Census,
         known: &'a [GameForm],
@@ -34,15 +34,16 @@ impl<'a> FarInventions<'a> {
     ) -> FarInventions<'a> {
         let turn = number as usize + (attempt / PATIENCE) as usize * STRIDE;
         let lead = census.lead(seed, turn);
-        let config = InventionConfig { lead: Some(lead.to_owned()), ..InventionConfig::default() };
+        let config = InventionConfig { lead, ..InventionConfig::default() };
         FarInventions { variation: InventionVariation::new(config, census.clone()), known, lead }
     }
 
-    /// Returns the child, or its parent if the child has lost the lead mechanic. Otherwise, searches for different
-    /// games would converge on the mechanics that pass most easily.
+    /// Returns the child, or its parent if the child has lost the lead mechanic or ending. Otherwise, searches for
+    /// different games would converge on the parts that pass most easily.
     fn led(&self, child: Invention, parent: &Invention) -> Invention {
-        let has_lead = |invention: &Invention| invention.mechanics().any(|name| name == self.lead);
-        if has_lead(parent) && !has_lead(&child) { parent.clone() } else { child }
+        let has = |invention: &Invention, part| invention.mechanics().any(|name| Some(name) == part);
+        let loses = |part| has(parent, part) && !has(&child, part);
+        if loses(self.lead.mechanic) || loses(self.lead.ending) { parent.clone() } else { child }
     }
 }
 
@@ -89,9 +90,9 @@ mod tests {
             let far = FarInventions::new(&Census::default(), &[], (number, attempt), seed);
             let drawn = far.create(seed.child("rules", number.into())).unwrap();
             let lead = Census::default().lead(seed, number as usize + (attempt / PATIENCE) as usize * STRIDE);
-            (lead, drawn.mechanics().any(|name| name == lead))
+            (lead.mechanic, drawn.mechanics().any(|name| Some(name) == lead.mechanic))
         };
-        let leads: BTreeSet<&str> = (0..12).map(|number| lead(number, 0).0).collect();
+        let leads: BTreeSet<Option<&str>> = (0..12).map(|number| lead(number, 0).0).collect();
         assert_eq!(leads.len(), 12);
         assert!((0..12).filter(|&number| lead(number, 0).1).count() > 8, "most leads fit something");
         assert_ne!(lead(0, 0).0, lead(0, PATIENCE).0);

@@ -2,6 +2,7 @@
 
 mod courts;
 mod halls;
+mod mirrored;
 
 use super::canvas::{Canvas, narrow};
 use base::{Sampler, Seed};
@@ -38,10 +39,18 @@ pub(crate) enum PlanKind {
     Chambers,
     /// A cloister: a wall around three sides of a court.
     Cloister,
+    /// A hall between two wings.
+    Wings,
+    /// A room in the middle of the board.
+    Sanctum,
+    /// Two halves with a gate between them.
+    Gatehouse,
+    /// Four rooms with gates between them.
+    Quarters,
 }
 
 /// All kinds, with their weights.
-const KINDS: [(PlanKind, u32); 12] = [
+const KINDS: [(PlanKind, u32); 16] = [
     (PlanKind::Courtyard, 8),
     (PlanKind::Ring, 8),
     (PlanKind::Moat, 6),
@@ -54,12 +63,21 @@ const KINDS: [(PlanKind, u32); 12] = [
     (PlanKind::Terraces, 9),
     (PlanKind::Chambers, 9),
     (PlanKind::Cloister, 8),
+    (PlanKind::Wings, 16),
+    (PlanKind::Sanctum, 14),
+    (PlanKind::Gatehouse, 14),
+    (PlanKind::Quarters, 14),
 ];
 
 impl PlanKind {
     fn draw(sampler: &mut Sampler) -> PlanKind {
         let weights = KINDS.map(|(_, weight)| weight);
         KINDS[sampler.weighted(&weights).expect("the weights are positive")].0
+    }
+
+    /// Returns `true` if the plan's walls are mirror images.
+    fn is_mirrored(self) -> bool {
+        matches!(self, PlanKind::Wings | PlanKind::Sanctum | PlanKind::Gatehouse | PlanKind::Quarters)
     }
 
     fn sketch(self, canvas: &mut Canvas, sampler: &mut Sampler) {
@@ -76,6 +94,10 @@ impl PlanKind {
             PlanKind::Terraces => halls::terraces(canvas, sampler),
             PlanKind::Chambers => halls::chambers(canvas, sampler),
             PlanKind::Cloister => courts::cloister(canvas, sampler),
+            PlanKind::Wings => mirrored::wings(canvas, sampler),
+            PlanKind::Sanctum => mirrored::sanctum(canvas, sampler),
+            PlanKind::Gatehouse => mirrored::gatehouse(canvas, sampler),
+            PlanKind::Quarters => mirrored::quarters(canvas, sampler),
         }
     }
 }
@@ -95,7 +117,7 @@ pub(crate) fn draw_plan((columns, rows): (usize, usize), seed: Seed) -> Option<(
         let sides = if symmetry & 4 == 0 { (columns, rows) } else { (rows, columns) };
         let mut canvas = Canvas::new(sides.0, sides.1);
         kind.sketch(&mut canvas, sampler);
-        if sampler.ratio(3, 4) {
+        if !kind.is_mirrored() && sampler.ratio(3, 4) {
             canvas.bite(sampler);
         }
         let mut canvas = canvas.turned(symmetry);

@@ -67,7 +67,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
     let wall = palette.wall.ok_or("the game has no walls")?;
     let mut wins = analysis.goals().iter().filter(|goal| goal.win);
     let (Some(goal), None) = (wins.next(), wins.next()) else {
-        return Err("the game has no single winning termination");
+        return Err("the game does not have exactly one winning termination");
     };
     let (Condition::AtMost(counted, 0) | Condition::Exactly(counted, 0)) = &goal.condition else {
         return Err("the game is not won by removing sprites");
