@@ -113,7 +113,7 @@ pub(crate) fn check_folder(folder: &Path) -> Result<(), Refusal> {
 pub(crate) fn write(file: &Path, text: &str) -> Result<(), Refusal> {
     put(file, text).map_err(|error| {
         Refusal::failed(format_args!("cannot write {}: {}", shown(file), error.kind()))
-            .help("check the folder and the space on the disk")
+            .help("check the folder and the available disk space")
     })
 }
 

@@ -209,7 +209,7 @@ impl GameEntry {
             },
             Place::File { file, .. } if file.file_name().is_some_and(|own| own == name) => Ok(file.clone()),
             Place::File { .. } => Err(unknown(
-                "a game in a single file cannot have new levels; move the file into a folder as game.vgdl",
+                "levels cannot be added to a game in a single file; move the file into a folder as game.vgdl",
             )),
         }
     }

@@ -201,7 +201,7 @@ fn repeated_parameters(description: &Description, problems: &mut Vec<Diagnostic>
                 true => format!("`{key}` is given twice on this line"),
                 false => {
                     format!(
-                        "`{key}` is given twice on this line: `{earlier}` and `{last}`; the last value counts"
+                        "`{key}` is given twice on this line: `{earlier}` and `{last}`; the last value is used"
                     )
                 }
             };

@@ -58,8 +58,11 @@ pub(crate) fn told(
         let message = format!("this game is in the dialect of {}", dialect.name());
         let problem = other_dialect(start, message, dialect);
         // The help lists the dialect's words, so that fixing one of them does not change the message.
-        let help =
-            format!("{}; its words are {}", problem.help.as_deref().unwrap_or_default(), words.join(", "));
+        let help = format!(
+            "{}; words of this dialect: {}",
+            problem.help.as_deref().unwrap_or_default(),
+            words.join(", ")
+        );
         problems.insert(0, problem.help(help));
     }
     problems
@@ -73,7 +76,7 @@ pub(crate) fn is_of_several_players(description: &Description) -> bool {
 
 fn other_dialect(span: Span, message: String, dialect: Dialect) -> Diagnostic {
     let help = format!(
-        "`arcade fmt --from {} GAME` converts what has an exact equivalent here, and lists the rest",
+        "`arcade fmt --from {} GAME` converts everything with an exact equivalent, and lists the rest",
         dialect.flag()
     );
     Diagnostic::error("other-dialect", span, message).help(help)

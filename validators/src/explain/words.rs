@@ -43,7 +43,8 @@ impl Judgement {
                 }
                 Criterion::EarlyDeath => {
                     format!(
-                        "no sequence of actions found that survives the first ticks, with {spent} forward-model calls"
+                        "found no sequence of actions that survives the first ticks, with {spent} \
+                         forward-model calls"
                     )
                 }
                 Criterion::Skill => "too few wins for a verdict".to_owned(),

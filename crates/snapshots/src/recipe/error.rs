@@ -38,7 +38,7 @@ pub enum RecipeError {
         problem: CriteriaError,
     },
     /// The release is sealed, and its secret was not provided.
-    #[error("the release is sealed: its recipe holds a commitment, so minting it takes `--secret FILE`")]
+    #[error("the release is sealed: its recipe holds a commitment, so minting it requires `--secret FILE`")]
     Sealed,
     /// The secret does not match the commitment.
     #[error(

@@ -254,7 +254,7 @@ impl Judging {
         };
         self.keeper().add(judgement).map_err(|error| {
             Refusal::failed(format_args!("the judgement was not written: {error}"))
-                .help("check the space on the disk, and answer again")
+                .help("check the available disk space, and answer again")
         })
     }
 

@@ -197,7 +197,7 @@ fn by_the_clock(
         }
     };
     if seconds.len() > 1 {
-        let message = "a line with TIME acts on one sprite only; the other sprites are ignored";
+        let message = "a line with TIME acts on only one sprite; the other sprites are ignored";
         let problem = Diagnostic::error("bad-interaction", line.second[1].span, message);
         problems.push(problem.help("write one line for each sprite"));
     }

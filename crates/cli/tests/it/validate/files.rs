@@ -223,7 +223,7 @@ fn duplicate_parameters_are_reported() {
     let folder = folder(&GAME.replace("color=YELLOW", "color=YELLOW speed=0.5 speed=1"), LEVEL);
     let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
     assert!(
-        said.contains("duplicate-parameter") && said.contains("`0.5` and `1`; the last value counts"),
+        said.contains("duplicate-parameter") && said.contains("`0.5` and `1`; the last value is used"),
         "{said}"
     );
 }

@@ -273,7 +273,7 @@ fn forecast(
             let longest = longest.unwrap_or(settings.max_steps);
             let [longest_in_words, in_total] = [longest, steps].map(|steps| count(steps as usize, "step"));
             let text = format!(
-                "{} of at most {longest_in_words}, {in_total} in total, at no cost",
+                "{} of at most {longest_in_words} each, {in_total} in total, at no cost",
                 count(episodes, "episode")
             );
             (json!({ "episodes": episodes, "max_steps": longest, "steps": steps }), text)

@@ -207,7 +207,7 @@ impl RequestedPlayer {
 pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
     if args.budget.is_some() && !matches!(requested, RequestedPlayer::Planner(_)) {
         bail!(
-            "--budget applies to planners only, such as --player mcts; remove it (`planner:mcts:300` \
+            "--budget applies only to planners, such as --player mcts; remove it (`planner:mcts:300` \
              includes its budget in the name)"
         );
     }
