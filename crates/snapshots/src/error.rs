@@ -66,7 +66,7 @@ pub enum SnapshotError {
         what: String,
     },
     /// A different process is writing to the output path.
-    #[error("another arcade is writing `{}`: wait for it or choose another --out", .0.in_message())]
+    #[error("another arcade process is writing `{}`: wait for it to finish, or choose another --out", .0.in_message())]
     Busy(PathBuf),
     /// The output path ends in `..` or `.` or is the root of the file system.
     #[error("`{}` does not end in a folder name: specify the folder to create, as in --out releases/new", .0.in_message())]
@@ -145,7 +145,7 @@ pub enum SnapshotError {
         limit: usize,
     },
     /// A folder being searched for releases does not contain a release.
-    #[error("`{}` contains no release: pass a snapshot folder, its .tar.zst, or a folder that contains these", .0.in_message())]
+    #[error("`{}` contains no release: pass a snapshot folder, its .tar.zst, or a folder that contains snapshots", .0.in_message())]
     NoRelease(PathBuf),
     /// An archive is damaged so early that its manifest cannot be read.
     #[error("`{}` is not a valid archive: {message}", .path.in_message())]

@@ -42,7 +42,7 @@ impl Header {
                     let message = format!(
                         "games for several players are not supported, but this game is for {players}"
                     );
-                    let help = "make it a game of one player: remove `no_players`, and all avatars but one";
+                    let help = "make it a single-player game: remove `no_players`, and all avatars but one";
                     problems.push(unsupported(param, message).help(help));
                 }
                 ("no_players", Value::Int(_)) => {

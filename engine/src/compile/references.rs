@@ -153,7 +153,7 @@ impl Subject<'_> {
             if word.text == self.name && iterates {
                 let message = format!("`{}` would make sprites of its own type", self.name);
                 let problem = Diagnostic::error("spawns-itself", param.value.span, message);
-                problems.push(problem.help(format!("{dies}; let it make a different type")));
+                problems.push(problem.help(format!("{dies}; have it make a different type")));
             }
         }
     }

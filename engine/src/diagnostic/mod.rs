@@ -273,7 +273,7 @@ impl Diagnostics {
         let are = if rest == 1 { "problem is" } else { "problems are" };
         let message = format!("{rest} more {are} not shown");
         let more = Diagnostic::error("too-many-problems", Span::new(end, end), message);
-        self.0.push(Diagnostic { severity, ..more.help("fix those above first") });
+        self.0.push(Diagnostic { severity, ..more.help("fix the problems above first") });
         self
     }
 

@@ -167,7 +167,7 @@ fn sprite_line(sprite: &mut SpriteLine, changes: &mut Changes<'_>) {
                 true
             }
             ("color", _) if !matches!(constant(&param.value.text), Some(Constant::Color(_))) => {
-                changes.without(param, "this colour has no name in VGDL, and affects images only");
+                changes.without(param, "this colour has no name in VGDL, and affects only images");
                 false
             }
             ("alternate_keys", _) => {

@@ -109,7 +109,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if report(&cells, &paper) {
         Ok(())
     } else {
-        bail!("our planners play differently from those of the reference")
+        bail!("our planners play differently from the reference's planners")
     }
 }
 

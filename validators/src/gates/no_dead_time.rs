@@ -48,9 +48,8 @@ impl GameValidator for NoDeadTime {
             let seen = Evidence { tick: Some(from + 1), ..Evidence::new(text) };
             match dead <= most {
                 true => notes.push(seen),
-                false => {
-                    problems.push(seen.advise("shorten the wait, or give the player something to do in it"))
-                }
+                false => problems
+                    .push(seen.advise("shorten the wait, or give the player something to do meanwhile")),
             }
         }
         finding(problems, notes, Some(worst))

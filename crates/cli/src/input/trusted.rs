@@ -50,8 +50,8 @@ impl TrustArgs {
         let lockfile = of.manifest.lockfile;
         if signed.problems.is_empty() && signed.lockfile != Some(lockfile) {
             signed.problems.push(format!(
-                "{MANIFEST_FILE}: its `lockfile` is {lockfile}, but the signed statement names a different \
-                 one"
+                "{MANIFEST_FILE}: its `lockfile` is {lockfile}, but the signed statement specifies a \
+                 different one"
             ));
         }
         Ok(Some(signed))

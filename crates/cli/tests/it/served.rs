@@ -219,7 +219,7 @@ fn misspelt_programs_are_reported_before_writing() {
     for (player, words) in [
         ("cmd:./agnet.sh", "there is no file `./agnet.sh`; did you mean `./agent.sh`?"),
         ("cmd:sh agnet.sh", "there is no file `agnet.sh`; did you mean `agent.sh`?"),
-        ("cmd:agent.sh", "write `./agent.sh` for the file that is here"),
+        ("cmd:agent.sh", "write `./agent.sh` for the file in this folder"),
         ("cmd:no-such-program-anywhere", "there is no program `no-such-program-anywhere` in PATH"),
     ] {
         for more in [&[][..], &["--resume"], &["--dry-run"]] {

@@ -174,7 +174,12 @@ fn releases_are_signed_by_enough_keys() {
     altered.seal_root().unwrap();
     fs::write(&manifest, altered.to_bytes().unwrap()).unwrap();
     run(folder, &["verify", "tiny"], 0);
-    says(folder, &["verify", "tiny", ada[0], ada[1]], 1, "but the signed statement names a different one");
+    says(
+        folder,
+        &["verify", "tiny", ada[0], ada[1]],
+        1,
+        "but the signed statement specifies a different one",
+    );
     fs::write(&manifest, honest).unwrap();
 
     // A changed release is not signed.

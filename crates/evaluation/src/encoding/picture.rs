@@ -24,8 +24,7 @@ pub struct Picture {
 /// Returns an error if the cells or the entire image would be too small or too large.
 pub fn picture(observation: &Observation, legend: &Legend, cell: u32) -> Result<Picture, EvaluationError> {
     let style = Style { cell, caption: false, legend: true };
-    let fault =
-        |error| EvaluationError::Malformed(format!("cannot draw the picture for the prompt: {error}"));
+    let fault = |error| EvaluationError::Malformed(format!("cannot draw the image for the prompt: {error}"));
     let drawn = render::observed(legend.looks(), observation, &style).map_err(fault)?;
     let png = render::png(&drawn).map_err(fault)?;
     Ok(Picture { png, width: drawn.width(), height: drawn.height() })

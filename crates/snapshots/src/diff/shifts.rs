@@ -104,7 +104,7 @@ const SHIFTS: &[(&str, Values)] = &[
     ("goal and avatar of games", |game| {
         vec![format!("{} × {}", game.kind.goal.name(), game.kind.avatar.name())]
     }),
-    ("chance in games", |game| vec![game.kind.chance.name().to_owned()]),
+    ("randomness in games", |game| vec![game.kind.chance.name().to_owned()]),
     ("origin of games", |game| vec![if game.is_generated() { "generated" } else { "corpus" }.to_owned()]),
     ("patterns of generated games", |game| {
         game.released.card.origin.mechanics().into_iter().map(str::to_owned).collect()

@@ -124,10 +124,10 @@ impl Reader {
             match token {
                 Token::Word(word) if header.class.text.is_empty() => header.class = word,
                 Token::Param(param) => header.params.push(param),
-                Token::Word(word) => self.stray_word(&word, "the first line takes `key=value` only"),
+                Token::Word(word) => self.stray_word(&word, "the first line takes only `key=value`"),
                 Token::Arrow(span) => {
                     let arrow = Word { text: ">".to_owned(), span };
-                    self.stray_word(&arrow, "the first line takes `key=value` only");
+                    self.stray_word(&arrow, "the first line takes only `key=value`");
                 }
             }
         }

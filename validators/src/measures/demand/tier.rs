@@ -91,7 +91,7 @@ impl TryFrom<u8> for Tier {
 
     fn try_from(number: u8) -> Result<Tier, String> {
         let found = Tier::ALL.into_iter().find(|&tier| u8::from(tier) == number);
-        found.ok_or_else(|| format!("there is no tier {number}; tiers go from 1 to 4"))
+        found.ok_or_else(|| format!("there is no tier {number}; tiers range from 1 to 4"))
     }
 }
 

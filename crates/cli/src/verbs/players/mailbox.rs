@@ -258,7 +258,7 @@ impl Session<'_> {
     fn deliver(&mut self, open: &OpenPrompt, answer: &str) -> Result<Typed, Failure> {
         match self.desk.answer(&open.prompt, answer)? {
             Delivery::Delivered => {}
-            Delivery::TooLate => self.console.remark("somebody else has answered this prompt"),
+            Delivery::TooLate => self.console.remark("someone else has already answered this prompt"),
             Delivery::Refused(why) => {
                 self.console.remark(format_args!("{why}; type a different answer"));
                 return Ok(Typed::Again);

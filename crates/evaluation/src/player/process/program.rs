@@ -73,7 +73,7 @@ fn in_path(program: &str, path: &OsStr, here: &Path) -> Result<(), String> {
     }
     if here.join(program).is_file() {
         return Err(format!(
-            "there is no program `{program}` in PATH; write `./{program}` for the file that is here"
+            "there is no program `{program}` in PATH; write `./{program}` for the file in this folder"
         ));
     }
     let programs = |folder: &PathBuf| {
@@ -127,7 +127,7 @@ mod tests {
         check("notes", Some("there is no program `notes` in PATH"));
         check(
             "run.sh",
-            Some("there is no program `run.sh` in PATH; write `./run.sh` for the file that is here"),
+            Some("there is no program `run.sh` in PATH; write `./run.sh` for the file in this folder"),
         );
         check("xyzzy-none", Some("there is no program `xyzzy-none` in PATH"));
     }
