@@ -13,7 +13,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-/// Searches for a win of every level of every game with the portfolio of planners, and lists the results.
+/// Searches for a win on every level of every game with the portfolio of planners, and lists the results.
 ///
 /// A result is one of: won (every win is replayed), proven impossible, unknown, or no win that the rules
 /// allow the avatar to reach.

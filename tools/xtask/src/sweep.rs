@@ -41,7 +41,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         .status()
         .context("cargo test")?;
     if !status.success() {
-        bail!("a test fails; repeat it with `{VARIABLE}={seed} cargo test` and its name");
+        bail!("a test failed; repeat it with `{VARIABLE}={seed} cargo test` and its name");
     }
     Ok(())
 }

@@ -68,7 +68,7 @@ fn hint(tally: &Tally) -> Option<String> {
         Ok(Criterion::NotIdle) => "doing nothing wins most levels: the rules demand nothing of the player",
         Ok(Criterion::EarlyDeath) => "the player cannot survive the first ticks of most levels",
         _ if most == DIFFICULTY => {
-            "most levels are easier or harder for the planners: request a different difficulty"
+            "for the planners, most levels are easier or harder than requested: request a different difficulty"
         }
         _ => return None,
     };

@@ -56,7 +56,7 @@ pub struct LevelOrder {
     pub config: LevelConfig,
     /// The difficulty of each level, measured with the ladder of the criteria.
     pub difficulty: Option<Difficulty>,
-    /// The minimum number of ticks of the shortest win found.
+    /// The minimum number of ticks in the shortest win found.
     pub min_solution: Option<usize>,
     /// The rules that the win must use. All of them are required.
     pub uses: Vec<RuleRef>,

@@ -79,7 +79,7 @@ pub(crate) fn planners(_: &Studio) -> Result<Value, Refusal> {
         "random-with-nil" => "any action, or none",
         "random" => "any action",
         "one-step-score" => "the action with the best score after one tick",
-        "one-step" => "the best action after one tick, by the rules' targets",
+        "one-step" => "the best action after one tick, according to the rules' targets",
         "nearest-goal" => "the shortest way to the nearest target",
         "random-search" => "the best of many random action sequences",
         "rhea" => "evolves an action sequence at every tick",

@@ -128,7 +128,8 @@ pub(super) fn drift(args: &Args) -> Table {
         cases.extend([0.0, 0.5].map(|drift| (games, anchors, drift)));
     }
     let note = format!(
-        "{count} pairs of months each, of 5 levels a game, the second 0.3 logits harder for planners; each anchor plays each level \
+        "{count} pairs of months each, of 5 levels per game, the second 0.3 logits harder for planners; each \
+         anchor plays each level \
          once. Flagged at 5%."
     );
     let columns = ["games", "levels", "anchors", "planted drift", "flagged", "error", "stated", "coverage"];

@@ -67,7 +67,7 @@ pub struct LevelEntry {
     pub columns: u64,
     /// The number of rows of the board.
     pub rows: u64,
-    /// The number of ticks of the shortest win found.
+    /// The number of ticks in the shortest win found.
     pub ticks: Option<u64>,
     /// The ease measured by the ladder, from 0 to 1.
     pub ease: Option<f64>,

@@ -57,7 +57,7 @@ pub(super) fn rules(measured: &[Measured<'_>]) -> Section {
     let rows = || measured.iter().map(|game| &game.row);
     let executed = Share::new(rows().map(|row| row.executed).sum(), rows().map(|row| row.rules).sum());
     let counts: Vec<f64> = rows().map(|row| row.rules as f64).collect();
-    let note = "Use in at least one recorded episode; guards do not count as rules.";
+    let note = "Counts use in at least one recorded episode. Guards do not count as rules.";
     Section::new("rules", "Is everything used?", note)
         .share(
             "all_used",
@@ -83,7 +83,7 @@ pub(super) fn play(measured: &[Measured<'_>]) -> Section {
     let won = Share::new(rows().map(|row| row.won).sum(), rows().map(|row| row.levels).sum());
     Section::new("play", "How are the games won?", "")
         .share("won", "levels with a known win", won)
-        .quantiles("ticks", "ticks of the shortest win found", &ticks)
+        .quantiles("ticks", "ticks in the shortest win found", &ticks)
         .quantiles("mechanics", "mechanics that wins use", &mechanics)
         .quantiles("drama", "drama", &drama)
 }

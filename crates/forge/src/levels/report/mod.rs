@@ -96,7 +96,7 @@ impl LevelSetReport {
                 ("solvability", "solved", "solved"),
                 ("triviality", "both_levels", "not won without effort"),
                 ("diversity", "unique", "unique"),
-                ("lengths", "ticks", "ticks of a win, median"),
+                ("lengths", "ticks", "ticks to a win, median"),
                 ("lengths", "pushes", "pushes, median"),
                 ("skill", "wins", "gain from looking ahead"),
                 ("control", "exact", "as hard as requested"),
