@@ -194,7 +194,7 @@ fn wrong_inputs_name_the_next_move() {
         ],
         0,
     );
-    refused(&["foreign", "--release", "revealed"], "no episode on a level of the release");
+    refused(&["foreign", "--release", "revealed"], "no episode on any level of the release");
     refused(&[published, published, "--release", "revealed"], "two folders have the same episodes");
 }
 
