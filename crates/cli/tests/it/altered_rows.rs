@@ -396,5 +396,5 @@ fn results_on_another_game_are_refused() {
         "{said}"
     );
     let (status, said) = rows.check("log", &["--release", "tiny"]);
-    assert!(status == Some(1) && said.contains("differs from the file in the release `tiny`"), "{said}");
+    assert!(status == Some(1) && said.contains("does not match any file in the release `tiny`"), "{said}");
 }
