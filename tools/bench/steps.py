@@ -95,8 +95,8 @@ def in_c(turns: int) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--games", type=Path, default=ROOT / "corpora", help="folder of game folders")
-    parser.add_argument("--turns", type=int, default=40, help="turns of 16 steps")
-    parser.add_argument("names", nargs="*", help="the games; all of the folder if none is named")
+    parser.add_argument("--turns", type=int, default=40, help="number of turns, of 16 steps each")
+    parser.add_argument("names", nargs="*", help="the games [default: all games in the folder]")
     arguments = parser.parse_args()
     names = arguments.names or sorted(path.name for path in arguments.games.iterdir() if path.is_dir())
     print("| game | batch | loop | environments | of batch | of loop | with copies | of batch |")

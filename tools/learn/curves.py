@@ -25,7 +25,7 @@ COLOURS = {"dqn": "#0072b2", "ppo": "#d55e00"}
 
 def main() -> None:
     if len(sys.argv) != 3 or not any(Path(sys.argv[1]).glob("*-*.csv")):
-        raise SystemExit("usage: curves.py FOLDER OUT.svg; FOLDER holds the GAME-ALGORITHM.csv of trainings")
+        raise SystemExit("usage: curves.py FOLDER OUT.svg; FOLDER contains the GAME-ALGORITHM.csv files")
     folder, out = Path(sys.argv[1]), Path(sys.argv[2])
     # The same curves give the same file.
     pyplot.rcParams |= {"svg.hashsalt": "curves", "svg.fonttype": "none", "font.size": 8, "axes.spines.top": False, "axes.spines.right": False}

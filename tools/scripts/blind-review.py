@@ -75,7 +75,7 @@ def main():
     parser.add_argument("--corpus", type=pathlib.Path, required=True)
     parser.add_argument("--numbers", type=int, nargs=3, default=[12, 6, 6])
     parser.add_argument("--seed", default="review")
-    parser.add_argument("--pairs", action="store_true", help="list pairs of a generated and a corpus game")
+    parser.add_argument("--pairs", action="store_true", help="pair each generated game with a corpus game")
     parser.add_argument("--out", type=pathlib.Path, required=True)
     args = parser.parse_args()
     draw = random.Random(args.seed)

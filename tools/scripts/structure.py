@@ -210,7 +210,7 @@ def cold_build(arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", action="store_true", help="build, too: takes some minutes")
+    parser.add_argument("--build", action="store_true", help="also build, which takes a few minutes")
     parser.add_argument("--cycles", action="store_true", help="list the files of every import cycle")
     args = parser.parse_args()
     files = tracked()

@@ -225,7 +225,7 @@ impl KeySet {
                 problems.push(format!("{place}: the revoked key of `{name}` is no longer revoked"));
             }
         }
-        for (set, of) in [(self, "the set before"), (next, "its own set")] {
+        for (set, of) in [(self, "the previous set"), (next, "its own set")] {
             let signers = set.signers(&bytes, signatures);
             if (signers.names.len() as u32) < set.threshold {
                 problems.push(format!(

@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 def main() -> None:
     if len(sys.argv) != 2 or not Path(sys.argv[1]).is_file():
-        raise SystemExit("usage: develop.py LIBRARY; `cargo build -p infinite-arcade-python` makes one")
+        raise SystemExit("usage: develop.py LIBRARY; `cargo build -p infinite-arcade-python` builds it")
     package = ROOT / "crates/python"
     project = tomllib.loads((package / "pyproject.toml").read_text())["project"]
     version = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]["package"]["version"]

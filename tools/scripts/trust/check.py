@@ -152,7 +152,7 @@ def unbase(text):
     """Decodes a text in base64, which must be in its canonical form."""
     data = base64.b64decode(text, validate=True)
     if base64.b64encode(data).decode() != text:
-        raise ValueError("is not base64 in its one form")
+        raise ValueError("is not canonical base64")
     return data
 
 
@@ -160,7 +160,7 @@ class Key:
     def __init__(self, line):
         data = unbase(line)
         if len(data) != 42 or data[:2] != b"Ed":
-            raise ValueError("is no public key of minisign")
+            raise ValueError("is not a minisign public key")
         self.line, self.number, self.point = line, data[2:10], data[10:]
         self.key = Ed25519PublicKey.from_public_bytes(self.point)
 
@@ -206,7 +206,7 @@ class Keys:
             )
             gone = {key["key"] for key in before["revoked"]} - {key["key"] for key in found["revoked"]}
             if int(found["version"]) != number + 1 or found["previous"] != self.sets[number][1] or gone or not enough:
-                problems.append(f"{later.name}: it does not follow keys-{number}.json, or lacks signatures")
+                problems.append(f"{later.name}: does not follow keys-{number}.json, or lacks signatures")
                 return
             number += 1
             self.add(found, data)
@@ -225,12 +225,12 @@ class Keys:
         keys = statement["keys"]
         found, digest = self.sets.get(int(keys["version"]), (None, None)) if keys else (None, None)
         if found is None or digest != keys["digest"]:
-            return "it names no set of keys that follows from the one that is trusted"
+            return "it does not specify a set of keys that follows from the trusted set"
         revoked = {key["key"] for key in self.sets[self.newest][0]["revoked"]}
         for group in (found, self.sets[self.newest][0]):
             count = self.count(group, message, signatures, revoked)
             if count < int(group["threshold"]):
-                return f"{count} keys of the set {group['version']} signed, and {group['threshold']} have to"
+                return f"signed by {count} keys of set {group['version']}, but {group['threshold']} must sign"
         return None
 
 
@@ -280,7 +280,7 @@ def read_log(folder, key, problems):
         raise ValueError("is not a checkpoint")
     signed = [unbase(data) for _, who, data in lines if who == origin]
     if not any(data[:4] == name and key.holds(data[4:], (body + "\n").encode()) for data in signed):
-        problems.append("the checkpoint is not signed by the key of the log")
+        problems.append("the checkpoint is not signed by the log's key")
     entries = []
     for number, width in tiles(int(size)):
         data = (folder / tile_path("entries", number, width)).read_bytes()
@@ -289,14 +289,14 @@ def read_log(folder, key, problems):
             entries.append(data[2:2 + length])
             data = data[2 + length:]
         if data:
-            problems.append("bytes after the last entry")
+            problems.append("there are bytes after the last entry of a tile")
     level, hashes = 0, [sha(b"\0", entry) for entry in entries]
     if root_of(hashes) != unbase(root):
-        problems.append("the entries are not those that the checkpoint was signed for")
+        problems.append("the entries do not match the signed checkpoint")
     while hashes:
         for number, width in tiles(len(hashes)):
             if (folder / tile_path(level, number, width)).read_bytes() != b"".join(hashes[256 * number:][:width]):
-                problems.append(f"{tile_path(level, number, width)}: does not follow from the entries")
+                problems.append(f"{tile_path(level, number, width)}: does not match the entries")
         hashes = [root_of(hashes[at:at + 256]) for at in range(0, len(hashes) - 255, 256)]
         level += 1
     return [document(entry) for entry in entries]
@@ -354,22 +354,22 @@ def fault_of_round(source, number, value, proof):
     if "drand" not in source.lower():
         return None
     if not proof:
-        return "a round of drand without a signature"
+        return "a drand round has no signature"
     scheme, key = NETWORKS.get(source, (None, None))
     chain = proof.get("chain")
     if (scheme is None) == (chain is None):
-        return "no network whose key is known, or a known one whose key is given again"
+        return "the network's key is unknown, or it is given although it is known"
     if chain:
         if source != "drand " + chain_hash(chain) or chain["hash"] != chain_hash(chain):
-            return "its network has another hash"
+            return "its network has a different hash"
         if chain["public_key"] in [known for _, known in NETWORKS.values()]:
-            return "its network has a name, so that no round is waited for twice"
+            return "its network must be specified by its name"
         scheme, key = chain["schemeID"], chain["public_key"]
     previous = proof.get("previous_signature")
     if scheme not in ("bls-unchained-g1-rfc9380", "pedersen-bls-unchained", "pedersen-bls-chained"):
-        return f"the scheme {scheme} is not known"
+        return f"the scheme {scheme} is unknown"
     if (previous is not None) != (scheme == "pedersen-bls-chained"):
-        return "the signature of the round before is missing, or too much"
+        return "the previous round's signature is missing, or present although the network is not chained"
     message = hashlib.sha256(bytes.fromhex(previous or "") + struct.pack(">Q", number)).digest()
     if G2Basic and not holds_on_curve(scheme, bytes.fromhex(key), message, bytes.fromhex(proof["signature"])):
         return "the signature is not the network's"
@@ -386,17 +386,17 @@ def check_history(entries, problems):
         if kind == "keys":
             expect = (1, None) if keys is None else (keys[0] + 1, keys[1])
             if (int(entry["version"]), entry["previous"]) != expect:
-                wrong("a set of keys does not follow the one before")
+                wrong("a set of keys does not follow the previous set")
             keys = (int(entry["version"]), entry["digest"])
         elif kind == "commitment":
             awaited = round_of(entry["beacon"])
             if name in commitments or name in roots:
-                wrong(f"a second commitment for {name}, or one after its root")
+                wrong(f"a second commitment for {name}, or a commitment after its root")
                 continue
             if awaited in beacons:
                 wrong(f"the beacon of {name} was known before the commitment")
             if awaited and any(round_of(other["beacon"]) == awaited for other in commitments.values()):
-                wrong(f"the beacon of {name} serves another commitment too")
+                wrong(f"the beacon of {name} is also specified by another commitment")
             commitments[name] = entry
         elif kind == "beacon":
             source, round_number = round_of(entry["round"])
@@ -407,28 +407,28 @@ def check_history(entries, problems):
         elif kind == "root":
             before = commitments.get(name)
             if name in roots or any(other["root"] == entry["root"] for other in roots.values()):
-                wrong(f"a second root for {name}, or its root under another name")
+                wrong(f"a second root for {name}, or its root under a different name")
                 continue
             if entry["parent"] and all(other["root"] != entry["parent"] for other in roots.values()):
-                wrong(f"the release before {name} is not in the log")
+                wrong(f"the parent of {name} is not in the log")
             if (before["commitment"] if before else None) != entry["commitment"]:
-                wrong(f"{name} has another commitment than was made before")
+                wrong(f"{name} has a different commitment than the log")
             if before and before["parent"] != entry["parent"]:
-                wrong(f"{name} has another parent than was committed to")
+                wrong(f"{name} has a different parent than its commitment states")
             awaited = round_of(before["beacon"]) if before else None
             if (beacons.get(awaited) if awaited else None) != entry["beacon"] or (awaited and awaited not in beacons):
-                wrong(f"{name} was not minted with the value of the beacon that it waited for")
+                wrong(f"{name} was not minted with the value of its beacon")
             roots[name] = entry
         elif name not in roots or roots[name]["root"] != entry["root"]:
-            wrong(f"it is about a release that is not in the log: {name}")
+            wrong(f"refers to a release that is not in the log: {name}")
         elif kind == "reveal":
             if commitment(entry["seed"], entry["nonce"], entry["recipe"]) != roots[name]["commitment"]:
-                wrong(f"the secret of {name} is not the one committed to")
+                wrong(f"the secret of {name} does not match its commitment")
             if commitments[name]["recipe"] != entry["recipe"]:
-                wrong(f"the secret of {name} was drawn for another recipe")
+                wrong(f"the secret of {name} was drawn for a different recipe")
         elif kind == "result":
             if entry["results"] in results:
-                wrong("results are entered twice")
+                wrong("the results are already in the log")
             results.add(entry["results"])
     return roots
 
@@ -444,11 +444,11 @@ def check_release(folder, roots, keys, problems):
         path = folder / item["path"]
         data = path.read_bytes()
         if len(data) != int(item["size"]) or blake3(data).hex() != item["digest"]:
-            wrong(f"{item['path']} is not the file of the manifest")
+            wrong(f"{item['path']} does not match the manifest")
     there = {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
     extra = {path for path in there if not path.startswith("papers/")} - {item["path"] for item in items}
     if extra != {"MANIFEST.json"}:
-        wrong(f"files that the manifest does not list: {sorted(extra)}")
+        wrong(f"contains files that the manifest does not list: {sorted(extra)}")
     fields = ("canary", "commitment", "format", "generation", "kind", "name", "parent", "recipe", "semantics", "version")
     leaves = {item["path"]: item["digest"] for item in items}
     leaves["MANIFEST"] = blake3(text_of({field: manifest[field] for field in fields})).hex()
@@ -467,16 +467,16 @@ def check_release(folder, roots, keys, problems):
         return node(merkle(hashes[:split]), merkle(hashes[split:]))
 
     if merkle(hashes).hex() != manifest["root"]:
-        wrong("the root is not that of the files")
+        wrong("the root does not match the files")
     numbers = [manifest["root"], manifest["lockfile"], *(item["size"] for item in items)]
     if blake3("".join(f"{number}\n" for number in numbers).encode()).hex() != manifest["checksum"]:
-        wrong("the checksum is not that of root, lock file and sizes")
+        wrong("the checksum does not match the root, the lock file and the sizes")
     logged = roots.get(name)
     beacon = manifest["recipe"].get("beacon")
     value = beacon["value"] if beacon else None
     stated = (manifest["root"], manifest["parent"], manifest["commitment"], value)
     if logged is None or (logged["root"], logged["parent"], logged["commitment"], logged["beacon"]) != stated:
-        wrong("the log has no such release, or another root, parent, commitment or beacon")
+        wrong("the log does not have this release, or has it with a different root, parent, commitment or beacon")
     secret = folder / "held" / "secret.json"
     if secret.exists():
         secret = parse(secret.read_bytes())
@@ -484,29 +484,29 @@ def check_release(folder, roots, keys, problems):
         if beacon:
             recipe["beacon"] = {key: item for key, item in beacon.items() if key != "value"}
         if blake3(text_of(recipe)).hex() != secret["recipe"]:
-            wrong("the recipe is not the one that was committed to")
+            wrong("the recipe does not match the commitment")
         if commitment(secret["seed"], secret["nonce"], secret["recipe"]) != manifest["commitment"]:
-            wrong("the secret is not the one that was committed to")
+            wrong("the secret does not match the commitment")
     faults, stated, is_signed = [], set(), False
     for path in sorted((folder / "papers" / "signatures").glob("root-*.json")):
         data = path.read_bytes()
         statement = document(data)
         if path.name != f"root-{blake3(data).hex()[:16]}.json":
-            faults.append(f"{path.name}: its name is not its digest")
+            faults.append(f"{path.name}: its name does not match its digest")
         elif (statement["release"], statement["root"]) != (name, manifest["root"]):
-            faults.append(f"{path.name}: it is about another release")
+            faults.append(f"{path.name}: it is about a different release")
         else:
             # A statement whose signers were revoked no longer counts, but the log still contains its digest.
             stated.add(blake3(data).hex())
             fault = keys.accept(statement, data, signatures_of(path))
             if statement["provenance"]["lockfile"] != manifest["lockfile"]:
-                fault = "it names another lock file than the manifest"
+                fault = "it specifies a different lock file than the manifest"
             is_signed |= fault is None
             faults.extend([f"{path.name}: {fault}"] if fault else [])
     if not is_signed:
-        wrong("it is not signed: " + ("; ".join(faults) or "there is no statement"))
+        wrong("not signed: " + ("; ".join(faults) or "there is no statement"))
     if logged and logged["statement"] and logged["statement"] not in stated:
-        wrong("the statement in the log is not here")
+        wrong("the statement recorded in the log is missing")
     return name
 
 
@@ -522,7 +522,7 @@ def check_beacons(folder, entries, problems):
         proof = {key: found[key] for key in ("signature", "previous_signature", "chain") if key in found}
         # The log has already been checked, so a file that agrees with the log is valid.
         if known.get((found["source"], int(found["round"]))) != (value, proof or None):
-            problems.append(f"{path.name}: the log has no such value")
+            problems.append(f"{path.name}: the log does not have this value")
     return len(files)
 
 
@@ -533,32 +533,32 @@ def check(args):
     keys = Keys(args.keys, problems)
     stated = [entry["digest"] for entry in entries if entry["kind"] == "keys"]
     if stated != [digest for _, digest in sorted(keys.sets.values(), key=lambda pair: int(pair[0]["version"]))]:
-        problems.append("the sets of keys in the log are not those that are followed")
+        problems.append("the sets of keys in the log do not match those in the folder")
     folders = sorted(path.parent for path in Path(args.releases).glob("*/MANIFEST.json"))
     names = [check_release(folder, roots, keys, problems) for folder in folders]
     if missing := sorted(set(roots) - set(names)):
-        problems.append(f"releases of the log that are not here: {', '.join(missing)}")
+        problems.append(f"releases in the log that are missing here: {', '.join(missing)}")
     beacons = check_beacons(args.beacons, entries, problems) if args.beacons else 0
     held = f"{len(entries)} entries, {len(names)} releases, {len(keys.sets)} sets of keys, {beacons} beacons"
     rounds = sum("drand" in entry["round"]["source"].lower() for entry in entries if entry["kind"] == "beacon")
     if rounds and not G2Basic:
-        held += f" ({rounds} rounds of drand by their hash alone: the package py_ecc checks their signatures)"
+        held += f" ({rounds} drand rounds checked by hash only: install py_ecc to check their signatures)"
     return problems, held
 
 
 def arguments(argv=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--log", required=True, help="the folder of the log")
-    parser.add_argument("--log-key", required=True, help="the public key of the log")
+    parser.add_argument("--log", required=True, help="the log's folder")
+    parser.add_argument("--log-key", required=True, help="the log's public key")
     parser.add_argument("--keys", required=True, help="the first set of keys, keys-1.json, with later ones beside it")
-    parser.add_argument("--releases", required=True, help="a folder of releases that were revealed")
+    parser.add_argument("--releases", required=True, help="a folder of revealed releases")
     parser.add_argument("--beacons", help="a folder with the values of the beacons")
     return parser.parse_args(argv)
 
 
 def main():
     if blake3(b"").hex() != "af1349b9f5f9a1a6a0404dea36dcc9499bcb25c9adc112b7cc9a93cae41f3262":
-        sys.exit("BLAKE3 is broken here")
+        sys.exit("the BLAKE3 implementation gives a wrong hash")
     try:
         problems, held = check(arguments())
     except (ValueError, KeyError, TypeError, OSError) as error:

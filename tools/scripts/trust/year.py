@@ -203,7 +203,7 @@ def attack(year, mutations, chance):
             else:
                 accepted.append(f"{path.relative_to(year.out)}: byte {at} of {len(data)}")
             path.write_bytes(data)
-        print(f"{kind}: {refused} of {mutations} alterations refused", flush=True)
+        print(f"{kind}: {refused} of {mutations} alterations rejected", flush=True)
     return accepted
 
 
@@ -212,7 +212,7 @@ def main():
     parser.add_argument("--arcade", required=True, help="the program")
     parser.add_argument("--out", required=True, help="a folder; if it exists, the year in it is attacked")
     parser.add_argument("--months", type=int, default=12)
-    parser.add_argument("--mutations", type=int, default=0, help="alterations of each kind of document")
+    parser.add_argument("--mutations", type=int, default=0, help="number of alterations per kind of document")
     parser.add_argument("--seed", default="year")
     args = parser.parse_args()
     year = Year(args.arcade, args.out)

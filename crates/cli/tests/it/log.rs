@@ -514,5 +514,5 @@ fn an_independent_program_agrees() {
         files(&folder.join("releases/tiny")).into_keys().find(|name| name.ends_with("lvl0.txt")).unwrap();
     fs::write(folder.join("releases/tiny").join(&level), "w").unwrap();
     let (status, said) = check();
-    assert!(status == Some(1) && said.contains("is not the file of the manifest"), "{said}");
+    assert!(status == Some(1) && said.contains("does not match the manifest"), "{said}");
 }

@@ -99,7 +99,7 @@ fn releases_are_signed_by_enough_keys() {
         "ada.key",
         "cy.key",
     ];
-    says(folder, &next, 1, "keys-2.json: signed by ada of the set before, but 2 must sign");
+    says(folder, &next, 1, "keys-2.json: signed by ada of the previous set, but 2 must sign");
     says(folder, &["trust", "keys", "trust", "--secret", "bo.key"], 0, "the set follows from keys-1.json");
     let keys = ["--keys", "trust/keys-2.json"];
     says(

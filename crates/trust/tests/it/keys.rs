@@ -130,7 +130,7 @@ fn a_lost_key_is_revoked_and_replaced() {
     refused(
         home.path(),
         &set_anchor(&first),
-        "keys-2.json: signed by ada of the set before, but 2 must sign",
+        "keys-2.json: signed by ada of the previous set, but 2 must sign",
     );
     publish(home.path(), &second, &[&cy]);
     refused(
@@ -190,7 +190,7 @@ fn another_history_of_keys_is_refused() {
     fs::remove_file(home.path().join("keys-1.json")).unwrap();
     let next = KeySet::next(Some(&first), None, vec![eve.named()], &[]).unwrap();
     publish(home.path(), &next, &[&eve]);
-    refused(home.path(), &set_anchor(&first), "keys-2.json: signed by none of the set before");
+    refused(home.path(), &set_anchor(&first), "keys-2.json: signed by none of the previous set");
 }
 
 #[test]
